@@ -1,0 +1,96 @@
+"""Drag of Stokes flow on an ellipsoid, and the barycentre's step.
+
+A drag law gives the principal resistances K_a, a length each: f_D = μ_f K·(u − v), K = Qᵀ diag(K_a) Q (30).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+
+import numpy as np
+
+from foamprb.body.ellipsoid import Integrals, integrals
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, select, vector_dot
+
+
+def oberbeck(semi_axes: Vector, g: Integrals) -> Vector:
+    """Exact resistances of an ellipsoid, K_a = 16π/(χ + α_a r_a²) (Oberbeck 1876; Kim & Karrila 1991).
+
+    Parameters
+    ----------
+    semi_axes, g
+        a, b, c and their integrals, in one unit of length, which is also that of the result. A sphere of
+        radius R has 6πR.
+    """
+    a, b, c = semi_axes
+    alpha, beta, gamma = g.alpha
+    k = 16.0 * pi
+    return (
+        k / (g.chi + alpha * a * a),
+        k / (g.chi + beta * b * b),
+        k / (g.chi + gamma * c * c),
+    )
+
+
+def brenner_prolate(semi_axes: Vector, _g: Integrals) -> Vector:
+    """Resistances of the prolate spheroid with the longest and the shortest axis, K = π r_min k (D.1), (D.2).
+
+    It takes both short axes as the shortest, as the paper's Appendix D does; a sheared soft particle is
+    triaxial, so it is taken for smaller than it is. (D.1) and (D.2) are :func:`oberbeck` for two equal axes.
+    """
+    a, b, c = semi_axes
+    longest = np.maximum(a, np.maximum(b, c))
+    shortest = np.minimum(a, np.minimum(b, c))
+    spheroid = (longest, shortest, shortest)
+    along, across, _ = oberbeck(spheroid, integrals(spheroid))
+    first = a >= longest
+    second = (b >= longest) & (a < longest)
+    third = (a < longest) & (b < longest)
+    return select(first, along, across), select(second, along, across), select(third, along, across)
+
+
+def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) -> Vector:
+    """Acceleration by gravity less buoyancy, a_G = (1 − J ρ_f/ρ_s) g (28), (35), m/s².
+
+    ``rho_s`` is the density of the undeformed solid; that of the deformed one is ρ_s/J.
+    """
+    beta = 1.0 - J * rho_f / rho_s
+    return beta * gravity[0], beta * gravity[1], beta * gravity[2]
+
+
+def implicit_euler(
+    v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: Vector, dt: Scalar
+) -> Vector:
+    """Barycentre velocity after an implicit Euler step, in closed form (43).
+
+    (1 + Δt rate_a) v'_a = v_a + Δt (a_G,a + rate_a u_a) along each principal axis.
+
+    Parameters
+    ----------
+    v, u
+        Velocities of particle and fluid, m/s, inertial frame.
+    Q, rate
+        Particle frame (rows) and μ_f K_a/m, 1/s, along its axes.
+    acceleration
+        Of every force but drag, m/s².
+    dt
+        Time step, s. The new position is x + Δt v' (36).
+    """
+    load = (
+        v[0] + dt * acceleration[0],
+        v[1] + dt * acceleration[1],
+        v[2] + dt * acceleration[2],
+    )
+    load_p, u_p = dot_vector(Q, load), dot_vector(Q, u)
+    new = (
+        (load_p[0] + dt * rate[0] * u_p[0]) / (1.0 + dt * rate[0]),
+        (load_p[1] + dt * rate[1] * u_p[1]) / (1.0 + dt * rate[1]),
+        (load_p[2] + dt * rate[2] * u_p[2]) / (1.0 + dt * rate[2]),
+    )
+    return vector_dot(new, Q)
+
+
+Drag = Callable[[Vector, Integrals], Vector]
+
+DRAGS: dict[str, Drag] = {"oberbeck": oberbeck, "brennerProlate": brenner_prolate}

@@ -1,0 +1,57 @@
+"""What a patch does to a particle that meets it: OpenFOAM's patch interaction models, with its entries."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from foamprb.body.tensor import Scalar, Vector, select
+from foamprb.entries import Fraction, NonNegative
+
+STICK, ESCAPE, REBOUND = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Stick:
+    """The particle stays where it touches the patch."""
+
+    code: ClassVar[int] = STICK
+
+
+@dataclass(frozen=True)
+class Escape:
+    """The particle leaves the domain through the patch, when its centre does."""
+
+    code: ClassVar[int] = ESCAPE
+
+
+@dataclass(frozen=True)
+class Rebound:
+    """The particle bounces off: restitution ``e`` normal to the patch, friction ``mu`` along it."""
+
+    e: Annotated[float, Fraction] = 1.0
+    mu: Annotated[float, NonNegative] = 0.0
+    code: ClassVar[int] = REBOUND
+
+
+Interaction = Stick | Escape | Rebound
+
+INTERACTIONS: dict[str, type[Interaction]] = {"stick": Stick, "escape": Escape, "rebound": Rebound}
+
+
+def rebound_velocity(v: Vector, n: Vector, e: Scalar, mu: Scalar) -> Vector:
+    """Velocity after a bounce, as OpenFOAM's ``rebound`` has it.
+
+    Parameters
+    ----------
+    v, n
+        Velocity before, m/s, and the wall's unit normal into the fluid.
+    e, mu
+        The normal part of v is reversed and multiplied by e, the tangential part by 1 − mu; a particle
+        that already moves away from the wall keeps its velocity.
+    """
+    vn = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
+    approaching = vn < 0.0
+    change = select(approaching, -(1.0 + e - mu) * vn, 0.0)
+    keep = select(approaching, 1.0 - mu, 1.0)
+    return (keep * v[0] + change * n[0], keep * v[1] + change * n[1], keep * v[2] + change * n[2])

@@ -1,0 +1,109 @@
+"""The arrays of a cloud: one structure of arrays with a leading particle axis.
+
+What is saved, restarted and written is read off this declaration (:data:`VARIABLES`).
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[Any]
+
+
+class Status(IntEnum):
+    """What a particle is doing. Injected are all but the pending."""
+
+    PENDING = 0
+    ACTIVE = 1
+    STUCK = 2
+    ESCAPED = 3
+    FAILED = 4
+
+
+class Reason(IntEnum):
+    """Why a particle failed."""
+
+    NONE = 0
+    LOST = 1
+    NOT_FINITE = 2
+    VOLUME_RATIO = 3
+    NOT_CONVERGED = 4
+
+
+REASONS: dict[Reason, str] = {
+    Reason.NONE: "",
+    Reason.LOST: "left the mesh where no boundary face was crossed",
+    Reason.NOT_FINITE: "its position or shape is not a finite number (Δt beyond stability?)",
+    Reason.VOLUME_RATIO: "its volume ratio J left [1/8, 8] (Δt beyond stability?)",
+    Reason.NOT_CONVERGED: "Newton's iteration for its shape did not converge (Δt beyond stability?)",
+}
+
+
+class Variable(NamedTuple):
+    """How one array of the cloud is laid out, and what it means."""
+
+    shape: tuple[int, ...]
+    dtype: str
+    unit: str
+    meaning: str
+
+
+class Particles(NamedTuple):
+    """The state of n particles; every array has n rows."""
+
+    x: Annotated[Array, Variable((3,), "f8", "m", "position of the barycentre")]
+    v: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the barycentre")]
+    F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient, row by row")]
+    A: Annotated[Array, Variable((9,), "f8", "1/s", "material velocity gradient dF/dt, row by row")]
+    R: Annotated[Array, Variable((), "f8", "m", "radius at rest")]
+    rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest")]
+    mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid")]
+    lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid")]
+    Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate")]
+    t0: Annotated[Array, Variable((), "f8", "s", "time of injection")]
+    x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection")]
+    t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
+    status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
+    reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
+    patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]
+    host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
+    injector: Annotated[Array, Variable((), "i4", "", "injection model that released it")]
+
+    @property
+    def size(self) -> int:
+        """Number of particles n, the pending included."""
+        return len(self.R)
+
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status; the numbers sum to :attr:`size`."""
+        found = np.bincount(self.status, minlength=len(Status))
+        return {status: int(found[status]) for status in Status}
+
+    def take(self, rows: Array) -> Particles:
+        """The particles of the given rows, copied."""
+        return Particles(*(array[rows] for array in self))
+
+
+VARIABLES: dict[str, Variable] = {
+    name: hint.__metadata__[0] for name, hint in get_type_hints(Particles, include_extras=True).items()
+}
+
+
+def empty(n: int) -> Particles:
+    """N pending spheres at rest, at the origin, with zero size and stiffness."""
+    arrays = {name: np.zeros((n, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
+    arrays["F"][:] = np.eye(3).ravel()
+    arrays["patch"][:] = -1
+    arrays["host"][:] = -1
+    return Particles(**arrays)
+
+
+def concatenate(parts: list[Particles]) -> Particles:
+    """One cloud of several, in order."""
+    if not parts:
+        return empty(0)
+    return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))

@@ -1,0 +1,34 @@
+"""Bounds that a dictionary entry's value must keep, declared beside its type.
+
+A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
+annotated, e.g. ``rho0: Annotated[float, Positive]``. The reader checks; the class stays a plain record.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """An interval of allowed values; ``text`` is how a message names it."""
+
+    lower: float
+    upper: float
+    open_lower: bool
+    open_upper: bool
+    text: str
+
+    def admits(self, value: float) -> bool:
+        """Whether ``value`` is finite and lies in the interval."""
+        above = value > self.lower if self.open_lower else value >= self.lower
+        below = value < self.upper if self.open_upper else value <= self.upper
+        return math.isfinite(value) and above and below
+
+
+Finite = Bounds(-math.inf, math.inf, True, True, "a finite number")
+Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
+NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
+Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
+PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")

@@ -1,0 +1,23 @@
+"""The one exception that foamprb raises for what a user gave."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class InputError(Exception):
+    """A mistake in what the user gave: its message is all that the user needs to see."""
+
+
+def suggestion(found: str, allowed: Iterable[str]) -> str:
+    """Say what is allowed, and which of it was probably meant.
+
+    Returns
+    -------
+    ``"Did you mean 'x'? Allowed: a, x, z."``, without the question when nothing is close.
+    """
+    names = sorted(allowed)
+    close = difflib.get_close_matches(found, names, n=1, cutoff=0.6)
+    question = f"Did you mean '{close[0]}'? " if close else ""
+    return f"{question}Allowed: {', '.join(names) if names else '(nothing)'}."
