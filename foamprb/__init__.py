@@ -1,0 +1,67 @@
+"""Where soft micro-particles go in an OpenFOAM flow, and what shape they take."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from foamprb.cloud.advance import Medium
+    from foamprb.cloud.cloud import Cloud, Models
+    from foamprb.cloud.measures import context, measure
+    from foamprb.cloud.patches import Escape, Rebound, Stick
+    from foamprb.cloud.state import Particles, Status, spheres
+    from foamprb.errors import InputError
+    from foamprb.flow import analytic
+    from foamprb.flow.openfoam import read_case
+    from foamprb.run import execute, prepare
+
+__version__ = version("foamprb")
+
+_HOMES = {
+    "Cloud": "foamprb.cloud.cloud",
+    "Escape": "foamprb.cloud.patches",
+    "InputError": "foamprb.errors",
+    "Medium": "foamprb.cloud.advance",
+    "Models": "foamprb.cloud.cloud",
+    "Particles": "foamprb.cloud.state",
+    "Rebound": "foamprb.cloud.patches",
+    "Status": "foamprb.cloud.state",
+    "Stick": "foamprb.cloud.patches",
+    "analytic": "foamprb.flow",
+    "context": "foamprb.cloud.measures",
+    "execute": "foamprb.run",
+    "measure": "foamprb.cloud.measures",
+    "prepare": "foamprb.run",
+    "read_case": "foamprb.flow.openfoam",
+    "spheres": "foamprb.cloud.state",
+}
+
+__all__ = [
+    "Cloud",
+    "Escape",
+    "InputError",
+    "Medium",
+    "Models",
+    "Particles",
+    "Rebound",
+    "Status",
+    "Stick",
+    "analytic",
+    "context",
+    "execute",
+    "measure",
+    "prepare",
+    "read_case",
+    "spheres",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # Loading numba and VTK takes a second that "foamprb -help" should not cost.
+    if name not in _HOMES:
+        raise AttributeError(f"module 'foamprb' has no attribute {name!r}")
+    if name == "analytic":
+        return import_module("foamprb.flow.analytic")
+    return getattr(import_module(_HOMES[name]), name)

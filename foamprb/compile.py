@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from types import CodeType, FunctionType
 from typing import Any
@@ -22,12 +22,13 @@ from foamprb.body.tensor import select
 
 __all__ = ["cache_directory", "link"]
 
+# Contraction and the sign of zero only: results may not depend on how a sum is ordered.
+_FAST_MATH = ("contract", "nsz")
 _OPTIONS: dict[str, Any] = {
     "error_model": "numpy",
     "boundscheck": False,
     "nogil": True,
-    # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
-    "fastmath": {"contract", "nsz"},
+    "fastmath": set(_FAST_MATH),
 }
 
 
@@ -37,7 +38,11 @@ def cache_directory() -> Path:
     return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
 
 
-def link(entry: Callable[..., Any], bindings: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+def link(
+    entry: Callable[..., Any],
+    bindings: Mapping[str, Callable[..., Any]] | None = None,
+    separate: Collection[Callable[..., Any]] = (),
+) -> Any:
     """Compile ``entry`` with everything it calls.
 
     Parameters
@@ -46,23 +51,28 @@ def link(entry: Callable[..., Any], bindings: Mapping[str, Callable[..., Any]] |
         A plain function whose callees are module globals (imported by name, not as ``module.name``).
     bindings
         Functions to put under a global name that ``entry`` or its callees use, e.g. ``{"traction": roscoe}``.
+    separate
+        Callees that are compiled and cached on their own, and called, so that several entries share them;
+        every other callee is inlined.
 
     Returns
     -------
     A numba dispatcher. Equal code with equal bindings is compiled once per process and kept on disk in
     :func:`cache_directory`, under a key made of the code of every function that was linked.
     """
-    linker = _Linker(dict(bindings or {}))
+    linker = _Linker(dict(bindings or {}), separate)
     clone = linker.clone(entry)
     key = linker.key()
     if key not in _compiled:
         dispatcher = numba.njit(**_OPTIONS)(clone)
         _enable_cache(dispatcher, key)
         _compiled[key] = dispatcher
+        _keys[dispatcher] = key
     return _compiled[key]
 
 
 _compiled: dict[str, Any] = {}
+_keys: dict[Any, str] = {}
 
 
 @numba.njit(inline="always")  # type: ignore[untyped-decorator]
@@ -73,10 +83,13 @@ def _select_scalar(condition: Any, a: Any, b: Any) -> Any:
 class _Linker:
     """Clones functions so that each global callee is a compiled one; remembers what it has seen."""
 
-    def __init__(self, bindings: dict[str, Callable[..., Any]]) -> None:
+    def __init__(
+        self, bindings: dict[str, Callable[..., Any]], separate: Collection[Callable[..., Any]]
+    ) -> None:
         self._bindings = bindings
-        self._linked: dict[FunctionType, Any] = {select: _select_scalar}
-        self._digest = hashlib.sha256(repr((numba.__version__, sorted(map(str, _OPTIONS.items())))).encode())
+        self._separate = separate
+        self._linked: dict[Callable[..., Any], Any] = {select: _select_scalar}
+        self._digest = hashlib.sha256(f"{numba.__version__} {_FAST_MATH}".encode())
 
     def key(self) -> str:
         return self._digest.hexdigest()[:24]
@@ -99,7 +112,12 @@ class _Linker:
 
     def _compiled(self, function: FunctionType) -> Any:
         if function not in self._linked:
-            self._linked[function] = numba.njit(forceinline=True, **_OPTIONS)(self.clone(function))
+            if function in self._separate:
+                part = link(function, self._bindings)
+                self._digest.update(_keys[part].encode())
+            else:
+                part = numba.njit(forceinline=True, **_OPTIONS)(self.clone(function))
+            self._linked[function] = part
         return self._linked[function]
 
 

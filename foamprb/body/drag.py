@@ -59,9 +59,7 @@ def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) ->
     return beta * gravity[0], beta * gravity[1], beta * gravity[2]
 
 
-def implicit_euler(
-    v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: Vector, dt: Scalar
-) -> Vector:
+def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: Vector, dt: Scalar) -> Vector:
     """Barycentre velocity after an implicit Euler step, in closed form (43).
 
     (1 + Δt rate_a) v'_a = v_a + Δt (a_G,a + rate_a u_a) along each principal axis.

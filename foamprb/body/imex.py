@@ -66,9 +66,7 @@ STABLE_STEPS = 1.5
 """The step is stable for Δt below about this many τ_s for a sphere, less for an elongated body."""
 
 
-def equation(
-    G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar
-) -> Newton:
+def equation(G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar) -> Newton:
     """Newton's equation (49), (50) at the iterate G.
 
     Parameters

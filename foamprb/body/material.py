@@ -49,16 +49,16 @@ class NeoHooke:
     coefficients = staticmethod(neo_hooke_coefficients)
 
 
-MATERIALS: dict[str, type[Material]] = {"neoHooke": NeoHooke}
+MATERIALS: dict[str, Material] = {"neoHooke": NeoHooke()}
 
 
-def piola(material: type[Material], F: Tensor, mu: Scalar, lame: Scalar) -> Tensor:
+def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar) -> Tensor:
     """Piola stress P = ∂w₀/∂F (20) of a material, Pa."""
     J = det(F)
     phi, psi, _ = material.coefficients(J, mu, lame)
     return add(scale(phi, F), scale(psi / J, cofactor(F)))
 
 
-def lame_parameter(mu: float, poissons_ratio: float) -> float:
+def lame_parameter(mu: Scalar, poissons_ratio: Scalar) -> Scalar:
     """λ_s = 2 μ ν/(1 − 2ν), Pa, of a solid with shear modulus μ and Poisson's ratio ν < ½."""
     return 2.0 * mu * poissons_ratio / (1.0 - 2.0 * poissons_ratio)

@@ -481,3 +481,7 @@ def track_block(
     for i in range(len(members)):
         _save_particle(p, members[i], block, i)
     return recovered
+
+
+STAGES = (frame_stage, integrals_stage, traction_stage, newton_stage, barycentre_stage, dense_newton)
+"""Parts of the loop that do not depend on the flow, compiled once for all flows."""

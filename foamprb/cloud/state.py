@@ -11,6 +11,8 @@ from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.material import lame_parameter
+
 Array: TypeAlias = NDArray[Any]
 
 
@@ -107,3 +109,24 @@ def concatenate(parts: list[Particles]) -> Particles:
     if not parts:
         return empty(0)
     return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+
+
+def spheres(x: Any, *, d: Any, rho: Any, mu: Any, poissons_ratio: float = 0.499, t0: Any = 0.0) -> Particles:
+    """Pending spheres at rest.
+
+    Parameters
+    ----------
+    x
+        Positions, shape (n, 3), m.
+    d, rho, mu, t0
+        Diameter (m), density (kg/m³), shear modulus (Pa) and time of injection (s), one for all or (n,).
+    poissons_ratio
+        Of the solid, below ½.
+    """
+    p = empty(len(x))
+    p.x[:] = p.x0[:] = x
+    p.R[:] = np.asarray(d) / 2.0
+    p.rho[:], p.mu[:] = rho, mu
+    p.lame[:] = lame_parameter(p.mu, poissons_ratio)
+    p.t0[:] = p.t[:] = t0
+    return p

@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
+from foamprb.errors import InputError
+from foamprb.flow.base import PatchFaces
 from foamprb.flow.patch import Patch
 
 Floats = NDArray[np.float64]
@@ -118,6 +120,11 @@ def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:  # noqa: 
     return 0.0, -x[1] / r, -x[2] / r
 
 
+def everywhere(points: Floats) -> NDArray[np.bool_]:
+    """True for each point of shape (n, 3)."""
+    return np.ones(len(points), dtype=bool)
+
+
 class AnalyticFlow:
     """A flow in closed form.
 
@@ -138,7 +145,7 @@ class AnalyticFlow:
         parameters: Any,
         kernels: dict[str, Callable[..., Any]],
         patches: Sequence[Patch] = (),
-        inside: Callable[[Floats], NDArray[np.bool_]] = lambda points: np.isfinite(points).all(axis=1),
+        inside: Callable[[Floats], NDArray[np.bool_]] = everywhere,
     ) -> None:
         self._parameters = parameters
         self._inside = inside
@@ -165,6 +172,16 @@ class AnalyticFlow:
             np.stack([c + zeros for c in gradient], axis=1).reshape(-1, 3, 3),
         )
 
+    def patch_faces(self, name: str) -> PatchFaces:
+        """Refuse: a flow in closed form has no faces.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
+
     def cell_size(self, hosts: ArrayLike) -> Floats:
         """Infinite: there are no cells."""
         return np.full(np.shape(hosts), np.inf)
@@ -185,12 +202,12 @@ def linear(gradient: ArrayLike, u0: ArrayLike = (0.0, 0.0, 0.0)) -> AnalyticFlow
 
 def shear(rate: float) -> AnalyticFlow:
     """Simple shear u₁ = γ̇ x₂ (Sect. 5.3)."""
-    return linear([[0, rate, 0], [0, 0, 0], [0, 0, 0]])
+    return linear([[0.0, rate, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
 def rotation(rate: float) -> AnalyticFlow:
     """Pure rotation l₁₂ = −l₂₁ = γ̇/2 about the negative third axis (Sect. 5.1)."""
-    return linear([[0, rate / 2, 0], [-rate / 2, 0, 0], [0, 0, 0]])
+    return linear([[0.0, rate / 2, 0.0], [-rate / 2, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
 def extension(rate: float) -> AnalyticFlow:

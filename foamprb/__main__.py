@@ -1,0 +1,7 @@
+"""``python -m foamprb``."""
+
+import sys
+
+from foamprb.cli import main
+
+sys.exit(main())

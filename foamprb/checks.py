@@ -1,0 +1,84 @@
+"""Whether a run's numbers make physical sense: dimensionless groups, and a warning for each doubtful one."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from foamprb.body.imex import STABLE_STEPS, relaxation_time
+from foamprb.body.tensor import Tensor
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.measures import shear_rate
+
+SMALL_REYNOLDS = 0.1
+"""Largest particle Reynolds number at which Stokes flow around the particle is taken for granted."""
+
+
+class Groups(NamedTuple):
+    """Ranges (smallest, largest) over the particles of one injection model, at their release."""
+
+    n: int
+    shear_rate: tuple[float, float]
+    """γ̇, 1/s."""
+    capillary: tuple[float, float]
+    """μ_f γ̇/μ_s (52)."""
+    reynolds: tuple[float, float]
+    """γ̇ d²/ν (53)."""
+    stokes: tuple[float, float]
+    """Shape Stokes number γ̇ τ_s."""
+    step: tuple[float, float]
+    """Δt/τ_s."""
+    size: tuple[float, float]
+    """d over the size of the cell at release."""
+
+
+def groups(cloud: Cloud, injector: int) -> Groups:
+    """Dimensionless groups of the particles that one injection model releases."""
+    p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
+    medium = cloud.medium
+    l_f: Tensor = tuple(cloud.flow.sample(p.x, p.host)[1].reshape(-1, 9).T)  # type: ignore[assignment]
+    gamma = shear_rate(l_f)
+    tau = relaxation_time(p.rho, p.R, medium.mu)
+    return Groups(
+        p.size,
+        _range(gamma),
+        _range(medium.mu * gamma / p.mu),
+        _range(gamma * 4.0 * p.R**2 * medium.rho / medium.mu),
+        _range(gamma * tau),
+        _range(cloud.dt / tau),
+        _range(2.0 * p.R / cloud.flow.cell_size(p.host)),
+    )
+
+
+def _range(values: np.ndarray) -> tuple[float, float]:
+    return (float(values.min()), float(values.max())) if len(values) else (np.nan, np.nan)
+
+
+def doubts(g: Groups, where: str) -> list[str]:
+    """One sentence with its number for each group that is out of the model's range.
+
+    Parameters
+    ----------
+    g
+        The groups.
+    where
+        What the sentences speak of, e.g. ``injection model inlet``.
+    """
+    found = []
+    if g.step[1] > STABLE_STEPS:
+        found.append(
+            f"{where}: deltaT is {g.step[1]:.3g} times the shape's relaxation time; the integrator is stable "
+            f"only below about {STABLE_STEPS:g}, less for elongated particles."
+        )
+    if g.reynolds[1] > SMALL_REYNOLDS:
+        found.append(
+            f"{where}: the particle Reynolds number is {g.reynolds[1]:.3g}; the traction and the drag are "
+            f"those of Stokes flow, which needs it small (below {SMALL_REYNOLDS:g})."
+        )
+    if g.size[1] > 1.0:
+        found.append(
+            f"{where}: a particle is {g.size[1]:.3g} times as large as the cell that it starts in; the flow "
+            "is taken as linear over the particle."
+        )
+    return found

@@ -1,0 +1,122 @@
+"""The command line: parses, calls, prints."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import foamprb
+from foamprb.errors import InputError, suggestion
+
+_COMMANDS = ("run", "info")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Answers a mistake in the arguments as any other mistake: one message, exit status 1."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}. Try: {self.prog} -help")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="foamprb",
+        description="Track soft micro-particles through a flow computed by OpenFOAM.",
+        epilog="Options take a single or a double dash.",
+        add_help=False,
+        allow_abbrev=False,
+    )
+    version = f"foamprb {foamprb.__version__}"
+    parser.add_argument("--help", action="help", help="show this text and stop")
+    parser.add_argument("--version", action="version", version=version, help="show the version and stop")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
+
+    run = commands.add_parser(
+        "run", help="track the particles of constant/softCloudProperties", add_help=False, allow_abbrev=False
+    )
+    info = commands.add_parser("info", help="say what a case holds", add_help=False, allow_abbrev=False)
+    for command in (run, info):
+        command.add_argument("--help", action="help", help="show this text and stop")
+        command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+        command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
+    when = run.add_mutually_exclusive_group()
+    when.add_argument("--time", metavar="TIME", help="time of the flow")
+    when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
+    run.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
+    run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
+    run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
+    return parser
+
+
+def _run(arguments: argparse.Namespace) -> None:
+    from foamprb.run import describe, execute, prepare
+
+    if arguments.threads is not None and arguments.threads < 1:
+        raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads)
+    describe(job)
+    if arguments.dry_run:
+        steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)
+        logging.getLogger("foamprb").info(
+            "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
+        )
+        return
+    execute(job)
+
+
+def _info(arguments: argparse.Namespace) -> None:
+    from foamprb.flow.openfoam import describe
+
+    print(describe(arguments.case))
+
+
+class _Format(logging.Formatter):
+    """Plain lines; a warning in OpenFOAM's manner."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        text = record.getMessage()
+        return f"--> foamprb Warning : {text}" if record.levelno >= logging.WARNING else text
+
+
+def _log_to_stdout() -> None:
+    handler = logging.StreamHandler(sys.stdout)
+    handler.setFormatter(_Format())
+    logger = logging.getLogger("foamprb")
+    logger.handlers[:] = [handler]
+    logger.setLevel(logging.INFO)
+    logger.propagate = False
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit status: 0, 1 for a mistake in the input, 130 after Ctrl-C."""
+    given = sys.argv[1:] if arguments is None else arguments
+    words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
+    debug = "--debug" in words
+    _log_to_stdout()
+    try:
+        command = next((word for word in words if not word.startswith("-")), None)
+        if command is not None and words[0] == command and command not in _COMMANDS:
+            raise InputError(f"unknown command '{command}'. {suggestion(command, _COMMANDS)}")
+        parsed = _parser().parse_args(words)
+        if parsed.command is None:
+            _parser().print_help()
+            return 1
+        {"run": _run, "info": _info}[parsed.command](parsed)
+    except (InputError, OSError) as error:
+        if debug:
+            raise
+        print(f"--> foamprb Error : {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("--> foamprb stopped by the user.", file=sys.stderr)
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

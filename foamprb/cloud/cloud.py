@@ -1,0 +1,152 @@
+"""A cloud of particles in a flow: what a run advances."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.drag import DRAGS
+from foamprb.body.material import MATERIALS
+from foamprb.body.tensor import principal_frame
+from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.advance import LANES, ROWS, STAGES, Medium, PatchTable, track_block
+from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
+from foamprb.cloud.state import Particles, Status
+from foamprb.compile import link
+from foamprb.flow.analytic import gap_free
+from foamprb.flow.base import Flow
+
+__all__ = ["Cloud", "Models", "available_threads"]
+
+_REACH_MARGIN = 2.0
+
+
+def available_threads() -> int:
+    """Number of processors that this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+@dataclass(frozen=True)
+class Models:
+    """Names of the models that a cloud selects, from the registries of :mod:`foamprb.body`."""
+
+    traction: str = "roscoe"
+    drag: str = "oberbeck"
+    material: str = "neoHooke"
+    touching: Literal["ellipsoid", "centre"] = "ellipsoid"
+
+
+@dataclass
+class Cloud:
+    """Particles, the flow that carries them, and the models that act on them.
+
+    Parameters
+    ----------
+    particles
+        The state; :meth:`advance` changes it in place.
+    flow
+        Any :class:`~foamprb.flow.base.Flow`.
+    medium
+        The fluid's viscosity (Pa s) and density (kg/m³), and gravity (m/s²).
+    interactions
+        What each of the flow's patches does, in their order.
+    dt
+        Tracking step Δt, s. Step n goes from n Δt to (n + 1) Δt.
+    models
+        Names of traction, drag, material and wall test.
+    threads
+        Number of threads; the answer does not depend on it.
+    step
+        Number of steps done.
+    """
+
+    particles: Particles
+    flow: Flow
+    medium: Medium
+    interactions: Sequence[Interaction]
+    dt: float
+    models: Models = field(default_factory=Models)
+    threads: int = field(default_factory=available_threads)
+    step: int = 0
+    recovered: int = 0
+
+    def __post_init__(self) -> None:
+        if len(self.interactions) != len(self.flow.patches):
+            raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
+        bindings = dict(self.flow.kernels)
+        if self.models.touching == "centre":
+            bindings["gap"] = gap_free
+        bindings["traction"] = TRACTIONS[self.models.traction]
+        bindings["drag"] = DRAGS[self.models.drag]
+        bindings["coefficients"] = MATERIALS[self.models.material].coefficients
+        self._track = link(track_block, bindings, separate=STAGES)
+        self._table = _patch_table(self.interactions)
+        self._reach = 0.0
+        self._arrays: Any = None
+
+    @property
+    def time(self) -> float:
+        """Time to which the cloud has come, s."""
+        return self.step * self.dt
+
+    def advance(self, steps: int) -> None:
+        """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
+        p = self.particles
+        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
+        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
+        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
+        flow_arrays = self._flow_arrays()
+
+        def work(share: Sequence[NDArray[np.int64]]) -> int:
+            block = np.empty(ROWS * LANES)
+            clearance = np.empty(LANES)
+            return sum(
+                self._track(
+                    flow_arrays, self._table, self.medium, p, members,
+                    self.step, steps, self.dt, block, clearance,
+                )
+                for members in share
+            )  # fmt: skip
+
+        shares = [blocks[i :: self.threads] for i in range(self.threads)]
+        if self.threads == 1 or len(blocks) < 2:
+            self.recovered += work(blocks)
+        else:
+            with ThreadPoolExecutor(self.threads) as pool:
+                self.recovered += sum(pool.map(work, shares))
+        self.step += steps
+
+    def _flow_arrays(self) -> Any:
+        """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
+        longest = _longest_semi_axis(self.particles)
+        if self._arrays is None or longest * _REACH_MARGIN > self._reach:
+            self._reach = 2.0 * _REACH_MARGIN * longest
+            touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+            if self.models.touching == "centre":
+                touchable = []
+            self._arrays = self.flow.arrays(self._reach, touchable)
+        return self._arrays
+
+
+def _longest_semi_axis(p: Particles) -> float:
+    live = (p.status == Status.PENDING) | (p.status == Status.ACTIVE)
+    if not live.any():
+        return 0.0
+    _, stretches = principal_frame(tuple(p.F[live].T))
+    return float((np.max(stretches, axis=0) * p.R[live]).max())
+
+
+def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:
+    rebounds = [i if isinstance(i, Rebound) else Rebound() for i in interactions]
+    return PatchTable(
+        np.array([i.code for i in interactions], dtype=np.int8),
+        np.array([r.e for r in rebounds], dtype=float),
+        np.array([r.mu for r in rebounds], dtype=float),
+    )

@@ -1,0 +1,127 @@
+"""What is reported of a particle: shape, orientation, rotation and load, derived from its state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
+from foamprb.body.tensor import Tensor, axial, ddot, det, dot, inverse, principal_frame, skew, sym
+from foamprb.cloud.state import Particles, Status
+from foamprb.flow.base import Flow
+
+Floats = NDArray[np.float64]
+
+
+class Context(NamedTuple):
+    """Particles with what several measures need of them."""
+
+    particles: Particles
+    F: Tensor
+    frame: Tensor
+    """Particle frame, axes in falling order of length."""
+    stretches: tuple[Floats, Floats, Floats]
+    """In the same order."""
+    l_f: Tensor
+    """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
+    rows: NDArray[np.int64]
+    """Row numbers in the whole cloud."""
+    time: float
+    mu: float
+    """Viscosity of the fluid, Pa s."""
+
+
+class Measure(NamedTuple):
+    """A reported quantity: its unit, and the function that computes it for all particles."""
+
+    unit: str
+    value: Callable[[Context], NDArray[Any]]
+
+
+def _glyph(c: Context) -> Floats:
+    """Columns of R F one after the other: what ParaView's Tensor Glyph draws as the deformed unit sphere."""
+    return np.stack([c.particles.R * c.F[3 * i + j] for j in range(3) for i in range(3)], axis=1)
+
+
+def _orientation(c: Context) -> Floats:
+    """Unit quaternion (w, x, y, z) of the rotation that carries the fixed axes onto the particle's."""
+    Q = np.stack(c.frame, axis=1).reshape(-1, 3, 3)
+    return Rotation.from_matrix(Q.transpose(0, 2, 1)).as_quat(canonical=True, scalar_first=True)
+
+
+def _angular_velocity(c: Context) -> Floats:
+    """ω_s, the axial vector of w_s = skw(A F⁻¹) (A.3)."""
+    A: Tensor = tuple(c.particles.A.T)  # type: ignore[assignment]
+    return np.stack(axial(skew(dot(A, inverse(c.F)))), axis=1)
+
+
+def shear_rate(l_f: Tensor) -> Any:
+    """Shear rate γ̇ = √(2 d_f:d_f) of a velocity gradient, 1/s."""
+    d = sym(l_f)
+    return np.sqrt(2.0 * ddot(d, d))
+
+
+def _semi_axes(c: Context) -> Floats:
+    return np.stack(c.stretches, axis=1) * c.particles.R[:, None]
+
+
+MEASURES: dict[str, Measure] = {
+    "U": Measure("m/s", lambda c: c.particles.v),
+    "d": Measure("m", lambda c: 2.0 * c.particles.R),
+    "rho": Measure("kg/m3", lambda c: c.particles.rho),
+    "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
+    "origId": Measure("", lambda c: c.rows),
+    "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
+    "deformationGradient": Measure("1", lambda c: c.particles.F),
+    "glyph": Measure("m", _glyph),
+    "semiAxes": Measure("m", _semi_axes),
+    "orientation": Measure("1", _orientation),
+    "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
+    "J": Measure("1", lambda c: det(c.F)),
+    "angularVelocity": Measure("1/s", _angular_velocity),
+    "shearRate": Measure("1/s", lambda c: shear_rate(c.l_f)),
+    "capillaryNumber": Measure("1", lambda c: c.mu * shear_rate(c.l_f) / c.particles.mu),
+    "status": Measure("", lambda c: c.particles.status),
+    "reason": Measure("", lambda c: c.particles.reason),
+    "patch": Measure("", lambda c: c.particles.patch),
+    "injector": Measure("", lambda c: c.particles.injector),
+}
+"""Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
+
+``taylorDeformation`` is that of the longest and the shortest axis; ``capillaryNumber`` is that of the shear
+rate where the particle is.
+"""
+
+
+def context(particles: Particles, flow: Flow, mu: float, time: float) -> Context:
+    """Prepare the injected particles of a cloud for measuring.
+
+    Parameters
+    ----------
+    particles
+        The whole cloud.
+    flow
+        The flow around them.
+    mu
+        Viscosity of the fluid, Pa s.
+    time
+        Time of the state, s.
+    """
+    rows = np.flatnonzero(particles.status != Status.PENDING)
+    p = particles.take(rows)
+    F: Tensor = tuple(p.F.T)  # type: ignore[assignment]
+    frame, stretches = sorted_frame(*principal_frame(F))
+    gradient = np.full((len(rows), 9), np.nan)
+    known = (p.host >= 0) & np.isfinite(p.x).all(axis=1)
+    if known.any():
+        gradient[known] = flow.sample(p.x[known], p.host[known])[1].reshape(-1, 9)
+    return Context(p, F, frame, stretches, tuple(gradient.T), rows, time, mu)
+
+
+def measure(c: Context) -> dict[str, NDArray[Any]]:
+    """All of :data:`MEASURES`, by name."""
+    return {name: np.asarray(m.value(c)) for name, m in MEASURES.items()}

@@ -1,0 +1,61 @@
+"""What the particle loop asks of a flow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foamprb.flow.patch import Patch
+
+
+class PatchFaces(NamedTuple):
+    """The triangles of a patch, for placing particles on it."""
+
+    vertices: NDArray[np.float64]
+    """(n, 3, 3): triangle, vertex, coordinate; m."""
+    areas: NDArray[np.float64]
+    """(n,), m²."""
+    normals: NDArray[np.float64]
+    """(n, 3), unit, into the fluid."""
+    velocity: NDArray[np.float64]
+    """(n, 3, 3): triangle, vertex, component; m/s."""
+    hosts: NDArray[np.int32]
+    """(n,) the host behind each triangle."""
+
+
+class Flow(Protocol):
+    """A steady flow: u and ∇u at a point, and what bounds it.
+
+    The ``kernels`` are plain functions that :func:`foamprb.compile.link` compiles into the loop; ``flow`` is
+    the tuple that :meth:`arrays` gives and ``host`` the piece of the flow (a tetrahedron) that holds x:
+
+    * ``sample(flow, host, x) -> (u, l)``: velocity, m/s, and ∂u_i/∂x_j row by row, 1/s;
+    * ``walk(flow, host, x0, x1) -> (host, fraction, patch, triangle)``: along the segment, to its end (patch
+      −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
+    * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
+      nearest touchable wall, infinite when none is near;
+    * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
+    * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
+    """
+
+    patches: tuple[Patch, ...]
+    kernels: dict[str, Callable[..., Any]]
+    notes: tuple[str, ...]
+
+    def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
+        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
+
+    def locate(self, points: ArrayLike) -> NDArray[np.int32]:
+        """Host of each point of shape (n, 3), −1 outside."""
+
+    def sample(self, points: ArrayLike, hosts: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s."""
+
+    def cell_size(self, hosts: ArrayLike) -> NDArray[np.float64]:
+        """Cube root of the volume of each host's cell, m; infinite without cells."""
+
+    def patch_faces(self, name: str) -> PatchFaces:
+        """Triangles of a patch; InputError when there is no such patch, or it has none."""

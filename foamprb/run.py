@@ -1,0 +1,324 @@
+"""The main job: settings → flow → cloud → time loop → output. The one place where all rooms meet."""
+
+from __future__ import annotations
+
+import logging
+import time as clock
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from foamprb.checks import Groups, doubts, groups
+from foamprb.cloud.advance import Medium
+from foamprb.cloud.cloud import Cloud, Models, available_threads
+from foamprb.cloud.injection import release
+from foamprb.cloud.measures import MEASURES, context, measure, shear_rate
+from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
+from foamprb.errors import InputError
+from foamprb.flow.base import Flow
+from foamprb.flow.openfoam import read_case
+from foamprb.output.tables import write_table
+from foamprb.output.vtk import Series, Snapshot
+from foamprb.positions import read_positions
+from foamprb.settings import InjectionSettings, Settings, match_patches, read_settings
+
+log = logging.getLogger("foamprb")
+
+_CHUNK_OF_WORK = 1_000_000
+_MAX_LISTED_FAILURES = 10
+
+STATUS_NAMES = tuple(status.name.lower() for status in Status)
+
+
+@dataclass(frozen=True)
+class Job:
+    """A run that is ready to start."""
+
+    settings: Settings
+    cloud: Cloud
+
+    @property
+    def folder(self) -> Path:
+        """Where the results go."""
+        return self.settings.case / "postProcessing" / self.settings.name
+
+    @property
+    def patch_names(self) -> tuple[str, ...]:
+        """Names of the flow's patches, in the order of the codes in ``Particles.patch``."""
+        return tuple(patch.name for patch in self.cloud.flow.patches)
+
+
+def prepare(
+    case: Path,
+    time: float | str = "latestTime",
+    dictionary: Path | None = None,
+    threads: int | None = None,
+) -> Job:
+    """Read a case and place its particles.
+
+    Parameters
+    ----------
+    case
+        An OpenFOAM case folder.
+    time
+        Time of the flow: a value, or ``"latestTime"``.
+    dictionary
+        Settings instead of ``constant/softCloudProperties``.
+    threads
+        Number of threads; all processors by default.
+
+    Raises
+    ------
+    InputError
+        If the case, the flow or the settings cannot be used: what, where, and what is allowed.
+    """
+    settings = read_settings(case, dictionary)
+    log.info("Reading flow of case %s", case)
+    flow = read_case(case, time)
+    for note in flow.notes:
+        log.info("    %s", note)
+    return assemble(settings, flow, threads)
+
+
+def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
+    """Put the particles that the settings ask for into a flow.
+
+    Raises
+    ------
+    InputError
+        If a patch has no interaction or particles would start outside the flow.
+    """
+    interactions = match_patches(settings.patches, flow.patches, settings.file)
+    medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
+    parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
+    cloud = Cloud(
+        concatenate(parts),
+        flow,
+        medium,
+        interactions,
+        settings.solution.deltaT,
+        Models(settings.traction, settings.drag, settings.injections[0].solid.type, settings.touching),
+        threads or available_threads(),
+    )
+    return Job(settings, cloud)
+
+
+def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
+    # The name seeds the numbers, so that another injection model does not change where these start.
+    random = np.random.default_rng(zlib.crc32(injection.name.encode()))
+    try:
+        p = release(injection.model, flow, injection.size, random, read_positions)
+    except InputError as error:
+        raise InputError(f"injection model {injection.name}: {error}") from error
+    solid = injection.solid
+    p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
+    p.injector[:] = index
+    rate: Any = solid.reference_shear_rate
+    if rate is None:
+        rate = shear_rate(tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T))  # type: ignore[arg-type]
+    p.Ca[:] = medium.mu * rate / p.mu
+    return p
+
+
+def describe(job: Job) -> list[str]:
+    """Log what was selected and what it means; return the warnings, each logged as well."""
+    settings, cloud = job.settings, job.cloud
+    log.info("Selecting tractionModel %s", settings.traction)
+    log.info("Selecting ellipsoidDrag %s", settings.drag)
+    log.info("Selecting solid %s", cloud.models.material)
+    log.info("Selecting integrationScheme %s", settings.solution.shape)
+    log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)
+    for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
+        log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
+    warnings = []
+    for index, injection in enumerate(settings.injections):
+        g = groups(cloud, index)
+        log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
+        _log_groups(g)
+        warnings += doubts(g, f"injection model {injection.name}") if g.n else []
+    for warning in warnings:
+        log.warning("%s", warning)
+    return warnings
+
+
+def _log_groups(g: Groups) -> None:
+    log.info("    particles                %d", g.n)
+    if g.n == 0:
+        return
+    for name, (low, high) in (
+        ("shear rate [1/s]", g.shear_rate),
+        ("capillary number", g.capillary),
+        ("Reynolds number", g.reynolds),
+        ("shape Stokes number", g.stokes),
+        ("deltaT/relaxation time", g.step),
+        ("size/cell size", g.size),
+    ):
+        log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
+
+
+def execute(job: Job) -> dict[Status, int]:
+    """Advance a cloud to the end time, or until no particle moves, and write its results.
+
+    Returns
+    -------
+    Number of particles of each status.
+
+    Raises
+    ------
+    OSError
+        If results cannot be written.
+    """
+    solution, cloud = job.settings.solution, job.cloud
+    last = max(1, round(solution.endTime / solution.deltaT))
+    per_write = max(1, round(solution.writeInterval / solution.deltaT))
+    series = Series(job.folder, job.settings.name)
+    started, cpu = clock.perf_counter(), clock.process_time()
+    reported = 0
+    log.info("\nStarting time loop\n")
+    with _progress(solution.endTime) as show:
+        while cloud.step < last:
+            target = min(last, (cloud.step // per_write + 1) * per_write)
+            _advance_to(cloud, target, show)
+            series.append(snapshot(job))
+            _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
+            reported = _log_failures(cloud.particles, reported)
+            if not _moving(cloud):
+                break
+    write_fates(job)
+    log_fates(job)
+    log.info("\nResults in %s", job.folder)
+    log.info(
+        "ExecutionTime = %.2f s  ClockTime = %.2f s\n",
+        clock.process_time() - cpu,
+        clock.perf_counter() - started,
+    )
+    log.info("End")
+    return cloud.particles.counts()
+
+
+def _moving(cloud: Cloud) -> bool:
+    counts = cloud.particles.counts()
+    return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
+
+
+def _advance_to(cloud: Cloud, target: int, show: Callable[[float], None]) -> None:
+    while cloud.step < target and _moving(cloud):
+        counts = cloud.particles.counts()
+        work = counts[Status.PENDING] + counts[Status.ACTIVE]
+        cloud.advance(min(target - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        show(cloud.time)
+    cloud.step = target
+
+
+@contextmanager
+def _progress(end: float) -> Iterator[Callable[[float], None]]:
+    """A progress bar on a terminal, nothing elsewhere."""
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("Time = {task.completed:g} of {task.total:g}"),
+        BarColumn(None),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task("", total=end)
+        yield lambda t: progress.update(task, completed=min(t, end))
+
+
+def snapshot(job: Job) -> Snapshot:
+    """The injected particles as they are now, with everything that is reported of them."""
+    cloud = job.cloud
+    c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
+    return Snapshot(
+        cloud.time,
+        c.particles.x,
+        measure(c),
+        {name: m.unit for name, m in MEASURES.items()},
+        {
+            "status": STATUS_NAMES,
+            "reason": tuple(REASONS[reason] for reason in Reason),
+            "patch": job.patch_names,
+            "injector": tuple(injection.name for injection in job.settings.injections),
+        },
+    )
+
+
+def _log_time(job: Job, cpu: float, wall: float) -> None:
+    counts = job.cloud.particles.counts()
+    injected = job.cloud.particles.size - counts[Status.PENDING]
+    log.info("Time = %.12g\n", job.cloud.time)
+    log.info("Cloud: %s", job.settings.name)
+    log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
+    log.info("    injected                        = %d", injected)
+    log.info("    stuck, escaped, failed          = %d, %d, %d",
+             counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
+    log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
+
+
+def _log_failures(p: Particles, reported: int) -> int:
+    failed = np.flatnonzero(p.status == Status.FAILED)
+    for k in failed[reported:_MAX_LISTED_FAILURES]:
+        log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
+                    k, p.t[k], *p.x[k], REASONS[Reason(p.reason[k])])  # fmt: skip
+    return len(failed)
+
+
+def write_fates(job: Job) -> None:
+    """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed."""
+    p, cloud = job.cloud.particles, job.cloud
+    names = (*job.patch_names, "")
+    everyone = p._replace(status=np.where(p.status == Status.PENDING, Status.ACTIVE, p.status))
+    values = measure(context(everyone, cloud.flow, cloud.medium.mu, cloud.time))
+    axes = values["semiAxes"]
+    write_table(
+        job.folder / "fates.csv",
+        {
+            "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
+            "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
+            "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
+            "fate": [STATUS_NAMES[s] for s in p.status], "patch": [names[i] for i in p.patch],
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": values["taylorDeformation"],
+        },
+    )  # fmt: skip
+    failed = np.flatnonzero(p.status == Status.FAILED)
+    table = job.folder / "failed.csv"
+    if len(failed):
+        reasons = [REASONS[Reason(r)] for r in p.reason[failed]]
+        x = p.x[failed]
+        columns = {
+            "id": failed,
+            "t": p.t[failed],
+            "x": x[:, 0],
+            "y": x[:, 1],
+            "z": x[:, 2],
+            "reason": reasons,
+        }
+        write_table(table, columns)
+    else:
+        table.unlink(missing_ok=True)
+
+
+def log_fates(job: Job) -> None:
+    """Log how many particles met which fate, by patch; the numbers sum to those injected."""
+    p = job.cloud.particles
+    counts = p.counts()
+    log.info("Fate of the particles")
+    log.info("    %-24s %10d", "injected", p.size - counts[Status.PENDING])
+    for status in (Status.ACTIVE, Status.STUCK, Status.ESCAPED, Status.FAILED):
+        log.info("    %-24s %10d", status.name.lower(), counts[status])
+        for index, name in enumerate(job.patch_names):
+            at = np.count_nonzero((p.status == status) & (p.patch == index))
+            if at:
+                log.info("        %-20s %10d", name, at)
+    if counts[Status.PENDING]:
+        log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
+    if job.cloud.recovered:
+        log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
+    if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
+        log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / "failed.csv")

@@ -1,0 +1,126 @@
+from __future__ import annotations
+
+from itertools import permutations
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from scipy.special import elliprd, elliprf
+from strategies import flat, rotations, stretches
+
+from foamprb.body.ellipsoid import integrals, reach
+
+SHAPES = [
+    (1.0, 1.0, 1.0),
+    (1.0, 1.0 + 1e-15, 1.0 - 1e-15),
+    (1.0 + 1e-8, 1.0, 1.0 - 1e-8),
+    (1.001, 1.0, 0.999),
+    (2.0, 1.0, 1.0),
+    (2.0, 2.0, 1.0),
+    (3.0, 2.0, 1.0),
+    (1000.0, 1.0, 1.0),
+    (1000.0, 1000.0, 1.0),
+    (1000.0, 30.0, 1.0),
+    (1000.0, 1.0 + 1e-12, 1.0),
+    (2.5e-6, 2.4e-6, 2.6e-6),
+]
+
+
+def as_dict(a, b, c):
+    g = integrals((a, b, c))
+    values = (*g.alpha, *g.ring, *g.star, g.chi)
+    names = [x + kind for kind in ("0", "ring", "star") for x in ("alpha", "beta", "gamma")]
+    return dict(zip([*names, "chi"], values, strict=True))
+
+
+def by_quadrature(a, b, c):
+    """The defining integrals with λ = g²(1−s²)/s², g³ = abc, which is smooth in s, to 25 digits."""
+    mpmath.mp.dps = 30
+    x, y, z = (mpmath.mpf(float(v)) ** 2 for v in (a, b, c))
+    g2 = mpmath.cbrt(x * y * z)
+
+    def integral(weight):
+        def f(s):
+            lam = g2 * (1 - s * s) / (s * s)
+            delta = mpmath.sqrt((x + lam) * (y + lam) * (z + lam))
+            return weight(lam) / delta * 2 * g2 / s**3
+
+        # The integrand varies over the decades between the axes.
+        knots = sorted({0, 1, *(mpmath.sqrt(g2 / (g2 + v * 10**k)) for v in (x, y, z) for k in (-2, -1, 0, 1, 2))})
+        return mpmath.quad(f, knots)
+
+    return {
+        "alpha0": integral(lambda l: 1 / (x + l)),
+        "beta0": integral(lambda l: 1 / (y + l)),
+        "gamma0": integral(lambda l: 1 / (z + l)),
+        "alpharing": integral(lambda l: 1 / ((y + l) * (z + l))),
+        "betaring": integral(lambda l: 1 / ((z + l) * (x + l))),
+        "gammaring": integral(lambda l: 1 / ((x + l) * (y + l))),
+        "alphastar": integral(lambda l: l / ((y + l) * (z + l))),
+        "betastar": integral(lambda l: l / ((z + l) * (x + l))),
+        "gammastar": integral(lambda l: l / ((x + l) * (y + l))),
+        "chi": integral(lambda l: 1),
+    }
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_integrals_equal_quadrature_to_twelve_digits(shape):
+    for axes in set(permutations(shape)) if max(shape) < 1e3 * min(shape) else [shape, shape[::-1]]:
+        expected = by_quadrature(*axes)
+        for name, value in as_dict(*axes).items():
+            assert abs(mpmath.mpf(float(value)) / expected[name] - 1) < 1e-12, (name, axes)
+
+
+@given(stretches)
+def test_integrals_equal_scipys_carlson_functions(axes):
+    a, b, c = axes
+    g = integrals(axes)
+    x, y, z = a * a, b * b, c * c
+    expected = [2 / 3 * elliprd(y, z, x), 2 / 3 * elliprd(z, x, y), 2 / 3 * elliprd(x, y, z)]
+    np.testing.assert_allclose(g.alpha, expected, rtol=1e-13)
+    np.testing.assert_allclose(g.chi, 2 * elliprf(x, y, z), rtol=1e-13)
+    np.testing.assert_allclose(sum(g.alpha), 2 / (a * b * c), rtol=1e-13)
+
+
+@pytest.mark.parametrize("r", [1.01, 1.5, 3.0, 20.0, 1000.0])
+def test_closed_forms_of_prolate_spheroids(r):
+    """(B.11) to (B.13), evaluated with 60 digits."""
+    mpmath.mp.dps = 60
+    a, b = mpmath.mpf(float(r)), mpmath.mpf(1)
+    e = a * a - b * b
+    h = mpmath.acosh(a / b)
+    root = mpmath.sqrt(e)
+    expected = {
+        "alpha0": -2 / (a * e) + 2 * h / root**3,
+        "beta0": a / (b**2 * e) - h / root**3,
+        "alpharing": (2 * a**3 - 5 * a * b**2) / (4 * b**4 * e**2) + 3 * h / (4 * root**5),
+        "betaring": (a**2 + 2 * b**2) / (a * b**2 * e**2) - 3 * h / root**5,
+        "alphastar": (-2 * a**5 + a**3 * b**2 - b**2 * root * (b**2 - 4 * a**2) * h + a * b**4)
+        / (4 * b**2 * (b**2 - a**2) ** 3),
+        "betastar": -3 * a / e**2 + (2 * a**2 + b**2) * h / root**5,
+    }
+    found = as_dict(float(r), 1.0, 1.0)
+    for name, value in expected.items():
+        assert abs(mpmath.mpf(float(found[name])) / value - 1) < 1e-12, name
+
+
+def test_sphere():
+    """(B.14)."""
+    g = integrals((2.0, 2.0, 2.0))
+    np.testing.assert_allclose(g.alpha, 2 / (3 * 2.0**3), rtol=1e-14)
+    np.testing.assert_allclose(g.ring, 2 / (5 * 2.0**5), rtol=1e-14)
+    np.testing.assert_allclose(g.star, 4 / (15 * 2.0**3), rtol=1e-14)
+
+
+@given(rotations, stretches)
+def test_reach_is_the_largest_projection_of_the_surface(Q, stretch):
+    F = Q @ np.diag(stretch)
+    n = np.array([2.0, -1.0, 2.0]) / 3.0
+    # The surface point where the normal is n is F Fᵀ n/|Fᵀ n|.
+    h = F.T @ n
+    furthest = F @ (h / np.linalg.norm(h))
+    np.testing.assert_allclose(reach(1.5, flat(F), tuple(n)), 1.5 * furthest @ n, rtol=1e-12)
+    directions = np.random.default_rng(0).normal(size=(200, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    assert (1.5 * (directions @ F.T) @ n <= reach(1.5, flat(F), tuple(n)) * (1 + 1e-12)).all()

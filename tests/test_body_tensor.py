@@ -1,0 +1,85 @@
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import flat, mild_stretches, rotations, square, stretches, tensors
+
+from foamprb.body import tensor as t
+from foamprb.body.ellipsoid import rotation_of, sorted_frame
+
+
+@given(tensors, tensors)
+def test_algebra_is_that_of_matrices(S, T):
+    A, B = square(S), square(T)
+    np.testing.assert_allclose(square(t.dot(S, T)), A @ B, atol=1e-13)
+    np.testing.assert_allclose(square(t.cofactor(S)).T @ A, np.linalg.det(A) * np.eye(3), atol=1e-12)
+    np.testing.assert_allclose(t.det(S), np.linalg.det(A), atol=1e-12)
+    np.testing.assert_allclose(t.ddot(S, T), (A * B).sum(), atol=1e-12)
+    np.testing.assert_allclose(square(t.sym(S)) + square(t.skew(S)), A, atol=1e-15)
+    np.testing.assert_allclose(t.trace(t.dev(S)), 0.0, atol=1e-14)
+    np.testing.assert_allclose(t.vector_dot(S[:3], T), A[0] @ B, atol=1e-13)
+
+
+@given(tensors)
+def test_axial_vector_turns_like_its_tensor(T):
+    W = t.skew(T)
+    r = (0.3, -1.2, 0.7)
+    np.testing.assert_allclose(t.dot_vector(W, r), np.cross(t.axial(W), r), atol=1e-14)
+
+
+@given(rotations, tensors)
+def test_a_frame_and_back_is_the_identity(Q, T):
+    there = t.to_frame(flat(Q), T)
+    np.testing.assert_allclose(square(there), Q @ square(T) @ Q.T, atol=1e-13)
+    np.testing.assert_allclose(t.from_frame(flat(Q), there), T, atol=1e-13)
+
+
+@given(rotations, stretches, rotations)
+def test_principal_frame_diagonalises_over_axis_ratios_of_a_thousand(Q1, stretch, Q2):
+    F = Q1 @ np.diag(stretch) @ Q2
+    Q, found = t.principal_frame(flat(F))
+    np.testing.assert_allclose(np.sort(found), np.sort(stretch), rtol=1e-11)
+    Q = square(Q)
+    np.testing.assert_allclose(Q @ Q.T, np.eye(3), atol=1e-14)
+    assert np.linalg.det(Q) > 0
+    rows = (Q @ F) / np.asarray(found)[:, None]
+    np.testing.assert_allclose(rows @ rows.T, np.eye(3), atol=1e-11)
+
+
+@given(rotations, st.floats(0.1, 10.0), st.floats(-1e-9, 1e-9))
+def test_principal_frame_of_nearly_a_sphere_is_still_a_frame(Q1, size, difference):
+    F = size * Q1 @ np.diag([1.0, 1.0 + difference, 1.0 - difference])
+    Q, found = t.principal_frame(flat(F))
+    np.testing.assert_allclose(found, size, rtol=1e-8)
+    np.testing.assert_allclose(square(Q) @ square(Q).T, np.eye(3), atol=1e-14)
+
+
+@given(rotations, stretches, rotations)
+def test_sorted_frame_is_the_same_frame_with_falling_axes(Q1, stretch, Q2):
+    F = Q1 @ np.diag(stretch) @ Q2
+    Q, found = sorted_frame(*t.principal_frame(flat(F)))
+    assert found[0] >= found[1] >= found[2]
+    Q = square(Q)
+    assert np.linalg.det(Q) > 0
+    np.testing.assert_allclose(np.linalg.norm(Q @ F, axis=1), found, rtol=1e-11)
+
+
+@given(rotations, mild_stretches, rotations)
+def test_polar_rotation(Q1, stretch, Q2):
+    U = Q2.T @ np.diag(stretch) @ Q2
+    np.testing.assert_allclose(square(rotation_of(flat(Q1 @ U))), Q1, atol=1e-13)
+
+
+@given(st.floats(0.125, 8.0))
+def test_log_ratio_is_the_logarithm(J):
+    np.testing.assert_allclose(t.log_ratio(J), np.log(J), atol=1e-15, rtol=1e-15)
+
+
+def test_arrays_and_floats_give_the_same(random):
+    F = random.normal(size=(50, 3, 3))
+    Q, stretch = t.principal_frame(tuple(F.reshape(50, 9).T))
+    for k in range(50):
+        Qk, stretch_k = t.principal_frame(flat(F[k]))
+        np.testing.assert_array_equal([c[k] for c in Q], Qk)
+        np.testing.assert_array_equal([c[k] for c in stretch], stretch_k)
