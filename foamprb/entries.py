@@ -1,4 +1,4 @@
-"""Bounds that a dictionary entry's value must keep, declared beside its type.
+"""Rules that a dictionary entry's value must keep, declared beside its type.
 
 A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
 annotated, e.g. ``rho0: Annotated[float, Positive]``. The reader checks; the class stays a plain record.
@@ -7,7 +7,9 @@ annotated, e.g. ``rho0: Annotated[float, Positive]``. The reader checks; the cla
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
+from typing import TypeAlias
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,32 @@ class Bounds:
         below = value < self.upper if self.open_upper else value <= self.upper
         return math.isfinite(value) and above and below
 
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """The names that a word may be, in most cases a registry."""
+
+    names: Collection[str]
+
+    def admits(self, value: str) -> bool:
+        """Whether ``value`` is one of the names."""
+        return value in self.names
+
+
+@dataclass(frozen=True)
+class Only:
+    """The one value that means what foamprb does, for entries that OpenFOAM's users know; and why."""
+
+    value: bool | float | str
+    why: str
+
+    def admits(self, value: bool | float | str) -> bool:
+        """Whether ``value`` is the one."""
+        return value == self.value
+
+
+Rule: TypeAlias = Bounds | Choice | Only
+Vector3: TypeAlias = tuple[float, float, float]
 
 Finite = Bounds(-math.inf, math.inf, True, True, "a finite number")
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")

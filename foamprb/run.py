@@ -24,7 +24,7 @@ from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
-from foamprb.output.tables import write_table
+from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series, Snapshot
 from foamprb.positions import read_positions
 from foamprb.settings import InjectionSettings, Settings, match_patches, read_settings
@@ -291,7 +291,7 @@ def write_fates(job: Job) -> None:
     if len(failed):
         reasons = [REASONS[Reason(r)] for r in p.reason[failed]]
         x = p.x[failed]
-        columns = {
+        columns: dict[str, Column] = {
             "id": failed,
             "t": p.t[failed],
             "x": x[:, 0],

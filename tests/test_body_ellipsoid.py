@@ -1,11 +1,10 @@
 from __future__ import annotations
 
-from itertools import permutations
-
 import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 from scipy.special import elliprd, elliprf
 from strategies import flat, rotations, stretches
 
@@ -23,7 +22,6 @@ SHAPES = [
     (1000.0, 1000.0, 1.0),
     (1000.0, 30.0, 1.0),
     (1000.0, 1.0 + 1e-12, 1.0),
-    (2.5e-6, 2.4e-6, 2.6e-6),
 ]
 
 
@@ -35,8 +33,8 @@ def as_dict(a, b, c):
 
 
 def by_quadrature(a, b, c):
-    """The defining integrals with λ = g²(1−s²)/s², g³ = abc, which is smooth in s, to 25 digits."""
-    mpmath.mp.dps = 30
+    """The defining integrals with λ = g²(1−s²)/s², g³ = abc, which is smooth in s, to 20 digits."""
+    mpmath.mp.dps = 24
     x, y, z = (mpmath.mpf(float(v)) ** 2 for v in (a, b, c))
     g2 = mpmath.cbrt(x * y * z)
 
@@ -66,10 +64,25 @@ def by_quadrature(a, b, c):
 
 @pytest.mark.parametrize("shape", SHAPES)
 def test_integrals_equal_quadrature_to_twelve_digits(shape):
-    for axes in set(permutations(shape)) if max(shape) < 1e3 * min(shape) else [shape, shape[::-1]]:
-        expected = by_quadrature(*axes)
-        for name, value in as_dict(*axes).items():
-            assert abs(mpmath.mpf(float(value)) / expected[name] - 1) < 1e-12, (name, axes)
+    expected = by_quadrature(*shape)
+    for name, value in as_dict(*shape).items():
+        assert abs(mpmath.mpf(float(value)) / expected[name] - 1) < 1e-12, name
+
+
+@given(stretches, st.permutations([0, 1, 2]))
+def test_integrals_do_not_depend_on_the_order_of_the_axes(axes, order):
+    g, permuted = integrals(axes), integrals(tuple(axes[i] for i in order))
+    for ours, theirs in ((g.alpha, permuted.alpha), (g.ring, permuted.ring), (g.star, permuted.star)):
+        np.testing.assert_allclose(theirs, [ours[i] for i in order], rtol=1e-13)
+
+
+@given(stretches, st.sampled_from([1e-6, 1e3]))
+def test_integrals_scale_with_their_units(axes, unit):
+    g, scaled = integrals(axes), integrals(tuple(unit * a for a in axes))
+    np.testing.assert_allclose(scaled.alpha, np.array(g.alpha) / unit**3, rtol=1e-13)
+    np.testing.assert_allclose(scaled.ring, np.array(g.ring) / unit**5, rtol=1e-13)
+    np.testing.assert_allclose(scaled.star, np.array(g.star) / unit**3, rtol=1e-13)
+    np.testing.assert_allclose(scaled.chi, g.chi / unit, rtol=1e-13)
 
 
 @given(stretches)

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Callable
+from typing import NamedTuple
 
 from foamprb.body.tensor import Scalar, Tensor, add, cofactor, ddot, det, log_ratio, scale
 
 
-class Material(Protocol):
+class Material(NamedTuple):
     """An isotropic hyperelastic solid with Piola stress P = φ F + ψ(J) F⁻ᵀ and two Lamé parameters."""
 
-    @staticmethod
-    def energy(F: Tensor, mu: Scalar, lame: Scalar) -> Scalar:
-        """Stored energy per undeformed volume w₀(F), J/m³."""
-
-    @staticmethod
-    def coefficients(J: Scalar, mu: Scalar, lame: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-        """The coefficients φ, ψ and J dψ/dJ, Pa."""
+    energy: Callable[[Tensor, Scalar, Scalar], Scalar]
+    """Stored energy per undeformed volume w₀(F, μ, λ), J/m³."""
+    coefficients: Callable[[Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
+    """φ, ψ and J dψ/dJ of (J, μ, λ), Pa."""
 
 
 def neo_hooke_energy(F: Tensor, mu: Scalar, lame: Scalar) -> Scalar:
@@ -41,15 +38,7 @@ def neo_hooke_coefficients(J: Scalar, mu: Scalar, lame: Scalar) -> tuple[Scalar,
     return mu, lame * log_ratio(J) - mu, lame
 
 
-@dataclass(frozen=True)
-class NeoHooke:
-    """Quasi-incompressible neo-Hooke (24)."""
-
-    energy = staticmethod(neo_hooke_energy)
-    coefficients = staticmethod(neo_hooke_coefficients)
-
-
-MATERIALS: dict[str, Material] = {"neoHooke": NeoHooke()}
+MATERIALS: dict[str, Material] = {"neoHooke": Material(neo_hooke_energy, neo_hooke_coefficients)}
 
 
 def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar) -> Tensor:

@@ -347,7 +347,7 @@ def _move_centre(
         x0 = _between(x0, x1, fraction)
         spent += fraction * rest
         code = patches.code[patch]
-        if code == STICK or code == ESCAPE:
+        if code in (STICK, ESCAPE):
             _settle(p, k, patch, code)
             return x0, spent, recovered
         n = normal(flow, triangle, x0)

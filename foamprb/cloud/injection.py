@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, empty
-from foamprb.entries import NonNegative, Positive
+from foamprb.entries import NonNegative, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 
-Vector3 = tuple[float, float, float]
 Floats = NDArray[np.float64]
 
 
@@ -56,8 +55,8 @@ class ManualInjection:
     def places(
         self,
         flow: Flow,
-        random: np.random.Generator,
-        read: Callable[[Path], Floats],  # noqa: ARG002
+        random: np.random.Generator,  # noqa: ARG002
+        read: Callable[[Path], Floats],
     ) -> Places:
         """Positions of the file, those outside the flow left out if the user said so.
 

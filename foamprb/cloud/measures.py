@@ -55,7 +55,7 @@ def _orientation(c: Context) -> Floats:
 
 def _angular_velocity(c: Context) -> Floats:
     """ω_s, the axial vector of w_s = skw(A F⁻¹) (A.3)."""
-    A: Tensor = tuple(c.particles.A.T)  # type: ignore[assignment]
+    A: Tensor = tuple(c.particles.A.T)
     return np.stack(axial(skew(dot(A, inverse(c.F)))), axis=1)
 
 
@@ -113,13 +113,14 @@ def context(particles: Particles, flow: Flow, mu: float, time: float) -> Context
     """
     rows = np.flatnonzero(particles.status != Status.PENDING)
     p = particles.take(rows)
-    F: Tensor = tuple(p.F.T)  # type: ignore[assignment]
+    F: Tensor = tuple(p.F.T)
     frame, stretches = sorted_frame(*principal_frame(F))
     gradient = np.full((len(rows), 9), np.nan)
     known = (p.host >= 0) & np.isfinite(p.x).all(axis=1)
     if known.any():
         gradient[known] = flow.sample(p.x[known], p.host[known])[1].reshape(-1, 9)
-    return Context(p, F, frame, stretches, tuple(gradient.T), rows, time, mu)
+    l_f: Tensor = tuple(gradient.T)  # type: ignore[assignment]
+    return Context(p, F, frame, stretches, l_f, rows, time, mu)
 
 
 def measure(c: Context) -> dict[str, NDArray[Any]]:

@@ -17,10 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import PatchFaces
+from foamprb.flow.base import Floats, Ints, PatchFaces
 from foamprb.flow.patch import Patch
-
-Floats = NDArray[np.float64]
 
 _FREE = -1
 
@@ -157,16 +155,15 @@ class AnalyticFlow:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 
-    def locate(self, points: ArrayLike) -> NDArray[np.int32]:
+    def locate(self, points: Floats) -> Ints:
         """0 for each point of shape (n, 3) in the flow, −1 for one outside."""
-        inside = self._inside(np.asarray(points, dtype=float))
+        inside = self._inside(points)
         return np.where(inside, 0, -1).astype(np.int32)
 
-    def sample(self, points: ArrayLike, hosts: ArrayLike) -> tuple[Floats, Floats]:  # noqa: ARG002
+    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:  # noqa: ARG002
         """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3)."""
-        x = np.asarray(points, dtype=float)
-        u, gradient = self.kernels["sample"](self._parameters, 0, (x[:, 0], x[:, 1], x[:, 2]))
-        zeros = np.zeros(len(x))
+        u, gradient = self.kernels["sample"](self._parameters, 0, tuple(points.T))
+        zeros = np.zeros(len(points))
         return (
             np.stack([c + zeros for c in u], axis=1),
             np.stack([c + zeros for c in gradient], axis=1).reshape(-1, 3, 3),
@@ -182,7 +179,7 @@ class AnalyticFlow:
         """
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
 
-    def cell_size(self, hosts: ArrayLike) -> Floats:
+    def cell_size(self, hosts: Ints) -> Floats:
         """Infinite: there are no cells."""
         return np.full(np.shape(hosts), np.inf)
 

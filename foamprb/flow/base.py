@@ -6,23 +6,26 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from foamprb.flow.patch import Patch
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
 
 
 class PatchFaces(NamedTuple):
     """The triangles of a patch, for placing particles on it."""
 
-    vertices: NDArray[np.float64]
+    vertices: Floats
     """(n, 3, 3): triangle, vertex, coordinate; m."""
-    areas: NDArray[np.float64]
+    areas: Floats
     """(n,), m²."""
-    normals: NDArray[np.float64]
+    normals: Floats
     """(n, 3), unit, into the fluid."""
-    velocity: NDArray[np.float64]
+    velocity: Floats
     """(n, 3, 3): triangle, vertex, component; m/s."""
-    hosts: NDArray[np.int32]
+    hosts: Ints
     """(n,) the host behind each triangle."""
 
 
@@ -48,13 +51,13 @@ class Flow(Protocol):
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
         """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
 
-    def locate(self, points: ArrayLike) -> NDArray[np.int32]:
+    def locate(self, points: Floats) -> Ints:
         """Host of each point of shape (n, 3), −1 outside."""
 
-    def sample(self, points: ArrayLike, hosts: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:
         """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s."""
 
-    def cell_size(self, hosts: ArrayLike) -> NDArray[np.float64]:
+    def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""
 
     def patch_faces(self, name: str) -> PatchFaces:

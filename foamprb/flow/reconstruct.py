@@ -1,0 +1,318 @@
+"""Cell values and wall values → u and ∇u at the nodes of the tetrahedra, continuous in between.
+
+Gradients come from least squares over face neighbours and boundary values. The gradient of the gradients
+gives the second derivatives, whose part in the differences is then taken off again, so that quadratic fields
+are met beside a wall nearly as well as in the core. A node's value is the weighted mean of what its cells say
+about it by Taylor's formula; on a wall the wall's own values decide.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from foamprb.flow.mesh import Floats, Mesh
+
+__all__ = ["VALUELESS", "Reconstruction", "from_points"]
+
+VALUELESS = frozenset(
+    {
+        "symmetry",
+        "symmetryPlane",
+        "wedge",
+        "empty",
+        "cyclic",
+        "cyclicAMI",
+        "cyclicACMI",
+        "cyclicSlip",
+        "processor",
+    }
+)
+"""Types of patches whose boundary values say nothing that the cells do not say."""
+
+_Matrix: TypeAlias = Any
+_Index: TypeAlias = NDArray[np.intp]
+_Mask: TypeAlias = NDArray[np.bool_]
+
+# The six second derivatives: pairs of directions, and how often each occurs in ½ d·H·d.
+_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+_TIMES = (0.5, 0.5, 0.5, 1.0, 1.0, 1.0)
+_PAIR_OF = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+
+
+class Reconstruction:
+    """The weights by which a mesh's cell and boundary values give u and ∇u at its nodes.
+
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    valued
+        (n_boundary,) boundary faces that have a value; default: all but those of :data:`VALUELESS` patches.
+    """
+
+    def __init__(self, mesh: Mesh, valued: _Mask | None = None) -> None:
+        patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
+        if valued is None:
+            valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
+        walls = np.array([p.type == "wall" for p in mesh.patches], dtype=bool)[patch_of_face] & valued
+        self.mesh = mesh
+        self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
+        self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
+        self._gradient = _Gradient(mesh, self._valued)
+        self._bend = _Gradient(mesh, np.empty(0, dtype=np.intp), least=0.01)
+        self._curvature = self._gradient.curvature()
+
+    def __call__(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+        """Reconstruct a field.
+
+        Parameters
+        ----------
+        cells
+            (n_cells, 3) velocity at cell centres, m/s.
+        boundary
+            (n_boundary, 3) velocity at boundary faces; rows of faces without a value are not read.
+
+        Returns
+        -------
+        u, l
+            (n_nodes, 3) and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j, mesh points first, then cell centres.
+        """
+        l, h = self.derivatives(cells, boundary)  # noqa: E741
+        u_points, l_points = self._at_points(cells, boundary, l, h)
+        return np.concatenate([u_points, cells]), np.concatenate([l_points, l])
+
+    def derivatives(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+        """First derivatives (n_cells, 3, 3) and second derivatives (n_cells, 3, 6) at cell centres.
+
+        The order of the second derivatives is xx, yy, zz, xy, xz, yz.
+        """
+        # One correction: beside a wall, cell values of a finite-volume solution are off by as much as the next
+        # would change.
+        plain = self._gradient(cells, boundary[self._valued])
+        slopes = self._bend(plain.reshape(-1, 9), np.empty((0, 9))).reshape(-1, 3, 3, 3)
+        h = np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
+        return plain - np.einsum("njp,nip->nij", self._curvature, h), h
+
+    def _at_points(self, cells: Floats, boundary: Floats, l: Floats, h: Floats) -> tuple[Floats, Floats]:  # noqa: E741
+        mesh, faces = self.mesh, self._valued
+        rows, columns = _face_points(mesh, faces)
+        around = _Taylor(
+            mesh.points,
+            np.concatenate([mesh.centres, mesh.boundary_centres[faces]]),
+            np.concatenate([mesh.cell_points, rows]),
+            np.concatenate(
+                [np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start)), mesh.n_cells + columns]
+            ),
+        )
+        # A boundary face is a place like a cell centre; its derivatives are those of its cell.
+        from_cell = np.concatenate([np.arange(mesh.n_cells), self._owner[faces]])
+        slopes = h[:, :, _PAIR_OF]
+        l_faces = self._at_faces(faces, l, slopes)
+        l_sites = np.concatenate([l, l_faces])
+        u_points = around(np.concatenate([cells, boundary[faces]]), l_sites, h[from_cell])
+        l_points = around(l_sites.reshape(-1, 9), slopes[from_cell].reshape(-1, 9, 3)).reshape(-1, 3, 3)
+        self._impose_walls(u_points, boundary, self._at_faces(self._walls, l, slopes))
+        return u_points, l_points
+
+    def _at_faces(self, faces: _Index, l: Floats, slopes: Floats) -> Floats:  # noqa: E741
+        """Gradients continued from the cells to their boundary faces."""
+        owner = self._owner[faces]
+        arms = self.mesh.boundary_centres[faces] - self.mesh.centres[owner]
+        faces_l: Floats = l[owner] + np.einsum("nijk,nk->nij", slopes[owner], arms)
+        return faces_l
+
+    def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats) -> None:  # noqa: E741
+        """Give the points of walls the wall's velocity, from the gradients at the wall's faces.
+
+        Where the wall's faces about a point move alike, the point moves so too, exactly; elsewhere their
+        values are continued to the point.
+        """
+        mesh, faces = self.mesh, self._walls
+        if len(faces) == 0:
+            return
+        rows, columns = _face_points(mesh, faces)
+        values = boundary[faces]
+        mean = _Taylor(mesh.points, mesh.boundary_centres[faces], rows, columns)(values, l)
+        order = np.argsort(rows, kind="stable")
+        on_wall, first = np.unique(rows[order], return_index=True)
+        low = np.minimum.reduceat(values[columns[order]], first)
+        high = np.maximum.reduceat(values[columns[order]], first)
+        u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean[on_wall])
+
+
+class _Gradient:
+    """Least-squares gradient at cell centres, differences weighted by the inverse square of the distance.
+
+    A cell whose neighbours and boundary values leave a direction open (``least`` of the largest eigenvalue)
+    asks its neighbours' neighbours as well. A direction that is still open then gets no gradient: the missing
+    one of a mesh one cell thick.
+    """
+
+    def __init__(self, mesh: Mesh, valued: _Index, least: float = 1e-6) -> None:
+        n = mesh.n_cells
+        owner, neighbour = mesh.owner.astype(np.intp), mesh.neighbour.astype(np.intp)
+        inner = owner[: mesh.n_internal]
+        rows = np.concatenate([inner, neighbour, owner[mesh.n_internal + valued]])
+        columns = np.concatenate([neighbour, inner, n + np.arange(len(valued))])
+        sites = np.concatenate([mesh.centres, mesh.boundary_centres[valued]])
+        matrix = _directions(mesh.centres, sites, rows, columns)
+        open_cells = np.flatnonzero(_nearly_singular(matrix, least))
+        if len(open_cells):
+            more_rows, more_columns = _second_neighbours(inner, neighbour, n, open_cells)
+            rows, columns = np.concatenate([rows, more_rows]), np.concatenate([columns, more_columns])
+            matrix = _directions(mesh.centres, sites, rows, columns)
+        rows, self._columns, self._start = _by_row(rows, columns, n)
+        self._shape = (n, len(sites))
+        self._rows = rows
+        self._arms = sites[self._columns] - mesh.centres[rows]
+        square = np.einsum("ei,ei->e", self._arms, self._arms)
+        weight = 1.0 / np.where(square > 0.0, square, np.inf)
+        inverse = _invert(matrix, least)
+        self._parts = []
+        self._own = np.empty((n, 3))
+        for i in range(3):
+            data = weight * np.einsum("ej,ej->e", inverse[rows, i], self._arms)
+            self._parts.append(sparse.csr_array((data, self._columns, self._start), shape=self._shape))
+            self._own[:, i] = np.bincount(rows, data, n)
+
+    def __call__(self, cells: Floats, boundary: Floats) -> Floats:
+        """Gradients (n_cells, m, 3) of m fields at cells (n_cells, m) and valued faces (n_valued, m)."""
+        values = np.concatenate([cells, boundary])
+        gradient = np.empty((*cells.shape, 3))
+        for i, part in enumerate(self._parts):
+            gradient[:, :, i] = part @ values - self._own[:, i, None] * cells
+        return gradient
+
+    def curvature(self) -> Floats:
+        """What second derivatives of one do to the gradient, (n_cells, 3, 6)."""
+        n = self._shape[0]
+        effect = np.empty((n, 3, 6))
+        for i, part in enumerate(self._parts):
+            for pair, ((j, k), times) in enumerate(zip(_PAIRS, _TIMES, strict=True)):
+                term = part.data * self._arms[:, j] * self._arms[:, k]
+                effect[:, i, pair] = times * np.bincount(self._rows, term, n)
+        return effect
+
+
+class _Taylor:
+    """Means at points, weighted by inverse distance, of the Taylor series about sites."""
+
+    def __init__(self, points: Floats, sites: Floats, rows: _Index, columns: _Index) -> None:
+        rows, self._columns, self._start = _by_row(rows, columns, len(points))
+        self._shape = (len(points), len(sites))
+        self._arms = points[rows] - sites[self._columns]
+        distance = np.sqrt(np.einsum("ei,ei->e", self._arms, self._arms))
+        weight = 1.0 / np.maximum(distance, 1e-300)
+        self._weights = weight / np.bincount(rows, weight, len(points))[rows]
+
+    def __call__(self, values: Floats, slopes: Floats, bends: Floats | None = None) -> Floats:
+        """Means (n_points, m) of values (n_sites, m), slopes (…, m, 3) and second derivatives (…, m, 6)."""
+        total = self._mean(self._weights, values)
+        for i in range(3):
+            total += self._mean(self._weights * self._arms[:, i], slopes[:, :, i])
+        if bends is not None:
+            for pair, ((j, k), times) in enumerate(zip(_PAIRS, _TIMES, strict=True)):
+                weights = times * self._weights * self._arms[:, j] * self._arms[:, k]
+                total += self._mean(weights, bends[:, :, pair])
+        return total
+
+    def _mean(self, weights: Floats, values: Floats) -> Floats:
+        matrix = sparse.csr_array((weights, self._columns, self._start), shape=self._shape)
+        return np.asarray(matrix @ np.ascontiguousarray(values))
+
+
+def _by_row(rows: _Index, columns: _Index, n: int) -> tuple[_Index, _Index, _Index]:
+    """Entries of a sparse matrix of n rows, sorted by row: rows, columns, start of each row.
+
+    Two cells may share several faces; unlike scipy's conversion this keeps every entry.
+    """
+    order = np.argsort(rows, kind="stable")
+    start = np.zeros(n + 1, dtype=np.intp)
+    np.cumsum(np.bincount(rows, minlength=n), out=start[1:])
+    return rows[order], columns[order], start
+
+
+def _directions(centres: Floats, sites: Floats, rows: _Index, columns: _Index) -> Floats:
+    """Sum of e ⊗ e over the unit vectors e from each centre to its sites, (n, 3, 3)."""
+    arms = sites[columns] - centres[rows]
+    arms /= np.maximum(np.sqrt(np.einsum("ei,ei->e", arms, arms)), 1e-300)[:, None]
+    matrix = np.empty((len(centres), 3, 3))
+    for i in range(3):
+        for j in range(i, 3):
+            matrix[:, i, j] = matrix[:, j, i] = np.bincount(rows, arms[:, i] * arms[:, j], len(centres))
+    return matrix
+
+
+def _second_neighbours(owner: _Index, neighbour: _Index, n: int, cells: _Index) -> tuple[_Index, _Index]:
+    """The given cells, each beside the neighbours of its neighbours (not itself, nor its neighbours)."""
+    ones = np.ones(2 * len(owner), dtype=np.int32)
+    ends = (np.concatenate([owner, neighbour]), np.concatenate([neighbour, owner]))
+    adjacent = sparse.csr_array((ones, ends), shape=(n, n))
+    second = sparse.coo_array(adjacent[cells] @ adjacent)
+    near = sparse.csr_array(adjacent[cells]).tocoo()
+    rows, columns = cells[second.row], second.col.astype(np.intp)
+    known = np.isin(rows * n + columns, np.concatenate([cells[near.row] * n + near.col, cells * (n + 1)]))
+    return rows[~known], columns[~known]
+
+
+def _nearly_singular(matrix: Floats, least: float) -> _Mask:
+    """Which of the matrices (n, 3, 3) have their smallest eigenvalue below ``least`` of the largest."""
+    suspect: _Mask = np.linalg.det(matrix) <= 27.0 * least * (np.trace(matrix, axis1=1, axis2=2) / 3.0) ** 3
+    # With eigenvalues λ₁ ≥ λ₂ ≥ λ₃, det ≤ λ₃ λ₁² and λ₁ ≤ 3·(trace/3): no λ₃ < least·λ₁ goes unsuspected.
+    values = np.linalg.eigvalsh(matrix[suspect])
+    suspect[suspect] = values[:, 0] <= least * values[:, 2]
+    return suspect
+
+
+def _invert(matrix: Floats, least: float) -> Floats:
+    """Inverses of symmetric positive semidefinite (n, 3, 3), pseudo-inverses of nearly singular ones."""
+    poor = _nearly_singular(matrix, least)
+    safe = matrix.copy()
+    safe[poor] = np.eye(3)
+    inverse = np.empty_like(matrix)
+    inverse[:] = np.linalg.inv(safe)
+    values, vectors = np.linalg.eigh(matrix[poor])
+    kept = values > least * values[:, -1:]
+    scaled = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
+    inverse[poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
+    return inverse
+
+
+def _face_points(mesh: Mesh, faces: _Index) -> tuple[_Index, _Index]:
+    """Points of boundary faces, and for each the position of its face in ``faces``."""
+    begin = mesh.face_start[mesh.n_internal + faces].astype(np.intp)
+    count = np.diff(mesh.face_start)[mesh.n_internal + faces].astype(np.intp)
+    owner = np.repeat(np.arange(len(faces)), count)
+    within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    return mesh.face_points[begin[owner] + within].astype(np.intp), owner
+
+
+def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
+    """Nodal u and l from velocities at the mesh points alone, (n_points, 3) in m/s.
+
+    Each cell's gradient is the least-squares fit to its points, continued to the nodes as in
+    :class:`Reconstruction` but without second derivatives.
+    """
+    rows = mesh.cell_points.astype(np.intp)
+    columns = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
+    count = np.diff(mesh.cell_point_start)[:, None]
+
+    def mean(values: Floats) -> Floats:
+        return np.stack([np.bincount(columns, column, mesh.n_cells) for column in values.T], axis=1) / count
+
+    middle, average = mean(mesh.points[rows]), mean(points[rows])
+    arms, differences = mesh.points[rows] - middle[columns], points[rows] - average[columns]
+    matrix, right = np.empty((mesh.n_cells, 3, 3)), np.empty((mesh.n_cells, 3, 3))
+    for j in range(3):
+        matrix[:, j] = mean(arms * arms[:, j, None])
+        right[:, :, j] = mean(differences * arms[:, j, None])
+    l = np.einsum("nij,njk->nik", right, _invert(matrix, 1e-12))  # noqa: E741
+    u = average + np.einsum("nij,nj->ni", l, mesh.centres - middle)
+    # A point's gradient is the mean over its cells, which is what a Taylor series without slopes gives.
+    around = _Taylor(mesh.points, mesh.centres, rows, columns)
+    l_points = around(l.reshape(-1, 9), np.zeros((mesh.n_cells, 9, 3))).reshape(-1, 3, 3)
+    return np.concatenate([points, u]), np.concatenate([l_points, l])

@@ -1,0 +1,413 @@
+"""A flow on a mesh, and the kernels by which a particle moves through it.
+
+A particle knows its host, the tetrahedron that holds its centre. A step follows the straight segment from the
+old place to the new one through the faces that it crosses, so that location costs a few operations and a wall
+is met exactly where it is crossed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
+from foamprb.compile import link
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import PatchFaces
+from foamprb.flow.locator import TOLERANCE, MeshArrays, build_tree, cell_boxes, frame, locate, weights
+from foamprb.flow.mesh import Floats, Ints, Mesh
+
+__all__ = [
+    "FAILED",
+    "REACHED",
+    "MeshArrays",
+    "MeshFlow",
+    "gap",
+    "near_walls",
+    "normal",
+    "recover",
+]
+__all__ += ["sample", "walk"]
+
+REACHED = -1
+FAILED = -2
+
+_MOST_CROSSINGS = 20_000
+# Crossings without progress, as around an edge or a vertex, after which the start is nudged.
+_MOST_STALLS = 200
+_ATTEMPTS = 4
+_NO_TRIANGLE = -1
+
+
+def sample(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
+    """Velocity u (m/s) and its gradient l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``."""
+    origin, c1, c2, c3, volume = frame(flow, host)
+    w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
+    s = 1.0 / volume
+    w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
+    f, t = flow.nodes, flow.tets
+    a, b, c, d = t[host, 0], t[host, 1], t[host, 2], t[host, 3]
+    u = (
+        w0 * f[a, 3] + w1 * f[b, 3] + w2 * f[c, 3] + w3 * f[d, 3],
+        w0 * f[a, 4] + w1 * f[b, 4] + w2 * f[c, 4] + w3 * f[d, 4],
+        w0 * f[a, 5] + w1 * f[b, 5] + w2 * f[c, 5] + w3 * f[d, 5],
+    )
+    l = (  # noqa: E741
+        w0 * f[a, 6] + w1 * f[b, 6] + w2 * f[c, 6] + w3 * f[d, 6],
+        w0 * f[a, 7] + w1 * f[b, 7] + w2 * f[c, 7] + w3 * f[d, 7],
+        w0 * f[a, 8] + w1 * f[b, 8] + w2 * f[c, 8] + w3 * f[d, 8],
+        w0 * f[a, 9] + w1 * f[b, 9] + w2 * f[c, 9] + w3 * f[d, 9],
+        w0 * f[a, 10] + w1 * f[b, 10] + w2 * f[c, 10] + w3 * f[d, 10],
+        w0 * f[a, 11] + w1 * f[b, 11] + w2 * f[c, 11] + w3 * f[d, 11],
+        w0 * f[a, 12] + w1 * f[b, 12] + w2 * f[c, 12] + w3 * f[d, 12],
+        w0 * f[a, 13] + w1 * f[b, 13] + w2 * f[c, 13] + w3 * f[d, 13],
+        w0 * f[a, 14] + w1 * f[b, 14] + w2 * f[c, 14] + w3 * f[d, 14],
+    )
+    return u, l
+
+
+def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Follow the segment from x0, in the tetrahedron ``host``, to x1.
+
+    A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which
+    does not drift however many faces are crossed. In a tetrahedron turned inside out the path runs backwards,
+    so that it comes out where the mesh unfolds again. A path that circles about an edge or a vertex is begun
+    anew from a start moved towards the middle of the host by 1e-8 of its size, then by more.
+
+    Returns
+    -------
+    host, fraction, patch, triangle
+        ``(tetrahedron of x1, 1, −1, −1)`` when x1 was reached; ``(last tetrahedron, fraction of the segment,
+        patch, boundary triangle)`` when the boundary was crossed there; patch −2 when the walk failed.
+    """
+    tets, neighbours, nodes = flow.tets, flow.neighbours, flow.nodes
+    for attempt in range(_ATTEMPTS):
+        nudge = 0.0 if attempt == 0 else 1e-10 * 100.0**attempt
+        a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
+        mx = 0.1 * nodes[a, 0] + 0.2 * nodes[b, 0] + 0.3 * nodes[c, 0] + 0.4 * nodes[d, 0]
+        my = 0.1 * nodes[a, 1] + 0.2 * nodes[b, 1] + 0.3 * nodes[c, 1] + 0.4 * nodes[d, 1]
+        mz = 0.1 * nodes[a, 2] + 0.2 * nodes[b, 2] + 0.3 * nodes[c, 2] + 0.4 * nodes[d, 2]
+        start = (x0[0] + nudge * (mx - x0[0]), x0[1] + nudge * (my - x0[1]), x0[2] + nudge * (mz - x0[2]))
+        tet, came_from, progress, stalls = host, -1, 0.0, 0
+        for _ in range(_MOST_CROSSINGS):
+            origin, c1, c2, c3, volume = frame(flow, tet)
+            end = weights(origin, c1, c2, c3, volume, x1)
+            sign = -1.0 if volume < 0.0 else 1.0
+            slack = -TOLERANCE * abs(volume)
+            if min(sign * end[0], sign * end[1], sign * end[2], sign * end[3]) >= slack:
+                return tet, 1.0, REACHED, _NO_TRIANGLE
+            begin = weights(origin, c1, c2, c3, volume, start)
+            face, fraction, first = -1, 0.0, np.inf
+            for k in range(4):
+                w0, w1 = sign * begin[k], sign * end[k]
+                fall = sign * (w0 - w1)
+                if fall <= 0.0 or (sign > 0.0 and w1 >= slack):
+                    continue
+                other = neighbours[tet, k]
+                if other >= 0 and other == came_from:
+                    continue
+                s = w0 / (w0 - w1)
+                # Where a path touches the rim of a wall, the way inside is preferred.
+                rank = sign * s + (0.0 if other >= 0 else TOLERANCE)
+                if rank < first:
+                    face, fraction, first = k, s, rank
+            if face < 0:
+                break
+            other = neighbours[tet, face]
+            if other < 0:
+                triangle = -1 - other
+                fraction = min(max(fraction, 0.0), 1.0)
+                return tet, fraction, flow.triangle_patch[triangle], triangle
+            stalls = 0 if fraction > progress + 1e-12 else stalls + 1
+            if stalls > _MOST_STALLS:
+                break
+            progress = max(progress, fraction)
+            tet, came_from = other, tet
+    return host, 0.0, FAILED, _NO_TRIANGLE
+
+
+def recover(flow: MeshArrays, x: Vector) -> int:
+    """Ask the tree for the tetrahedron that holds x; −1 when x lies outside the mesh."""
+    return locate(flow, x)
+
+
+def normal(flow: MeshArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
+    """Unit normal of a boundary triangle, pointing into the mesh; it is flat, so x does not matter."""
+    n = flow.triangle_normals
+    return (n[triangle, 0], n[triangle, 1], n[triangle, 2])
+
+
+def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+    """Clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
+
+    The map y → F⁻¹(y − x) turns the ellipsoid into a ball of radius R about the origin and keeps triangles
+    triangles. The clearance is the distance of the mapped triangle from the origin (corners and edges count)
+    less R: negative exactly when body and wall overlap. Over a plane wall at distance h with normal n it is
+    h/|Fᵀn| − R.
+
+    Returns
+    -------
+    gap, patch, triangle
+        The clearance in metres of the undeformed ball, ``inf`` with −1, −1 when no wall triangle is near.
+    """
+    cell = flow.tets[host, 0] - flow.n_points
+    begin, end = flow.near_start[cell], flow.near_start[cell + 1]
+    best, nearest = np.inf, _NO_TRIANGLE
+    if begin == end:
+        return best, -1, nearest
+    inverse_F = inverse(F)
+    nodes = flow.nodes
+    for k in range(begin, end):
+        triangle = flow.near[k]
+        a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
+        ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
+        n = normal(flow, triangle, x)
+        height = n[0] * ra[0] + n[1] * ra[1] + n[2] * ra[2]
+        m = vector_dot(n, F)
+        limit = best + R
+        # The triangle's plane is no farther than the triangle.
+        if height * height >= limit * limit * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]):
+            continue
+        rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
+        rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
+        distance = _distance(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
+        if distance - R < best:
+            best, nearest = distance - R, triangle
+    return best, (flow.triangle_patch[nearest] if nearest >= 0 else -1), nearest
+
+
+def _distance(a: Vector, b: Vector, c: Vector) -> float:
+    """Distance of the triangle a, b, c from the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
+    ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+    ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
+    d1, d2 = -_dot(ab, a), -_dot(ac, a)
+    d3, d4 = -_dot(ab, b), -_dot(ac, b)
+    d5, d6 = -_dot(ab, c), -_dot(ac, c)
+    va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
+    v, w = 0.0, 0.0
+    if d1 <= 0.0 and d2 <= 0.0:
+        v, w = 0.0, 0.0
+    elif d3 >= 0.0 and d4 <= d3:
+        v, w = 1.0, 0.0
+    elif d6 >= 0.0 and d5 <= d6:
+        v, w = 0.0, 1.0
+    elif vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        v, w = d1 / (d1 - d3), 0.0
+    elif vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        v, w = 0.0, d2 / (d2 - d6)
+    elif va <= 0.0 and d4 - d3 >= 0.0 and d5 - d6 >= 0.0:
+        w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        v = 1.0 - w
+    else:
+        s = 1.0 / (va + vb + vc)
+        v, w = vb * s, vc * s
+    p = (a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2])
+    return float(np.sqrt(_dot(p, p)))
+
+
+def _dot(p: Vector, q: Vector) -> Any:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+def near_walls(
+    mesh: Mesh, boxes: Floats, tree: tuple[Floats, Ints], reach: float, patches: Iterable[int]
+) -> tuple[Ints, Ints]:
+    """List, cell by cell, the boundary triangles within ``reach`` of the cell's box.
+
+    Parameters
+    ----------
+    mesh, boxes, tree
+        The mesh, its cells' boxes and the tree over them.
+    reach
+        Distance in metres, at least the longest semi-axis of a particle; 0 lists nothing.
+    patches
+        Indices of the patches that count.
+
+    Returns
+    -------
+    near_start, near
+        As in :class:`MeshArrays`; a box distance is never larger than the true one, so none is missed.
+    """
+    start = np.zeros(mesh.n_cells + 1, dtype=np.int32)
+    wanted = np.flatnonzero(np.isin(mesh.triangle_patch, list(patches))).astype(np.int32)
+    if reach <= 0.0 or len(wanted) == 0:
+        return start, np.empty(0, dtype=np.int32)
+    corners = mesh.points[mesh.triangles[wanted]]
+    targets = np.concatenate([corners.min(axis=1) - reach, corners.max(axis=1) + reach], axis=1)
+    meet = link(_meetings)
+    count = meet(*tree, boxes, targets, wanted, np.empty(0, dtype=np.int32), np.empty(0, dtype=np.int32))
+    cells, triangles = np.empty(count, dtype=np.int32), np.empty(count, dtype=np.int32)
+    meet(*tree, boxes, targets, wanted, cells, triangles)
+    np.cumsum(np.bincount(cells, minlength=mesh.n_cells), out=start[1:])
+    return start, triangles[np.argsort(cells, kind="stable")]
+
+
+def _meetings(
+    tree_boxes: Floats,
+    tree_cells: Ints,
+    boxes: Floats,
+    targets: Floats,
+    names: Ints,
+    cells: Ints,
+    found: Ints,
+) -> int:
+    """Pairs of a cell and a target whose boxes meet: their number, and the pairs as far as there is room."""
+    leaves = tree_cells.shape[0]
+    count = 0
+    for i in range(targets.shape[0]):
+        node = 1
+        while node > 0:
+            if _meet(tree_boxes, node, targets, i):
+                if node < leaves:
+                    node = 2 * node
+                    continue
+                for k in range(tree_cells.shape[1]):
+                    cell = tree_cells[node - leaves, k]
+                    if cell >= 0 and _meet(boxes, cell, targets, i):
+                        if count < cells.shape[0]:
+                            cells[count], found[count] = cell, names[i]
+                        count += 1
+            while node & 1:
+                node >>= 1
+            if node > 0:
+                node += 1
+    return count
+
+
+def _meet(boxes: Floats, i: int, others: Floats, j: int) -> bool:
+    return bool(
+        boxes[i, 0] <= others[j, 3]
+        and boxes[i, 1] <= others[j, 4]
+        and boxes[i, 2] <= others[j, 5]
+        and others[j, 0] <= boxes[i, 3]
+        and others[j, 1] <= boxes[i, 4]
+        and others[j, 2] <= boxes[i, 5]
+    )
+
+
+class MeshFlow:
+    """A flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
+
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    u, l
+        (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres.
+    notes
+        What the user should know about the flow, sentence by sentence.
+    """
+
+    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
+        "sample": sample,
+        "walk": walk,
+        "gap": gap,
+        "normal": normal,
+        "recover": recover,
+    }
+    """The functions that a particle loop calls, by the names under which it calls them."""
+
+    def __init__(self, mesh: Mesh, u: Floats, l: Floats, notes: Iterable[str] = ()) -> None:  # noqa: E741
+        self.mesh = mesh
+        self.patches = mesh.patches
+        self.notes = tuple(notes)
+        if mesh.inverted:
+            self.notes += (
+                f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
+                "far from convex there, and paths through them are less certain.",
+            )
+        self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        nodes = np.zeros((len(u), 16))
+        nodes[:, :3] = mesh.nodes
+        nodes[:, 3:6] = u
+        nodes[:, 6:15] = l.reshape(-1, 9)
+        self._tree = build_tree(cell_boxes(mesh))
+        self._arrays = MeshArrays(
+            nodes=nodes,
+            n_points=mesh.n_points,
+            tets=mesh.tets,
+            neighbours=mesh.neighbours,
+            cell_start=mesh.cell_start,
+            tree_boxes=self._tree[0],
+            tree_cells=self._tree[1],
+            triangles=mesh.triangles,
+            triangle_patch=mesh.triangle_patch,
+            triangle_normals=mesh.triangle_normals,
+            near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
+            near=np.empty(0, dtype=np.int32),
+        )
+
+    def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> MeshArrays:
+        """What the kernels read; bodies of semi-axes up to ``reach`` (m) find what they touch.
+
+        The ``touchable`` patches are given by their indices; by default they are those of type wall.
+        """
+        if touchable is None:
+            touchable = [index for index, patch in enumerate(self.patches) if patch.type == "wall"]
+        if reach <= 0.0 or len(touchable) == 0:
+            return self._arrays
+        start, near = near_walls(self.mesh, cell_boxes(self.mesh), self._tree, reach, touchable)
+        return self._arrays._replace(near_start=start, near=near)
+
+    def locate(self, points: Floats) -> Ints:
+        """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        hosts = np.empty(len(points), dtype=np.int32)
+        link(_locate_all)(self._arrays, points, hosts)
+        return hosts
+
+    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:
+        """Velocity (n, 3) in m/s and ∂u_i/∂x_j (n, 3, 3) in 1/s at the points (n, 3) in their hosts (n,)."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        values = np.empty((len(points), 12))
+        link(_sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), values)
+        return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+
+    def cell_of(self, hosts: Ints) -> Ints:
+        """Cells to which the tetrahedra belong, (n,)."""
+        cells: Ints = self.mesh.tets[hosts, 0] - np.int32(self.mesh.n_points)
+        return cells
+
+    def cell_size(self, hosts: Ints) -> Floats:
+        """Cube root of the volume of the hosts' cells, (n,), m."""
+        return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
+
+    def patch_faces(self, name: str) -> PatchFaces:
+        """Triangles of the patch ``name``.
+
+        Raises
+        ------
+        InputError
+            There is no such patch.
+        """
+        names = [patch.name for patch in self.patches]
+        if name not in names:
+            raise InputError(f"patch {name} is not in the mesh. {suggestion(name, names)}")
+        mesh = self.mesh
+        at = np.flatnonzero(mesh.triangle_patch == names.index(name))
+        triangles = mesh.triangles[at]
+        vertices = mesh.points[triangles]
+        edges = vertices[:, 1:] - vertices[:, :1]
+        return PatchFaces(
+            vertices=vertices,
+            areas=0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1),
+            normals=mesh.triangle_normals[at],
+            velocity=self._arrays.nodes[triangles, 3:6],
+            hosts=mesh.triangle_tet[at],
+        )
+
+
+def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
+    for i in range(points.shape[0]):
+        hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
+
+
+def _sample_all(flow: MeshArrays, points: Floats, hosts: Ints, values: Floats) -> None:
+    for i in range(points.shape[0]):
+        u, l = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]))  # noqa: E741
+        for k in range(3):
+            values[i, k] = u[k]
+        for k in range(9):
+            values[i, 3 + k] = l[k]

@@ -1,0 +1,1 @@
+"""What a run leaves on disk: clouds for ParaView and tables."""

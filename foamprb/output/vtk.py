@@ -1,0 +1,268 @@
+"""Clouds as ParaView reads them: one ``.vtp`` per time and a ``.pvd`` that lists them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonMisc import vtkErrorCode
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+from foamprb.errors import InputError
+from foamprb.output.atomic import atomic_write, remove_unfinished
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A cloud of n particles at one time.
+
+    Parameters
+    ----------
+    time
+        Time, s.
+    points
+        Positions, shape (n, 3), m.
+    arrays
+        Values at the points by name, each of shape (n,) or (n, k); each keeps its type, except that truth
+        values become 0 and 1.
+    units
+        Unit of each array by name.
+    names
+        For an array of codes, what the codes 0, 1, … mean: ``{"status": ("pending", "active", …)}``.
+
+    Raises
+    ------
+    ValueError
+        If an array does not have n rows and one or two axes.
+    """
+
+    time: float
+    points: NDArray[np.float64]
+    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.points.ndim != 2 or self.points.shape[1] != 3:
+            raise ValueError(f"Points of a snapshot have shape {self.points.shape}, not (n, 3).")
+        n = len(self.points)
+        for name, array in self.arrays.items():
+            if array.ndim not in (1, 2) or len(array) != n:
+                raise ValueError(
+                    f"Array '{name}' of a snapshot has shape {array.shape}, not ({n},) or ({n}, k)."
+                )
+
+
+def write_snapshot(path: Path, snapshot: Snapshot) -> None:
+    """Write a cloud as VTK PolyData, in one step: a vertex per particle, with its point arrays.
+
+    Field data are ``TimeValue``, ``units`` (``"rho kg/m3"``, …) and, for each array of codes,
+    ``<array>Names``.
+
+    Parameters
+    ----------
+    path
+        The file, ``.vtp``.
+    snapshot
+        The cloud.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(_poly_data(snapshot))
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    # Mantissas of doubles hardly compress: zlib would gain 8 % in size for 25 times the time.
+    writer.SetCompressorTypeToLZ4()
+    # Observed errors go unprinted; the error code tells what happened.
+    for source in (writer, writer.GetExecutive()):
+        source.AddObserver("ErrorEvent", lambda *_: None)
+    with atomic_write(path) as temporary:
+        writer.SetFileName(str(temporary))
+        if writer.Write() != 1 or writer.GetErrorCode():
+            reason = vtkErrorCode.GetStringFromErrorCode(writer.GetErrorCode())
+            raise OSError(f"{path}: VTK could not write this file ({reason}).")
+
+
+class Entry(NamedTuple):
+    """One line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
+
+    time: float
+    file: str
+
+
+class Series:
+    """The files ``<name>_<index>.vtp`` of one cloud and the ``<name>.pvd`` that lists them with their times.
+
+    At any moment the ``.pvd`` on disk names whole files only.
+
+    Parameters
+    ----------
+    folder
+        Where the files are; made when the first is written.
+    name
+        The cloud's name.
+    resume
+        False to begin a new run: the files of an old run, as its ``.pvd`` names them, are removed. True to
+        go on with the run that is there, if any.
+
+    Raises
+    ------
+    InputError
+        If there is a ``.pvd`` that cannot be read.
+    OSError
+        If old files cannot be removed.
+    """
+
+    def __init__(self, folder: Path, name: str, *, resume: bool = False) -> None:
+        self.folder = folder
+        self.name = name
+        self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
+        if not resume:
+            self.truncate(after=-np.inf)
+        remove_unfinished(self.pvd)
+        # The file that a killed process was writing has the next index.
+        remove_unfinished(self._next_file())
+
+    @property
+    def pvd(self) -> Path:
+        """The file that ParaView opens."""
+        return self.folder / f"{self.name}.pvd"
+
+    def append(self, snapshot: Snapshot) -> Path:
+        """Write a cloud and list it.
+
+        Returns
+        -------
+        The ``.vtp`` file.
+
+        Raises
+        ------
+        ValueError
+            If the time is not later than that of the cloud before.
+        OSError
+            If a file cannot be written.
+        """
+        time = float(snapshot.time)
+        if self.entries and not time > self.entries[-1].time:
+            raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
+        file = self._next_file()
+        write_snapshot(file, snapshot)
+        self._list((*self.entries, Entry(time, file.name)))
+        return file
+
+    def truncate(self, after: float) -> None:
+        """Drop the entries at or after a time, s, and their files: a resumed run writes them anew.
+
+        Raises
+        ------
+        OSError
+            If the files cannot be rewritten or removed.
+        """
+        kept = tuple(entry for entry in self.entries if entry.time < after)
+        dropped = self.entries[len(kept) :]
+        if not dropped:
+            return
+        if kept:
+            self._list(kept)
+        else:
+            self.pvd.unlink(missing_ok=True)
+            self.entries = ()
+        for entry in dropped:
+            (self.folder / entry.file).unlink(missing_ok=True)
+
+    def _next_file(self) -> Path:
+        last = re.search(r"_(\d+)\.vtp$", self.entries[-1].file) if self.entries else None
+        index = int(last[1]) + 1 if last else len(self.entries)
+        return self.folder / f"{self.name}_{index:06d}.vtp"
+
+    def _list(self, entries: tuple[Entry, ...]) -> None:
+        with atomic_write(self.pvd) as temporary:
+            temporary.write_text(_pvd_text(entries), encoding="utf-8")
+        self.entries = entries
+
+
+def read_pvd(path: Path) -> tuple[Entry, ...]:
+    """Read the times and files that a ``.pvd`` lists.
+
+    Returns
+    -------
+    The entries in order of time.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not such a list, or names a file outside its own folder.
+    """
+    try:
+        root = ElementTree.fromstring(path.read_bytes())
+        entries = [Entry(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
+    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+        raise InputError(
+            f"{path}: not a readable list of VTK files ({error}). Remove it to begin anew."
+        ) from error
+    for entry in entries:
+        if Path(entry.file).name != entry.file or not entry.file.endswith(".vtp"):
+            raise InputError(f"{path}: names '{entry.file}', which is not a .vtp file in its own folder.")
+    return tuple(sorted(entries))
+
+
+def _pvd_text(entries: Sequence[Entry]) -> str:
+    lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
+    return (
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
+        f"{''.join(lines)}"
+        "  </Collection>\n</VTKFile>\n"
+    )
+
+
+def _poly_data(snapshot: Snapshot) -> vtkPolyData:
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))
+    data.SetPoints(points)
+    data.SetVerts(_vertices(len(snapshot.points)))
+    for name, array in snapshot.arrays.items():
+        data.GetPointData().AddArray(_vtk_array(name, array))
+    fields = data.GetFieldData()
+    fields.AddArray(_vtk_array("TimeValue", np.array([snapshot.time], dtype=np.float64)))
+    if snapshot.units:
+        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in snapshot.units.items()]))
+    for name, meanings in snapshot.names.items():
+        fields.AddArray(_text_array(f"{name}Names", meanings))
+    return data
+
+
+def _vertices(n: int) -> vtkCellArray:
+    cells = vtkCellArray()
+    index = np.arange(n + 1, dtype=np.int64)
+    cells.SetData(_vtk_array("offsets", index), _vtk_array("connectivity", index[:n]))
+    return cells
+
+
+def _vtk_array(name: str, array: NDArray[Any]) -> Any:
+    plain = array.astype(np.int8) if array.dtype == np.bool_ else array
+    result = numpy_to_vtk(np.ascontiguousarray(plain), deep=True)
+    result.SetName(name)
+    return result
+
+
+def _text_array(name: str, texts: Sequence[str]) -> vtkStringArray:
+    result = vtkStringArray()
+    result.SetName(name)
+    for text in texts:
+        result.InsertNextValue(text)
+    return result

@@ -1,0 +1,191 @@
+"""Any frozen dataclass from a dictionary: its field names are the entries, its type hints their kinds."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import MISSING, Field, fields
+from pathlib import Path
+from types import UnionType
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    NewType,
+    TypeVar,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, Stream, unquoted
+from foamprb.entries import Bounds, Choice, Only, Rule, Vector3
+from foamprb.errors import suggestion
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Record = TypeVar("Record", bound="DataclassInstance")
+Line = NewType("Line", str)
+"""An entry's whole text, of one word or more."""
+Viscosity = NewType("Viscosity", float)
+"""A kinematic viscosity, m2/s, that may be written with its name and dimensions."""
+
+
+def read_entries(record: type[Record], dictionary: Dictionary, also: Iterable[str] = ()) -> Record:
+    """Read a record, a dataclass whose fields are a dictionary's entries, by its type hints.
+
+    Parameters
+    ----------
+    record
+        Its hints may be a key of ``_READERS``, another record, Literal, or Annotated with one ``Rule``; each
+        also with ``| None``.
+    dictionary
+        Its entries; those that a macro has used may have any name.
+    also
+        Names of entries that somebody else reads.
+
+    Raises
+    ------
+    InputError
+        If an entry is not known, missing, or does not hold what its hint says.
+    """
+    hints = get_type_hints(record, include_extras=True)
+    refuse_unknown(dictionary, (*names_of(record), *also))
+    return record(
+        **{
+            entry.name: read_entry(dictionary, entry.name, hints[entry.name])
+            for entry in fields(record)
+            if entry.name in dictionary.entries or not _has_default(entry)
+        }
+    )
+
+
+def read_entry(dictionary: Dictionary, key: str, hint: Any) -> Any:
+    """Read one entry of a dictionary as a type hint says; see :func:`read_entries`."""
+    if key not in dictionary.entries:
+        raise dictionary.missing(key, allowed(hint))
+    return _convert(dictionary.entries[key], hint)
+
+
+def _has_default(entry: Field[Any]) -> bool:
+    return entry.default is not MISSING or entry.default_factory is not MISSING
+
+
+def names_of(record: type[DataclassInstance]) -> tuple[str, ...]:
+    """Name the entries that a record reads."""
+    return tuple(entry.name for entry in fields(record))
+
+
+def refuse_unknown(dictionary: Dictionary, known: Collection[str]) -> None:
+    """Raise InputError, with a suggestion, for an entry that nobody reads."""
+    for key, entry in dictionary.entries.items():
+        # A name that only serves as a macro's variable is the user's own.
+        if key not in known and not entry.used:
+            raise entry.mistake(f"is not known. {suggestion(key, known)}")
+
+
+def selected(registry: Mapping[str, type[Record]], dictionary: Dictionary) -> type[Record]:
+    """Find the class that a dictionary's ``type`` selects from a registry."""
+    return registry[read_entry(dictionary, "type", Annotated[str, Choice(registry)])]
+
+
+def _convert(entry: Entry, hint: Any) -> Any:
+    """Turn an entry into what a type hint says."""
+    kind, rule = _kind(hint)
+    if kind is Dictionary:
+        return entry.dictionary()
+    if kind not in _READERS:
+        return read_entries(kind, entry.dictionary())
+    if kind is DictionaryList and isinstance(entry, DictionaryList):
+        return entry
+    if isinstance(entry, Stream) and any(token.startswith("#") for token in entry.tokens):
+        raise entry.mistake(f"is {entry}, which is not evaluated: write the value itself.")
+    value = _READERS[kind].read(entry) if isinstance(entry, Stream) else None
+    if value is None or not (rule is None or rule.admits(value)):
+        raise entry.mistake(
+            f"is {entry}. {allowed(hint, found=entry.text if isinstance(entry, Stream) else '')}"
+        )
+    return value
+
+
+def _kind(hint: Any) -> tuple[Any, Rule | None]:
+    """Split a hint into a key of ``_READERS``, or a record, and the rule that the value must keep."""
+    origin = get_origin(hint)
+    if origin is Annotated:
+        return hint.__origin__, hint.__metadata__[0]
+    if origin is Literal:
+        return str, Choice(get_args(hint))
+    if origin in (Union, UnionType):
+        return _kind(next(kind for kind in get_args(hint) if kind is not type(None)))
+    return hint, None
+
+
+def allowed(hint: Any, found: str = "") -> str:
+    """Say what an entry may be."""
+    kind, rule = _kind(hint)
+    match rule:
+        case Choice(names):
+            return suggestion(unquoted(found), names)
+        case Only(value, why):
+            return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
+        case Bounds():
+            return f"Allowed: {rule.text}."
+    return f"Allowed: {_READERS[kind if kind in _READERS else Dictionary].text}."
+
+
+class _Reader(NamedTuple):
+    read: Callable[[Stream], Any]
+    text: str
+
+
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+_INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
+_VISCOSITY = re.compile(r"(?:(?:[^\W\d]\S* )?\[ 0 2 -1 0 0(?: 0 0)? \] )?(?P<value>\S+)")
+_SWITCHES = {"yes": True, "on": True, "true": True, "no": False, "off": False, "false": False}
+
+
+def _number(text: str) -> float | None:
+    number = float(text) if _NUMBER.fullmatch(text) else math.nan
+    return number if math.isfinite(number) else None
+
+
+def _viscosity_value(entry: Stream) -> float | None:
+    match = _VISCOSITY.fullmatch(entry.text)
+    return _number(match["value"]) if match else None
+
+
+def _vector(entry: Stream) -> Vector3 | None:
+    match entry.tokens:
+        case ("(", x, y, z, ")"):
+            vector = tuple(number for number in map(_number, (x, y, z)) if number is not None)
+            return vector if len(vector) == 3 else None
+    return None
+
+
+def _word(entry: Stream) -> str | None:
+    return (unquoted(entry.text) or None) if len(entry.tokens) == 1 else None
+
+
+def _file(entry: Stream) -> Path | None:
+    name = _word(entry)
+    path = entry.source.case / "constant" / name if name else None
+    return path if path and path.is_file() else None
+
+
+_READERS: dict[Any, _Reader] = {
+    float: _Reader(lambda entry: _number(entry.text), "a number"),
+    int: _Reader(lambda entry: int(entry.text) if _INTEGER.fullmatch(entry.text) else None, "a whole number"),
+    bool: _Reader(lambda entry: _SWITCHES.get(entry.text), ", ".join(_SWITCHES)),
+    str: _Reader(_word, "a word"),
+    Line: _Reader(lambda entry: entry.text, "any text"),
+    Viscosity: _Reader(_viscosity_value, "a number, with the dimensions [0 2 -1 0 0 0 0] or none"),
+    Path: _Reader(_file, "the name of an existing file, in constant/ or absolute"),
+    Vector3: _Reader(_vector, "a vector (x y z)"),
+    Dictionary: _Reader(lambda _: None, DICTIONARY_TEXT),
+    DictionaryList: _Reader(lambda _: None, "a list ( name { … } name { … } )"),
+}

@@ -1,0 +1,236 @@
+import gzip
+import shutil
+import subprocess
+import textwrap
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import pyvista
+from numpy.typing import NDArray
+
+from foamprb.cloud.state import Status
+from foamprb.output.vtk import Series, Snapshot
+
+ROOT = Path(__file__).parents[2]
+SCRIPT = ROOT / "tools" / "paraview" / "show_cloud.py"
+PIPE = ROOT / "cases" / "pipe"
+
+pytestmark = [
+    pytest.mark.paraview,
+    pytest.mark.skipif(shutil.which("pvpython") is None, reason="pvpython is not on PATH"),
+]
+
+RADIUS = 2e-4
+SHOWN = (Status.ACTIVE, Status.STUCK)
+STATUSES = np.array(
+    [Status.ACTIVE, Status.PENDING, Status.STUCK, Status.ESCAPED, Status.ACTIVE, Status.FAILED]
+)
+
+
+@pytest.fixture
+def duct(tmp_path: Path) -> Path:
+    """A duct of one cell, 8 × 1 × 1 mm, whose walls are the four long sides."""
+    case = tmp_path / "duct"
+    mesh = case / "constant" / "polyMesh"
+    mesh.mkdir(parents=True)
+    (case / "system").mkdir()
+    corners = [(x, y, z) for z in (0, 1e-3) for y in (0, 1e-3) for x in (0, 8e-3)]
+    faces = ["0 4 6 2", "1 3 7 5", "0 1 5 4", "2 6 7 3", "0 2 3 1", "4 5 7 6"]
+    write_gzipped(mesh / "points", "vectorField", [f"({x} {y} {z})" for x, y, z in corners])
+    write_gzipped(mesh / "faces", "faceList", [f"4({face})" for face in faces])
+    write_gzipped(mesh / "owner", "labelList", ["0"] * 6)
+    write_gzipped(mesh / "neighbour", "labelList", [])
+    patches = {"inlet": ("patch", 1, 0), "outlet": ("patch", 1, 1), "wall": ("wall", 4, 2)}
+    entries = [f"{k} {{ type {t}; nFaces {n}; startFace {start}; }}" for k, (t, n, start) in patches.items()]
+    (mesh / "boundary").write_text(foam_list("polyBoundaryMesh", "boundary", entries))
+    (case / "constant" / "g").write_text(
+        header("uniformDimensionedVectorField", "g") + "value (0 -9.81 0);\n"
+    )
+    (case / "system" / "controlDict").write_text(
+        header("dictionary", "controlDict") + "startTime 0; endTime 1; deltaT 1; writeInterval 1;\n"
+    )
+    return case
+
+
+def header(kind: str, name: str) -> str:
+    return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
+
+
+def foam_list(kind: str, name: str, entries: list[str]) -> str:
+    return "\n".join([header(kind, name), str(len(entries)), "(", *entries, ")\n"])
+
+
+def write_gzipped(path: Path, kind: str, entries: list[str]) -> None:
+    with gzip.open(path.with_name(f"{path.name}.gz"), "wt") as file:
+        file.write(foam_list(kind, path.name, entries))
+
+
+def deformation_gradients(n: int) -> NDArray[Any]:
+    """Rotations, stretches and shears without any symmetry, volume kept; shape (n, 3, 3)."""
+    F: NDArray[Any] = np.eye(3) + 0.45 * np.random.default_rng(2).standard_normal((n, 3, 3))
+    F[:, 0] *= np.sign(np.linalg.det(F))[:, None]
+    F /= np.cbrt(np.linalg.det(F))[:, None, None]
+    return F
+
+
+def write_run(case: Path, radius: float = RADIUS) -> tuple[Snapshot, NDArray[Any]]:
+    """Two times of a cloud of six bodies along a line; returns the last, and its F."""
+    n = len(STATUSES)
+    F = deformation_gradients(n)
+    stretches = np.linalg.svd(F, compute_uv=False)
+    series = Series(case / "postProcessing" / "softCloud", "softCloud")
+    for time in (0.1, 0.2):
+        points = np.c_[np.linspace(1e-3, 6e-3, n) + 1e-3 * time, np.full(n, 5e-4), np.full(n, 5e-4)]
+        snapshot = Snapshot(
+            time,
+            points,
+            {
+                # ParaView would take this one, alphabetically first, for the shape.
+                "deformationGradient": F.reshape(n, 9),
+                "glyph": (radius * F).transpose(0, 2, 1).reshape(n, 9),
+                "d": np.full(n, 2 * radius),
+                "taylorDeformation": (stretches[:, 0] - stretches[:, 2])
+                / (stretches[:, 0] + stretches[:, 2]),
+                "status": STATUSES.astype(np.int8),
+            },
+            {"d": "m"},
+            {"status": tuple(status.name.lower() for status in Status)},
+        )
+        series.append(snapshot)
+    return snapshot, F
+
+
+def pvpython(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """Run pvpython, on a virtual display of its own if there is xvfb-run."""
+    display = ["xvfb-run", "-a"] if shutil.which("xvfb-run") else []
+    command = [*display, "pvpython", *map(str, arguments)]
+    for _ in range(5):
+        done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+        # Now and then the first window aborts, the virtual display not being ready: no exit code of a script.
+        if done.returncode in (0, 1, 2):
+            break
+    return done
+
+
+def test_bodies_are_the_unit_sphere_mapped_by_RF(duct: Path, tmp_path: Path) -> None:
+    snapshot, F = write_run(duct)
+    driver = tmp_path / "driver.py"
+    driver.write_text(
+        textwrap.dedent(f"""
+            import sys
+            sys.path.insert(0, {str(SCRIPT.parent)!r})
+            from pathlib import Path
+            from paraview import simple
+            import show_cloud
+            scene = show_cloud.show(Path({str(duct)!r}), time=0.2, scale=2.0)
+            simple.SaveData({str(tmp_path / "bodies.vtp")!r}, scene.bodies)
+            simple.SaveData({str(tmp_path / "walls.vtm")!r}, scene.walls)
+            print("times", list(simple.GetTimeKeeper().TimestepValues))
+        """)
+    )
+    done = pvpython(driver)
+    assert done.returncode == 0, done.stderr
+    assert "times [0.1, 0.2]" in done.stdout
+
+    shown = np.isin(STATUSES, SHOWN)
+    bodies = pyvista.read(tmp_path / "bodies.vtp")
+    surfaces = np.asarray(bodies.points, dtype=float).reshape(shown.sum(), -1, 3)
+    H = 2.0 * RADIUS * F[shown]
+    offsets = surfaces - snapshot.points[shown, None]
+    xi = np.einsum("nij,nkj->nki", np.linalg.inv(H), offsets)
+    np.testing.assert_allclose(np.linalg.norm(xi, axis=2), 1.0, atol=1e-5)
+    # ParaView's sphere begins with its poles: the material points ±e3 are where F carries them.
+    np.testing.assert_allclose(offsets[:, 0], H[:, :, 2], atol=1e-5 * RADIUS * 10)
+    np.testing.assert_allclose(offsets[:, 1], -H[:, :, 2], atol=1e-5 * RADIUS * 10)
+    # Half the height of an ellipsoid along x is the length of the first row of its H.
+    reach = np.linalg.norm(H[:, 0], axis=1)
+    np.testing.assert_allclose(np.abs(offsets[:, :, 0]).max(axis=1), reach, rtol=0.02)
+
+    colour = bodies.point_data["taylorDeformation"].reshape(shown.sum(), -1)
+    expected = snapshot.arrays["taylorDeformation"][shown]
+    np.testing.assert_allclose(colour, np.broadcast_to(expected[:, None], colour.shape), rtol=1e-6)
+
+    walls = pyvista.read(tmp_path / "walls.vtm").combine()
+    assert walls.n_cells == 4
+    np.testing.assert_allclose(walls.bounds, (0, 8e-3, 0, 1e-3, 0, 1e-3), atol=1e-9)
+
+
+def test_picture_shows_bodies_in_the_walls(duct: Path, tmp_path: Path) -> None:
+    write_run(duct, radius=5e-5)
+    picture = tmp_path / "out.png"
+    done = pvpython(SCRIPT, duct, "--time", 0.1, "--screenshot", picture, "--size", "800x450")
+    assert done.returncode == 0, done.stderr
+    image = read_picture(picture)
+    assert image.shape == (450, 800, 3)
+    assert len(np.unique(image.reshape(-1, 3), axis=0)) > 500
+    assert saturated(image[:350]).mean() > 0.005
+    assert (image[225] < 250).all(axis=1).mean() > 0.3
+    assert not list(duct.glob("*.foam"))
+
+
+def test_scale_enlarges_bodies(duct: Path, tmp_path: Path) -> None:
+    write_run(duct, radius=2e-5)
+    shares = []
+    for scale in (2, 6):
+        picture = tmp_path / f"{scale}.png"
+        done = pvpython(SCRIPT, duct, "--scale", scale, "--screenshot", picture, "--size", "800x450")
+        assert done.returncode == 0, done.stderr
+        shares.append(saturated(read_picture(picture)[:350]).mean())
+    assert shares[1] > 5 * shares[0] > 0
+
+
+def test_run_without_cloud_shows_the_walls_and_says_so(duct: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "out.png"
+    done = pvpython(SCRIPT, duct, "--screenshot", picture, "--size", "400x300")
+    assert done.returncode == 0, done.stderr
+    assert "softCloud.pvd: no such file, so no particles are shown. Run foamprb first." in done.stdout
+    image = read_picture(picture)
+    assert len(np.unique(image.reshape(-1, 3), axis=0)) > 20
+    assert not saturated(image).any()
+
+
+def test_time_that_was_not_written_and_nobody_in_the_flow(duct: Path, tmp_path: Path) -> None:
+    Series(duct / "postProcessing" / "softCloud", "softCloud").append(
+        Snapshot(
+            0.0,
+            np.zeros((2, 3)),
+            {
+                "d": np.full(2, 1e-5),
+                "glyph": np.zeros((2, 9)),
+                "taylorDeformation": np.zeros(2),
+                "status": np.full(2, Status.PENDING, dtype=np.int8),
+            },
+        )
+    )
+    done = pvpython(SCRIPT, duct, "--time", 0.05, "--screenshot", tmp_path / "out.png", "--size", "400x300")
+    assert done.returncode == 0, done.stderr
+    assert "Time 0.05 s was not written; the nearest is 0 s." in done.stdout
+    assert "ERR" not in done.stderr
+    assert (tmp_path / "out.png").is_file()
+
+
+@pytest.mark.skipif(not (PIPE / "constant" / "polyMesh").is_dir(), reason="cases/pipe holds no mesh")
+def test_pipe_of_the_cases(tmp_path: Path) -> None:
+    case = tmp_path / "pipe"
+    shutil.copytree(PIPE, case, ignore=shutil.ignore_patterns("postProcessing"))
+    write_run(case, radius=2.5e-6)
+    picture = tmp_path / "out.png"
+    done = pvpython(SCRIPT, case, "--screenshot", picture, "--size", "800x450")
+    assert done.returncode == 0, done.stderr
+    assert saturated(read_picture(picture)[:350]).mean() > 0.001
+
+
+def read_picture(path: Path) -> NDArray[Any]:
+    """Red, green and blue of each pixel, from the top; shape (height, width, 3)."""
+    image = pyvista.read(path)
+    width, height, _ = image.dimensions
+    pixels: NDArray[Any] = image.point_data.active_scalars
+    return pixels.reshape(height, width, -1)[::-1, :, :3]
+
+
+def saturated(image: NDArray[Any]) -> NDArray[Any]:
+    """Pixels of the colour map; walls, paper and ink are nearly grey."""
+    result: NDArray[Any] = np.ptp(image.astype(int), axis=2) > 60
+    return result

@@ -1,0 +1,330 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from foamprb import analytic
+from foamprb.body.drag import oberbeck
+from foamprb.body.ellipsoid import integrals, reach
+from foamprb.body.imex import relaxation_time
+from foamprb.body.material import MATERIALS
+from foamprb.cloud.advance import LANES, ROWS, Medium, PatchTable, track_block
+from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.measures import context, measure
+from foamprb.cloud.patches import Escape, Rebound, Stick
+from foamprb.cloud.state import Particles, Reason, Status, spheres
+
+AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
+WALL_RATE, RADIUS, D = 923.8, 2.1e-3, 5e-6
+MEAN = WALL_RATE * RADIUS / 4
+
+
+def modulus(Ca):
+    return AIR.mu * WALL_RATE / np.asarray(Ca)
+
+
+def pipe_cloud(Ca, dt=2e-5, x=(0.0, -1.65e-3, 0.0), wall=None, length=0.3, touching="ellipsoid", **options):
+    Ca = np.atleast_1d(Ca)
+    p = spheres(np.tile(x, (len(Ca), 1)), d=D, rho=2560.0, mu=modulus(Ca))
+    models = Models(touching=touching, **{k: options.pop(k) for k in ("drag", "traction") if k in options})
+    flow = analytic.pipe(RADIUS, MEAN, length)
+    p.host[:] = 0
+    return Cloud(p, flow, AIR, (wall or Stick(), Escape(), Escape()), dt, models, **options)
+
+
+def scattered_cloud(n=70, **options):
+    random = np.random.default_rng(1)
+    cloud = pipe_cloud(np.linspace(0.05, 1.0, n), length=0.03, **options)
+    p = cloud.particles
+    r, phi = RADIUS * np.sqrt(random.uniform(0, 0.98, n)), random.uniform(0, 2 * np.pi, n)
+    r[:5], phi[:5] = 0.996 * RADIUS, np.pi
+    p.x[:] = p.x0[:] = np.stack([random.uniform(0, 0.02, n), r * np.cos(phi), r * np.sin(phi)], axis=1)
+    p.t0[:] = p.t[:] = random.uniform(0, 5e-3, n)
+    return cloud
+
+
+def assert_same(a: Particles, b: Particles):
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+class TestPipe:
+    """Sect. 5.4 with the exact profile."""
+
+    def test_quasi_rigid_particle_lands_where_a_rigid_sphere_does(self):
+        """0.2327 s and 8989 diameters downstream, touching by its centre."""
+        cloud = pipe_cloud(1e-4, touching="centre")
+        cloud.advance(15_000)
+        p = cloud.particles
+        assert p.status[0] == Status.STUCK
+        assert cloud.flow.patches[p.patch[0]].name == "wall"
+        assert p.t[0] == pytest.approx(0.2327, rel=1e-3)
+        assert p.x[0, 0] / D == pytest.approx(8989, rel=1e-3)
+        assert np.hypot(p.x[0, 1], p.x[0, 2]) == pytest.approx(RADIUS, rel=1e-9)
+
+    def test_angular_velocity_settles_at_half_the_shear_rate(self):
+        cloud = pipe_cloud(1e-4)
+        # Ten relaxation times; the particle has not yet fallen into a faster shear.
+        cloud.advance(round(10 * relaxation_time(2560.0, D / 2, AIR.mu) / cloud.dt))
+        omega = measure(context(cloud.particles, cloud.flow, AIR.mu, cloud.time))["angularVelocity"][0]
+        np.testing.assert_allclose(omega, [0.0, 0.0, -363.0], atol=0.002 * 363)
+
+    def test_distance_grows_with_softness_and_dips_with_the_prolate_surrogate(self):
+        Ca = [1e-4, 0.25, 0.5, 1.0]
+        exact = pipe_cloud(Ca)
+        exact.advance(20_000)
+        assert (np.diff(exact.particles.x[:, 0]) > 0).all()
+        surrogate = pipe_cloud([1e-4, 0.3], drag="brennerProlate")
+        surrogate.advance(20_000)
+        assert surrogate.particles.x[1, 0] < surrogate.particles.x[0, 0]
+        assert (surrogate.particles.status == Status.STUCK).all()
+
+    def test_a_stuck_ellipsoid_touches_the_wall(self):
+        cloud = pipe_cloud([1e-4, 0.25, 1.0])
+        cloud.advance(20_000)
+        for x, F in zip(cloud.particles.x, cloud.particles.F, strict=True):
+            r = np.hypot(x[1], x[2])
+            n = (0.0, -x[1] / r, -x[2] / r)
+            # The moment of contact is found to second order in the step.
+            assert r + reach(D / 2, tuple(F), n) == pytest.approx(RADIUS, abs=2e-4 * D)
+
+    def test_a_particle_leaves_where_the_pipe_ends(self):
+        cloud = pipe_cloud(0.1, x=(0.0, 0.0, 0.0), length=0.01)
+        cloud.advance(5_000)
+        p = cloud.particles
+        assert p.status[0] == Status.ESCAPED
+        assert cloud.flow.patches[p.patch[0]].name == "outlet"
+        assert p.x[0, 0] == pytest.approx(0.01, rel=1e-12)
+
+    def test_position_and_shape_converge_with_first_order(self):
+        found = []
+        for dt in (4e-5, 2e-5, 1e-5, 5e-6):
+            cloud = pipe_cloud(0.5, dt=dt)
+            cloud.advance(round(4e-3 / dt))
+            found.append(np.concatenate([cloud.particles.x[0] / D, cloud.particles.F[0]]))
+        steps = np.diff(found, axis=0)
+        ratios = np.linalg.norm(steps[:-1], axis=1) / np.linalg.norm(steps[1:], axis=1)
+        np.testing.assert_allclose(ratios, 2.0, atol=0.25)
+
+
+class TestBookkeeping:
+    def test_every_particle_is_accounted_for_at_every_step(self):
+        cloud = scattered_cloud()
+        injected = 0
+        for _ in range(150):
+            cloud.advance(10)
+            counts = cloud.particles.counts()
+            assert sum(counts.values()) == cloud.particles.size
+            assert counts[Status.FAILED] == 0
+            now = cloud.particles.size - counts[Status.PENDING]
+            assert now >= injected
+            assert now == np.count_nonzero(cloud.particles.t0 < cloud.time)
+            injected = now
+        assert counts[Status.ESCAPED] > 0
+        assert counts[Status.STUCK] > 0
+
+    @pytest.mark.parametrize("threads", [2, 3])
+    def test_the_answer_does_not_depend_on_threads_or_chunks(self, threads):
+        one, many = scattered_cloud(threads=1), scattered_cloud(threads=threads)
+        one.advance(600)
+        for steps in (1, 7, 92, 500):
+            many.advance(steps)
+        assert_same(one.particles, many.particles)
+
+    def test_the_answer_does_not_depend_on_the_order_of_particles(self, random):
+        cloud, other = scattered_cloud(), scattered_cloud()
+        order = random.permutation(cloud.particles.size)
+        other.particles = other.particles.take(order)
+        cloud.advance(400)
+        other.advance(400)
+        assert_same(cloud.particles.take(order), other.particles)
+
+    def test_compiled_and_plain_text_agree(self):
+        """The same text as plain Python, on one block in a shear flow."""
+        clouds = []
+        for _ in range(2):
+            p = spheres(np.zeros((2, 3)), d=D, rho=2560.0, mu=modulus([0.1, 0.7]))
+            p.host[:] = 0
+            clouds.append(Cloud(p, analytic.shear(500.0), AIR, (), 2e-5))
+        compiled, plain = clouds
+        compiled.advance(5)
+        table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0))
+        block, clearance = np.empty(ROWS * LANES), np.empty(LANES)
+        with np.errstate(all="ignore"):
+            flow = plain.flow.arrays(0.0, ())
+            track_block(flow, table, AIR, plain.particles, np.arange(2), 0, 5, plain.dt, block, clearance)
+        for name in ("x", "v", "F"):
+            a, b = getattr(compiled.particles, name), getattr(plain.particles, name)
+            np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-14)
+
+    def test_a_step_beyond_stability_ends_particles_with_a_reason_and_no_others(self):
+        cloud = pipe_cloud([1e-3, 1.0, 1.0], dt=4e-4)
+        p = cloud.particles
+        p.R[0] *= 20  # a larger sphere relaxes 400 times slower
+        cloud.advance(300)
+        assert p.status[0] != Status.FAILED
+        assert (p.status[1:] == Status.FAILED).all()
+        assert all(p.reason[1:] != Reason.NONE)
+        assert np.isfinite(p.x).all()
+
+
+class TestWalls:
+    def falling(self, interaction, v, mu=1e-9):
+        """A heavy stiff sphere in nearly no fluid, without gravity, moving towards the wall of a pipe."""
+        p = spheres([[0.1, -RADIUS + 4 * D, 0.0]], d=D, rho=2560.0, mu=10.0)
+        p.host[:] = 0
+        p.v[:] = v
+        medium = Medium(mu, 1e-9, (0.0, 0.0, 0.0))
+        interactions = (interaction, Escape(), Escape())
+        return Cloud(p, analytic.pipe(RADIUS, 0.0, 1.0), medium, interactions, 1e-5)
+
+    @pytest.mark.parametrize(("e", "mu"), [(1.0, 0.0), (0.6, 0.3), (0.0, 1.0)])
+    def test_rebound_keeps_the_restituted_velocity(self, e, mu):
+        cloud = self.falling(Rebound(e, mu), (0.02, -0.05, 0.0))
+        cloud.advance(60)
+        np.testing.assert_allclose(cloud.particles.v[0], [(1 - mu) * 0.02, e * 0.05, 0.0], rtol=2e-4, atol=1e-8)
+        assert cloud.particles.status[0] == Status.ACTIVE
+        assert cloud.particles.counts()[Status.FAILED] == 0
+
+    def test_rebound_turns_back_where_the_surface_touches(self):
+        cloud = self.falling(Rebound(), (0.0, -0.05, 0.0))
+        lowest = 0.0
+        for _ in range(60):
+            cloud.advance(1)
+            lowest = min(lowest, cloud.particles.x[0, 1])
+        assert lowest == pytest.approx(-RADIUS + D / 2, abs=0.05 * 1e-5)
+
+    def test_a_particle_released_in_touch_with_a_sticky_wall_stays_there(self):
+        cloud = pipe_cloud(0.1, x=(0.05, -RADIUS + 0.4 * D, 0.0))
+        cloud.advance(3)
+        assert cloud.particles.status[0] == Status.STUCK
+        np.testing.assert_array_equal(cloud.particles.x, cloud.particles.x0)
+        assert cloud.particles.t[0] == cloud.particles.t0[0]
+
+
+class TestBody:
+    """The compiled loop in unbounded flows, against independent solutions."""
+
+    def cloud(self, flow, Ca, stokes, dt_over_tau, traction="roscoe", nu=0.49999, R=1e-6):
+        """Particles without gravity in a flow of unit shear rate, with a given shape Stokes number."""
+        Ca = np.atleast_1d(Ca)
+        mu_f = 1e-3
+        rho = stokes * 15 * mu_f / R**2
+        p = spheres(np.zeros((len(Ca), 3)), d=2 * R, rho=rho, mu=mu_f / Ca, poissons_ratio=nu)
+        p.host[:] = 0
+        dt = dt_over_tau * stokes
+        return Cloud(p, flow, Medium(mu_f, rho, (0.0, 0.0, 0.0)), (), dt, Models(traction=traction))
+
+    def in_shear(self, cloud):
+        """D, b/a, c/a, θ in degrees and |ω_s3|, with c the axis along the vorticity."""
+        p = cloud.particles
+        m = measure(context(p, cloud.flow, cloud.medium.mu, cloud.time))
+        rows = []
+        for F, omega in zip(p.F.reshape(-1, 3, 3), m["angularVelocity"], strict=True):
+            values, vectors = np.linalg.eigh(F @ F.T)
+            out = int(np.argmax(abs(vectors[2])))
+            b, a = (i for i in range(3) if i != out)
+            r = np.sqrt(values)
+            theta = np.degrees(np.arctan(vectors[1, a] / vectors[0, a]))
+            rows.append([(r[a] - r[b]) / (r[a] + r[b]), r[b] / r[a], r[out] / r[a], theta, abs(omega[2])])
+        return np.array(rows)
+
+    def test_steady_shear_of_the_inertialess_particle(self):
+        """The table of an independent high-order solution, reached by extrapolating to zero inertia."""
+        Ca = [0.01, 0.1, 0.4]
+        table = np.array(
+            [
+                [0.01250, 0.97531, 0.98760, 44.570, 0.50012],
+                [0.12392, 0.77949, 0.88485, 40.733, 0.51242],
+                [0.44314, 0.38587, 0.64198, 29.397, 0.68281],
+            ]
+        )
+        found = []
+        for stokes in (4e-3, 2e-3):
+            cloud = self.cloud(analytic.shear(1.0), Ca, stokes, 0.5)
+            cloud.advance(round(20 / cloud.dt))
+            found.append(self.in_shear(cloud))
+        error = abs(2 * found[1] - found[0] - table)
+        assert (error[:, [0, 1, 2, 4]] < 3e-5).all()
+        assert (error[:, 3] < 2e-3).all()
+
+    def test_transient_shear(self):
+        """Ca = 0.4 at γ̇t = 1 and 3, extrapolated to zero inertia."""
+        found = []
+        for stokes in (2e-3, 1e-3):
+            cloud = self.cloud(analytic.shear(1.0), 0.4, stokes, 0.5)
+            rows = []
+            for t in (1.0, 3.0):
+                cloud.advance(round(t / cloud.dt) - cloud.step)
+                rows.append(self.in_shear(cloud)[0, 1:4])
+            found.append(np.array(rows))
+        expected = [[0.4494, 0.6927, 34.86], [0.3833, 0.6410, 29.62]]
+        extrapolated = 2 * found[1] - found[0]
+        np.testing.assert_allclose(extrapolated[:, :2], np.array(expected)[:, :2], atol=1.5e-4)
+        np.testing.assert_allclose(extrapolated[:, 2], np.array(expected)[:, 2], atol=0.02)
+
+    def test_jefferys_traction_leaves_the_orientation_at_45_degrees(self):
+        cloud = self.cloud(analytic.shear(1.0), [0.1, 0.3], 2e-3, 0.5, traction="jeffery")
+        cloud.advance(round(15 / cloud.dt))
+        np.testing.assert_allclose(self.in_shear(cloud)[:, 3], 45.0, atol=0.1)
+
+    def test_quasi_rigid_sphere_spins_up_as_a_rigid_one(self):
+        """ω(t) = γ̇/2 (1 − exp(−t/τ_s)) in a pure rotation (Sect. 5.1)."""
+        stokes = 1.0
+        cloud = self.cloud(analytic.rotation(1.0), 1e-4, stokes, 5e-4, nu=0.49)
+        for t in (0.5, 1.0, 3.0):
+            cloud.advance(round(t / cloud.dt) - cloud.step)
+            m = measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time))
+            expected = 0.5 * (1 - np.exp(-t / stokes))
+            np.testing.assert_allclose(m["angularVelocity"][0], [0.0, 0.0, -expected], atol=4e-4)
+
+    def test_volume_is_kept_in_the_incompressible_limit(self):
+        cloud = self.cloud(analytic.extension(1.0), 0.05, 2e-3, 0.5)
+        cloud.advance(round(5 / cloud.dt))
+        J = np.linalg.det(cloud.particles.F.reshape(-1, 3, 3))
+        np.testing.assert_allclose(J, 1.0, atol=1e-5)
+
+    def test_energy_only_falls_in_a_fluid_at_rest(self):
+        """A stretched body springs back; its kinetic and stored energy together never grow."""
+        cloud = self.cloud(analytic.linear(np.zeros((3, 3))), [0.05, 1.0], 5.0, 1e-3, nu=0.45)
+        p = cloud.particles
+        p.F[:] = np.diag([1.5, 0.8, 1 / 1.2]).ravel()
+        volume, theta = 4 / 3 * np.pi * p.R**3, 4 / 3 * np.pi * p.R**5 * p.rho / 5
+
+        def energy():
+            stored = MATERIALS["neoHooke"].energy(tuple(p.F.T), p.mu, p.lame)
+            return 0.5 * theta * (p.A**2).sum(axis=1) + volume * stored
+
+        before = start = energy()
+        for _ in range(300):
+            cloud.advance(20)
+            now = energy()
+            assert (now <= before * (1 + 1e-12)).all()
+            before = now
+        assert (now < 0.05 * start).all()
+
+    def test_sphere_settles_with_stokes_velocity(self):
+        """v = 2/9 (ρ_s − ρ_f) g R²/μ_f."""
+        p = spheres([[0.0, 0.0, 0.0]], d=D, rho=2560.0, mu=modulus(1e-4))
+        p.host[:] = 0
+        cloud = Cloud(p, analytic.linear(np.zeros((3, 3))), AIR, (), 2e-5)
+        cloud.advance(1000)
+        expected = 2 / 9 * (2560.0 - AIR.rho) * 9.81 * (D / 2) ** 2 / AIR.mu
+        # The weight of the fluid column squeezes nothing: far pressure is zero, J stays 1.
+        np.testing.assert_allclose(p.v[0], [0.0, -expected, 0.0], rtol=1e-9, atol=1e-15)
+
+    def test_deformed_body_settles_with_its_resistance(self):
+        """K v = (ρ_s − ρ_f) vol g along each axis of a body that a stiff solid keeps in shape."""
+        p = spheres(np.zeros((1, 3)), d=D, rho=2560.0, mu=modulus(0.2))
+        p.host[:] = 0
+        rate = 300.0
+        cloud = Cloud(p, analytic.extension(rate), AIR, (), 1e-5)
+        cloud.advance(2000)
+        axes = np.linalg.norm(p.F.reshape(3, 3), axis=1)
+        K = np.array(oberbeck(tuple(axes), integrals(tuple(axes)))) * D / 2
+        J = np.prod(axes)
+        weight = (2560.0 / J - AIR.rho) * J * 4 / 3 * np.pi * (D / 2) ** 3 * 9.81
+        u = -rate / 2 * p.x[0, 1]
+        drift = p.v[0, 1] - u
+        # What is left is the body's own acceleration along its curved path.
+        np.testing.assert_allclose(drift, -weight / (AIR.mu * K[1]), rtol=0.07)

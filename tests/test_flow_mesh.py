@@ -1,0 +1,167 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import pyvista
+from hypothesis import given
+from hypothesis import strategies as st
+from test_flow_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches, polyhedra
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh import Patch, build_mesh
+
+
+def volumes(mesh):
+    a, b, c, d = (mesh.nodes[mesh.tets[:, k]] for k in range(4))
+    return np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a)) / 6.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_tetrahedra_fill_the_mesh(kind):
+    mesh = build_mesh(block(4, 0.3, kind))
+    assert mesh.inverted == 0
+    assert volumes(mesh).min() > 0.0
+    assert np.sum(volumes(mesh)) == pytest.approx(1.0, rel=1e-13)
+    assert np.sum(mesh.volumes) == pytest.approx(1.0, rel=1e-13)
+    assert np.array_equal(
+        np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_start)), mesh.tets[:, 0] - mesh.n_points
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_tetrahedra_fill_each_cell_with_plane_faces(kind):
+    mesh = build_mesh(block(4, 0.0, kind))
+    assert np.allclose(np.add.reduceat(volumes(mesh), mesh.cell_start[:-1]), mesh.volumes, rtol=1e-12)
+
+
+@given(st.sampled_from(KINDS), st.floats(0.0, 0.6), st.integers(0, 1000))
+def test_neighbours_share_a_face_and_know_each_other(kind, perturbation, seed):
+    mesh = build_mesh(block(2, perturbation, kind, seed))
+    tet, slot = np.nonzero(mesh.neighbours >= 0)
+    other = mesh.neighbours[tet, slot]
+    back = mesh.neighbours[other] == tet[:, None]
+    assert np.all(back.sum(axis=1) == 1)
+    opposite = np.argmax(back, axis=1)
+
+    def face(tets, slots):
+        rows = mesh.tets[tets].astype(int)
+        rows[np.arange(len(rows)), slots] = -1
+        return np.sort(rows, axis=1)
+
+    assert np.array_equal(face(tet, slot), face(other, opposite))
+    assert np.sum(volumes(mesh)) == pytest.approx(1.0)
+
+
+def test_boundary_triangles_cover_the_boundary_and_know_their_tetrahedron():
+    mesh = build_mesh(block(3, 0.3, "mixed"))
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    assert np.sum(np.linalg.norm(np.cross(b - a, c - a), axis=1)) / 2.0 == pytest.approx(6.0)
+    tet, slot = np.nonzero(mesh.neighbours < 0)
+    assert np.array_equal(np.sort(-1 - mesh.neighbours[tet, slot]), np.arange(len(mesh.triangles)))
+    assert np.array_equal(mesh.triangle_tet[-1 - mesh.neighbours[tet, slot]], tet)
+    inside = mesh.centres[mesh.tets[mesh.triangle_tet, 0] - mesh.n_points]
+    assert np.all(np.einsum("ti,ti->t", inside - a, mesh.triangle_normals) > 0.0)
+
+
+def test_a_warped_face_is_cut_for_the_better_tetrahedra():
+    points = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+    points[7] = (0.4, 0.4, 0.45)
+    mesh = build_mesh(grid(points, [(12, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]))
+    top = [set(face) for face in mesh.triangles.tolist() if set(face) <= {4, 5, 6, 7}]
+    assert {4, 7} <= top[0] & top[1]
+    assert mesh.inverted == 0
+
+
+def test_inverted_tetrahedra_are_counted():
+    mesh = build_mesh(block(3, 2.5))
+    assert mesh.inverted == np.count_nonzero(volumes(mesh) <= 0.0) > 0
+
+
+def test_faces_of_six_vertices():
+    angle = np.arange(6) * np.pi / 3.0
+    ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(6)])
+    points = np.concatenate([ring, ring + np.array([0, 0, 1]), ring + np.array([0, 0, 2])])
+    faces = [[[*range(6)], [*range(6, 12)], *([k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6] for k in range(6))]]
+    mesh = build_mesh(polyhedra(points, [faces[0], [[p + 6 for p in face] for face in faces[0]]]))
+    assert len(mesh.tets) == 2 * (4 + 4 + 6 * 2)
+    assert mesh.volumes == pytest.approx(1.5 * np.sqrt(3.0) * np.ones(2))
+    assert mesh.centres == pytest.approx(np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 1.5]]))
+
+
+def test_patches_keep_name_type_and_order():
+    shape = pipe(4)
+    patches = pipe_patches(shape)
+    mesh = build_mesh(shape, patches)
+    assert mesh.patches == (Patch("inlet", "patch"), Patch("outlet", "patch"), Patch("wall", "wall"))
+    assert np.array_equal(mesh.patch_start, [0, 48, 96, 160])
+    for index, patch in enumerate(patches):
+        own = mesh.boundary_centres[mesh.patch_start[index] : mesh.patch_start[index + 1]]
+        assert own == pytest.approx(patch.surface.cell_centers().points, abs=0.03)
+    assert np.all(mesh.boundary_areas[:48, 0] < 0.0)
+
+
+def test_single_precision_points_are_matched():
+    shape = pipe(4, length=0.1, radius=2.1e-3)
+    shape.points = shape.points.astype(np.float32)
+    mesh = build_mesh(shape, pipe_patches(shape, length=0.1))
+    assert mesh.points.dtype == np.float64
+    assert np.array_equal(mesh.points, shape.points.astype(float))
+
+
+def test_two_patches_on_the_same_points_are_told_apart():
+    """A baffle: the cells on its two sides do not share points."""
+    points, hexes = corners(1, 0.0)
+    two = np.concatenate([points, points + np.array([1.0, 0.0, 0.0])])
+    shape = grid(two, [(12, np.concatenate([hexes, hexes + 8]))])
+    faces = {"left": [1, 3, 7, 5], "right": [8, 12, 14, 10]}
+    surface = shape.extract_surface(algorithm="dataset_surface", pass_pointid=False, pass_cellid=False)
+    outer = np.flatnonzero(np.abs(surface.cell_centers().points[:, 0] - 1.0) > 1e-9)
+    patches = [("outer", "wall", surface.extract_cells(outer).extract_surface(algorithm="dataset_surface"))]
+    patches += [(name, "patch", pyvista.PolyData(two, [4, *face])) for name, face in faces.items()]
+    mesh = build_mesh(shape, [type(pipe_patches(pipe(2))[0])(*patch) for patch in patches])
+    normals = mesh.triangle_normals[:, 0]
+    assert np.all(normals[mesh.triangle_patch == 1] == -1.0)
+    assert np.all(normals[mesh.triangle_patch == 2] == 1.0)
+
+
+def test_boundary_faces_without_patch_are_refused():
+    shape = block(2)
+    with pytest.raises(
+        InputError, match=r"4 of 24 boundary faces belong to no patch; the patches are floor, sides"
+    ):
+        build_mesh(shape, [patch for patch in box_patches(shape) if patch.name != "lid"])
+
+
+def test_boundary_faces_with_two_patches_are_refused():
+    shape = block(2)
+    patches = box_patches(shape)
+    with pytest.raises(InputError, match="4 boundary faces belong to more than one"):
+        build_mesh(shape, [*patches, patches[0]])
+
+
+def test_a_patch_beside_the_mesh_is_refused():
+    shape = block(2)
+    patches = box_patches(shape)
+    patches[0].surface.points += 0.25
+    with pytest.raises(InputError, match="4 of the 4 faces of patch floor are not on the boundary"):
+        build_mesh(shape, patches)
+
+
+def test_a_face_of_three_cells_is_refused():
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match="three or more cells"):
+        build_mesh(grid(points, [(12, np.concatenate([hexes, hexes, hexes]))]))
+
+
+def test_an_open_cell_is_refused():
+    points, hexes = corners(1, 0.0)
+    faces = [hexes[0][[0, 4, 7, 3]], hexes[0][[1, 2, 6, 5]], hexes[0][[0, 1, 5, 4]], hexes[0][[3, 7, 6, 2]]]
+    with pytest.raises(InputError, match="1 cells are not closed"):
+        build_mesh(polyhedra(points, [[*faces, hexes[0][[0, 3, 2, 1]]]]))
+
+
+@pytest.mark.parametrize(("kind", "size"), [(11, 8), (9, 4)])
+def test_other_kinds_of_cell_are_refused(kind, size):
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match=f"cells of VTK type {kind}; allowed are tetrahedron"):
+        build_mesh(grid(points, [(kind, hexes[:, :size])]))

@@ -1,0 +1,336 @@
+from __future__ import annotations
+
+import gzip
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+from test_flow_shapes import block, box_patches, corners, grid, pipe
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh import Patch, build_mesh
+from foamprb.flow.meshfile import read_mesh_file
+from foamprb.flow.openfoam import available_times, describe, read_case, read_fields, select_time
+
+PIPE = Path(__file__).parents[1] / "cases" / "pipe"
+GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
+
+
+def header(kind, name, note=""):
+    noted = f'note "{note}";' if note else ""
+    return f"FoamFile\n{{\nversion 2.0; format ascii; class {kind}; object {name}; {noted}\n}}\n"
+
+
+def rows(values):
+    return "\n".join("(" + " ".join(f"{x:.9g}" for x in row) + ")" for row in values)
+
+
+def write_case(folder, kind="hexahedra", note=True):
+    """A case in OpenFOAM's ascii format, its velocity linear; floor and sides are walls."""
+    shape = block(2, 0.2, kind)
+    mesh = build_mesh(shape, box_patches(shape))
+    poly = folder / "constant" / "polyMesh"
+    poly.mkdir(parents=True)
+    (folder / "system").mkdir()
+    (folder / "system" / "controlDict").write_text(header("dictionary", "controlDict"))
+    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
+    counts = f"nPoints:{mesh.n_points}  nCells:{mesh.n_cells}  nFaces:{len(faces)}"
+    lists = {
+        "points": ("vectorField", rows(mesh.points), mesh.n_points),
+        "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in faces), len(faces)),
+        "owner": ("labelList", "\n".join(map(str, mesh.owner)), len(faces)),
+        "neighbour": ("labelList", "\n".join(map(str, mesh.neighbour)), mesh.n_internal),
+    }
+    for name, (cls, body, count) in lists.items():
+        (poly / name).write_text(header(cls, name, counts if note else "") + f"{count}\n(\n{body}\n)\n")
+    patches, values = "", ""
+    for patch, first, last in zip(mesh.patches, mesh.patch_start[:-1], mesh.patch_start[1:], strict=True):
+        patches += (
+            f"    {patch.name} // a patch\n    {{ type {patch.type}; inGroups 1(some);"
+            f" nFaces {last - first}; startFace {mesh.n_internal + first}; }}\n"
+        )
+        at = mesh.boundary_centres[first:last] @ GRADIENT.T
+        values += f"{patch.name} {{ type fixedValue; value nonuniform List<vector> {len(at)}\n"
+        values += f"(\n{rows(at)}\n);\n}}\n"
+    (poly / "boundary").write_text(
+        header("polyBoundaryMesh", "boundary") + f"{len(mesh.patches)}\n(\n{patches})\n"
+    )
+    for time in ("0", "0.5", "1e1"):
+        (folder / time).mkdir()
+        cells = rows(mesh.centres @ GRADIENT.T)
+        (folder / time / "U").write_text(
+            header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
+            f"internalField nonuniform List<vector> {mesh.n_cells}\n(\n{cells}\n);\n"
+            f"boundaryField\n{{\n{values}}}\n"
+        )
+        (folder / time / "p").write_text(
+            header("volScalarField", "p") + "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\n"
+            "boundaryField { floor { type none; } sides { type none; } lid { type none; } }\n"
+        )
+    return mesh
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_case(tmp_path / "case")
+    return tmp_path / "case"
+
+
+def edit(path, pattern, replacement, count=1):
+    text = path.read_text()
+    changed = re.sub(pattern, replacement, text, count=count)
+    assert changed != text
+    path.write_text(changed)
+
+
+@pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed"])
+def test_a_case_is_read_as_it_was_written(kind, tmp_path):
+    written = write_case(tmp_path, kind)
+    mesh, cells, boundary, name = read_fields(tmp_path)
+    assert name == "1e1"
+    assert mesh.patches == (Patch("floor", "wall"), Patch("lid", "patch"), Patch("sides", "wall"))
+    assert np.array_equal(mesh.patch_start, written.patch_start)
+    assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
+    assert mesh.boundary_centres == pytest.approx(written.boundary_centres, abs=1e-6)
+    assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
+    assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
+
+
+def test_the_flow_of_a_case(case, random):
+    flow = read_case(case, 0.5)
+    points = random.random((200, 3))
+    u, l = flow.sample(points, flow.locate(points))  # noqa: E741
+    assert u == pytest.approx(points @ GRADIENT.T, abs=2e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=2e-4)
+    assert "single precision" in flow.notes[0]
+    assert "initial guess" in read_case(case, "0").notes[1]
+
+
+def test_compressed_files_are_read(case):
+    before = read_fields(case)[1]
+    for path in [*(case / "constant" / "polyMesh").iterdir(), case / "1e1" / "U"]:
+        (path.parent / (path.name + ".gz")).write_bytes(gzip.compress(path.read_bytes()))
+        path.unlink()
+    assert np.array_equal(read_fields(case)[1], before)
+    assert describe(case).patches[0] == ("floor", "wall", 4)
+
+
+def test_times_keep_their_names(case):
+    assert available_times(case) == ("0", "0.5", "1e1")
+    assert [select_time(case, time) for time in ("latestTime", 10.0, "0.50", 0)] == ["1e1", "1e1", "0.5", "0"]
+
+
+def test_description(case):
+    info = describe(case)
+    assert [time.name for time in info.times] == ["0", "0.5", "1e1"]
+    assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
+    assert info.patches == (("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16))
+    assert (info.points, info.cells) == (27, {"hexahedron": 8})
+    assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
+
+
+def cut(name, share=0.5):
+    def breakage(case):
+        path = case / name
+        path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+
+    return breakage
+
+
+def cut_compressed(case):
+    path = case / "1e1" / "U"
+    packed = gzip.compress(path.read_bytes())
+    (case / "1e1" / "U.gz").write_bytes(packed[: len(packed) // 2])
+    path.unlink()
+
+
+def rewrite(name, pattern, replacement):
+    return lambda case: edit(case / name, pattern, replacement)
+
+
+def remove(name):
+    def breakage(case):
+        path = case / name
+        if path.is_dir():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
+
+    return breakage
+
+
+def only_processors(case):
+    (case / "processor0" / "constant").mkdir(parents=True)
+    shutil.rmtree(case / "constant" / "polyMesh")
+
+
+POLY = "constant/polyMesh/"
+BREAKAGES = {
+    "no case": (lambda case: shutil.rmtree(case), "no such folder"),
+    "no mesh": (remove(POLY[:-1]), "polyMesh: no mesh here; is .* an OpenFOAM case"),
+    "decomposed": (only_processors, "only the processor folders hold a mesh; run reconstructParMesh"),
+    "no U": (remove("1e1/U"), r"1e1: no field U; the fields are p\."),
+    "U cut short": (cut("1e1/U"), "1e1/U"),
+    "U cut in the boundary": (cut("1e1/U", 0.9), "1e1/U"),
+    "U.gz cut short": (cut_compressed, "1e1/U.gz"),
+    "U empty": (cut("1e1/U", 0.0), r"1e1/U: the class is \(none\)"),
+    "U of another mesh": (rewrite("1e1/U", r"<vector> 8\n\(\n\(", "<vector> 9\n(\n(0 0 0)\n("), "U"),
+    "U not finite": (
+        rewrite("1e1/U", r"<vector> 8\n\(\n\(\S+", "<vector> 8\n(\n(nan"),
+        "Error reading line .*1e1/U",
+    ),
+    "U a scalar": (rewrite("1e1/U", "volVectorField", "volScalarField"), "the class is volScalarField"),
+    "U without a patch": (rewrite("1e1/U", "lid", "lit"), "no values could be read for patch lid"),
+    "owner out of range": (
+        rewrite(POLY + "owner", r"\n7\n", "\n9999\n"),
+        "header says nCells 8, but .* has 10000",
+    ),
+    "owner cut short": (cut(POLY + "owner"), "owner"),
+    "neighbour cut short": (cut(POLY + "neighbour"), "neighbour"),
+    "neighbour out of range": (rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"), "has 78"),
+    "faces cut short": (cut(POLY + "faces"), "faces"),
+    "points cut short": (cut(POLY + "points"), "points"),
+    "no points": (remove(POLY + "points"), "points"),
+    "no owner": (remove(POLY + "owner"), "owner: no such file"),
+    "boundary cut short": (cut(POLY + "boundary", 0.7), "boundary"),
+    "no boundary": (remove(POLY + "boundary"), "boundary: no such file"),
+    "boundary lacks a patch": (
+        rewrite(POLY + "boundary", r"3\n\(\n\s*floor.*\n.*\n", "2\n(\n"),
+        "4 of 24 boundary faces",
+    ),
+    "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "do not match"),
+}
+
+
+@pytest.mark.parametrize("name", BREAKAGES)
+def test_a_broken_case_gives_its_one_message(name, case, capfd):
+    breakage, message = BREAKAGES[name]
+    breakage(case)
+    with pytest.raises(InputError, match=message) as caught:
+        read_case(case)
+    assert str(case) in str(caught.value)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_damaged_owner_is_found_without_the_note(tmp_path):
+    write_case(tmp_path, note=False)
+    edit(tmp_path / "constant" / "polyMesh" / "owner", r"\n7\n", "\n999\n")
+    with pytest.raises(InputError, match=r"VTK's OpenFOAM reader says: Number of cells"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("time", "message"),
+    [
+        ("3", r"no time 3; the times are 0, 0\.5, 1e1\."),
+        ("last", "'last' is neither a number nor latestTime"),
+    ],
+)
+def test_a_missing_time_lists_those_that_exist(case, time, message):
+    with pytest.raises(InputError, match=message):
+        read_case(case, time)
+
+
+def test_a_case_without_times(case):
+    for time in available_times(case):
+        shutil.rmtree(case / time)
+    with pytest.raises(InputError, match="no time directories; has the solver been run"):
+        read_case(case)
+    assert describe(case).times == ()
+
+
+@pytest.mark.skipif(not (PIPE / "constant" / "polyMesh").is_dir(), reason="the pipe's result is not there")
+def test_the_pipe(random):
+    flow = read_case(PIPE)
+    radius, mean = 2.1e-3, 0.484995
+    assert {patch.type for patch in flow.patches if patch.name == "wall"} == {"wall"}
+    r, angle = radius * np.sqrt(random.random(5000)), 2.0 * np.pi * random.random(5000)
+    x = random.uniform(0.02, 0.09, 5000)
+    points = np.column_stack([x, r * np.cos(angle), r * np.sin(angle)])
+    hosts = flow.locate(points)
+    inside = hosts >= 0
+    assert np.count_nonzero(~inside) < 100
+    u, l = flow.sample(points[inside], hosts[inside])  # noqa: E741
+    off = np.abs(u[:, 0] - 2.0 * mean * (1.0 - (r[inside] / radius) ** 2))
+    assert np.sqrt(np.mean(off**2)) < 0.005 * mean
+    shear = np.hypot(l[:, 0, 1], l[:, 0, 2]) - 4.0 * mean * r[inside] / radius**2
+    assert np.sqrt(np.mean(shear**2)) < 0.01 * 4.0 * mean / radius
+
+
+@pytest.mark.parametrize("suffix", [".vtu", ".vtk", ".vtm", ".msh", ".pvd"])
+@pytest.mark.parametrize("where", ["cell_data", "point_data"])
+def test_mesh_files(suffix, where, tmp_path, random):
+    shape = block(3, 0.2, "tetrahedra")
+    places = shape.points if where == "point_data" else build_mesh(shape).centres
+    getattr(shape, where)["U"] = places @ GRADIENT.T
+    path = tmp_path / f"flow{suffix}"
+    if suffix == ".vtm":
+        pyvista.MultiBlock(
+            {"internal": shape, "wall": shape.extract_surface(algorithm="dataset_surface")}
+        ).save(path)
+    elif suffix == ".pvd":
+        shape.save(tmp_path / "flow_1.vtu")
+        path.write_text(
+            '<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
+            '<DataSet timestep="1" file="flow_1.vtu"/></Collection></VTKFile>'
+        )
+    elif suffix == ".msh":
+        pyvista.save_meshio(path, shape, file_format="gmsh")
+    else:
+        shape.save(path)
+    flow = read_mesh_file(path)
+    assert flow.patches == (Patch("boundary", "wall"),)
+    points = random.random((100, 3))
+    u, l = flow.sample(points, flow.locate(points))  # noqa: E741
+    assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+
+
+def test_surfaces_in_a_mesh_file_are_left_out(tmp_path):
+    points, hexes = corners(2, 0.0)
+    shape = grid(points, [(12, hexes), (9, hexes[:, :4])])
+    shape.cell_data["U"] = np.tile([1.0, 2.0, 3.0], (16, 1))
+    shape.save(tmp_path / "flow.vtu")
+    assert read_mesh_file(tmp_path / "flow.vtu").mesh.n_cells == 8
+
+
+def test_other_names_of_the_velocity(tmp_path):
+    shape = block(2)
+    shape.cell_data["velocity"] = np.ones((8, 3))
+    shape.cell_data["p"] = np.ones(8)
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    assert read_mesh_file(path, "velocity").mesh.n_cells == 8
+    with pytest.raises(InputError, match=r"no array U; the arrays are p, velocity\."):
+        read_mesh_file(path)
+    with pytest.raises(InputError, match=r"array p has shape \(8,\)"):
+        read_mesh_file(path, "p")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("none.vtu", None, "no such file"),
+        ("bad.vtu", b"<VTKFile", "VTK"),
+        ("bad.vtk", b"nonsense", "VTK|unstructured"),
+        ("bad.msh", b"nonsense", "meshio cannot read it"),
+        ("bad.xyz", b"nonsense", "meshio cannot read it"),
+    ],
+)
+def test_unreadable_mesh_files(name, content, message, tmp_path, capfd):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match=message):
+        read_mesh_file(tmp_path / name)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_surface_is_no_mesh(tmp_path):
+    pipe(2).extract_surface(algorithm="dataset_surface").cast_to_unstructured_grid().save(
+        tmp_path / "surface.vtu"
+    )
+    with pytest.raises(InputError, match="no cells of the allowed kinds"):
+        read_mesh_file(tmp_path / "surface.vtu")

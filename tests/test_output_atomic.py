@@ -1,0 +1,114 @@
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from foamprb.output.atomic import atomic_write, remove_unfinished
+
+
+def test_writes_whole_file_and_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "new" / "table.csv"
+    with atomic_write(path) as temporary:
+        temporary.write_text("a\n")
+        assert not path.exists()
+    assert path.read_text() == "a\n"
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_replaces_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+    with atomic_write(path) as temporary:
+        temporary.write_text("new")
+        assert path.read_text() == "old"
+    assert path.read_text() == "new"
+
+
+def write_half(path: Path, error: type[BaseException]) -> None:
+    with atomic_write(path) as temporary:
+        temporary.write_text("ha")
+        raise error
+
+
+@pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
+def test_error_keeps_old_file(tmp_path: Path, error: type[BaseException]) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+    with pytest.raises(error):
+        write_half(path, error)
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_two_writers_do_not_share_a_temporary_file(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    with atomic_write(path) as first, atomic_write(path) as second:
+        first.write_text("first")
+        second.write_text("second")
+    assert path.read_text() == "first"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_file_has_the_permissions_of_any_new_file(tmp_path: Path) -> None:
+    plain, path = tmp_path / "plain", tmp_path / "atomic"
+    plain.touch()
+    with atomic_write(path) as temporary:
+        temporary.write_text("")
+    assert path.stat().st_mode == plain.stat().st_mode
+
+
+WRITERS = {
+    "table.csv": """
+        from foamprb.output.tables import write_table
+        write_table(path, {f"c{i}": np.random.default_rng(i).random(2_000_000) for i in range(20)})
+    """,
+    "cloud.vtp": """
+        from foamprb.output.vtk import Snapshot, write_snapshot
+        values = np.random.default_rng(0).random((3_000_000, 9))
+        snapshot = Snapshot(0.0, values[:, :3].copy(), {f"F{i}": values for i in range(5)})
+        write_snapshot(path, snapshot)
+    """,
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_killed_process_keeps_old_file(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    path.write_text("old")
+    script = "import sys, numpy as np\nfrom pathlib import Path\npath = Path(sys.argv[1])\n"
+    with subprocess.Popen(
+        [sys.executable, "-c", script + textwrap.dedent(WRITERS[name]), str(path)]
+    ) as writer:
+        try:
+            wait_for_megabyte(tmp_path, writer)
+        finally:
+            writer.send_signal(signal.SIGKILL)
+    assert writer.returncode == -signal.SIGKILL
+    assert path.read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 2
+
+    remove_unfinished(path)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def wait_for_megabyte(folder: Path, writer: subprocess.Popen[bytes]) -> None:
+    """Wait until the process has written some of its temporary file."""
+    for _ in range(6000):
+        if any(file.stat().st_size > 1_000_000 for file in folder.glob(".*.tmp")):
+            return
+        assert writer.poll() is None, "the writer ended before it could be killed"
+        time.sleep(0.01)
+    pytest.fail("the writer wrote nothing")
+
+
+def test_remove_unfinished_takes_only_its_own(tmp_path: Path) -> None:
+    kept = [tmp_path / name for name in ("a.pvd", ".a.pvd", ".b.pvd.0.tmp", "a.pvd.0.tmp")]
+    for file in (*kept, tmp_path / ".a.pvd.0.tmp"):
+        file.touch()
+    remove_unfinished(tmp_path / "a.pvd")
+    assert sorted(tmp_path.iterdir()) == sorted(kept)
+    remove_unfinished(tmp_path / "absent" / "a.pvd")

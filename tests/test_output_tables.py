@@ -1,0 +1,71 @@
+import csv
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from foamprb.output.tables import write_table
+
+
+def read(path: Path) -> list[list[str]]:
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))
+
+
+@given(values=st.lists(st.floats(width=64), max_size=20))
+def test_doubles_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, values: list[float]) -> None:
+    path = tmp_path_factory.mktemp("tables") / "t.csv"
+    write_table(path, {"array": np.array(values, dtype=float), "list": values})
+    for column in zip(*read(path)[1:], strict=True):
+        found = np.array([float(text) for text in column])
+        nan = np.isnan(values)
+        np.testing.assert_array_equal(np.isnan(found), nan)
+        assert found[~nan].tobytes() == np.array(values)[~nan].tobytes()
+
+
+@given(texts=st.lists(st.text(st.characters(exclude_categories=["Cs"])), min_size=1, max_size=8))
+def test_text_round_trips(tmp_path_factory: pytest.TempPathFactory, texts: list[str]) -> None:
+    path = tmp_path_factory.mktemp("tables") / "t.csv"
+    write_table(path, {"id": range(len(texts)), "fate": texts})
+    assert read(path) == [["id", "fate"], *([str(i), text] for i, text in enumerate(texts))]
+
+
+def test_shortest_digits(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    write_table(
+        path,
+        {
+            "id": np.array([7, 2**62]),
+            "d": np.array([0.1, 5e-6]),
+            "t1": [math.nan, -math.inf],
+            "fate": np.array(["stuck", "escaped"]),
+        },
+    )
+    assert path.read_text() == f"id,d,t1,fate\n7,0.1,nan,stuck\n{2**62},5e-06,-inf,escaped\n"
+
+
+def test_many_rows_keep_their_order(tmp_path: Path) -> None:
+    n = 150_000
+    path = tmp_path / "t.csv"
+    write_table(path, {"id": np.arange(n), "x": np.arange(n) / 3})
+    table = np.loadtxt(path, delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(table, np.c_[np.arange(n), np.arange(n) / 3])
+
+
+def test_no_rows(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    write_table(path, {"id": [], "x": np.empty(0)})
+    assert path.read_text() == "id,x\n"
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [({"a": [1], "b": [1, 2]}, "differ in length"), ({"x": np.zeros((2, 3))}, "'x' .* shape")],
+)
+def test_columns_that_are_no_table(tmp_path: Path, columns: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        write_table(tmp_path / "t.csv", columns)  # type: ignore[arg-type]
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,417 @@
+"""Show the soft particles of a run in ParaView (5.11 or newer): their bodies, coloured by deformation.
+
+From a terminal::
+
+    pvpython show_cloud.py CASE [--cloud softCloud] [--time T] [--scale S] [--screenshot out.png]
+
+In ParaView's window: open the cloud's ``.pvd``, then run this file from Macros or from the Python shell's
+Run Script.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gzip
+import math
+import re
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from paraview import servermanager, simple  # type: ignore[import-not-found]
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+# Codes of the point array "status".
+ACTIVE, STUCK = 1, 2
+
+# Of the walls' second longest side: diameter at rest with which bodies are drawn where no scale is asked for.
+BODY_SIZE = 1 / 16
+# Of the walls' second longest side: how much of a long pipe the camera looks at.
+WINDOW_LENGTH = 3.5
+
+VIEW_ANGLE, YAW, PITCH = 30.0, 32.0, 6.0
+MANY_BODIES = 5000
+
+INK = (0.13, 0.15, 0.18)
+PAPER = (1.0, 1.0, 1.0)
+GLASS = (0.86, 0.91, 0.95)
+
+Vector = NDArray[np.float64]
+NO_POINTS = np.empty((0, 3))
+
+
+class Scene(NamedTuple):
+    """What is shown; a source is None where the run has nothing to show by it."""
+
+    view: Any
+    walls: Any
+    cloud: Any
+    bodies: Any
+    scale: float
+
+
+def show(case: Path, name: str = "softCloud", time: float | None = None, scale: float | None = None) -> Scene:
+    """Build the picture of a run in the active view.
+
+    Parameters
+    ----------
+    case
+        Folder of the OpenFOAM case.
+    name
+        The cloud.
+    time
+        Time, s: the nearest that was written is shown; the last one by default.
+    scale
+        How many times larger the bodies are drawn; by default such that they can be seen.
+    """
+    simple._DisableFirstRenderCameraReset()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    walls = read_walls(case)
+    cloud = read_cloud(case, name)
+    if walls is None and cloud is None:
+        raise SystemExit(f"{case}: neither an OpenFOAM mesh nor a cloud '{name}' here.")
+    show_walls(walls, view)
+    if cloud is None:
+        annotate(f"No cloud '{name}' here: run foamprb first", view, "Upper Right Corner")
+        look_at(case, box(walls, NO_POINTS), NO_POINTS, view)
+        return Scene(view, walls, None, None, 1.0)
+
+    select_time(cloud, time)
+    shown = simple.Threshold(
+        registrationName="active or stuck",
+        Input=cloud,
+        Scalars=["POINTS", "status"],
+        LowerThreshold=ACTIVE,
+        UpperThreshold=STUCK,
+    )
+    shown.UpdatePipeline(view.ViewTime)
+    points, deformation = positions(shown), point_array(shown, "taylorDeformation")
+    if scale is None:
+        scale = automatic_scale(point_array(cloud, "d"), box(walls, positions(cloud)))
+    # Tensor Glyph calls an empty input an error.
+    bodies = draw_bodies(shown, scale, len(points)) if len(points) else None
+    if bodies is not None:
+        show_bodies(bodies, deformation.max(), view)
+    annotate_time(cloud, view)
+    annotate(caption(scale, len(points)), view, "Upper Right Corner")
+    look_at(case, box(walls, points), points, view)
+    return Scene(view, walls, cloud, bodies, scale)
+
+
+def read_walls(case: Path) -> Any:
+    """Boundary faces of the case's walls (of all patches if none is a wall), or None without a mesh."""
+    control = case / "system" / "controlDict"
+    decomposed = not (case / "constant" / "polyMesh").is_dir()
+    mesh = case / ("processor0" if decomposed else "") / "constant" / "polyMesh"
+    patches = patch_types(mesh)
+    if not control.is_file() or not patches:
+        say(f"{case}: no system/controlDict or no mesh; the walls are not shown.")
+        return None
+    names = [name for name, kind in patches.items() if kind == "wall"] or list(patches)
+    # The reader takes controlDict for the case, so that no .foam file has to be left there.
+    walls = simple.OpenFOAMReader(registrationName="walls", FileName=str(control))
+    walls.CaseType = "Decomposed Case" if decomposed else "Reconstructed Case"
+    walls.MeshRegions = [f"patch/{name}" for name in names]
+    walls.CellArrays = []
+    # The flow's times would make ParaView's clock run to the last iteration of a steady solver.
+    simple.GetTimeKeeper().SuppressedTimeSources = [walls]
+    walls.UpdatePipeline()
+    return walls
+
+
+def patch_types(mesh: Path) -> dict[str, str]:
+    """Type of each patch by name, as ``polyMesh/boundary`` has them; empty without that file."""
+    for file, opener in ((mesh / "boundary", open), (mesh / "boundary.gz", gzip.open)):
+        if file.is_file():
+            with opener(file, "rt", encoding="utf-8", errors="replace") as stream:
+                text = re.sub(r"//[^\n]*|/\*.*?\*/", "", stream.read(), flags=re.DOTALL)
+            entries = re.findall(r"([^\s{}();]+)\s*\{([^{}]*)\}", text)
+            kinds = {
+                name: re.search(r"\btype\s+(\w+)\s*;", body) for name, body in entries if name != "FoamFile"
+            }
+            return {name: kind[1] for name, kind in kinds.items() if kind and kind[1] != "processor"}
+    return {}
+
+
+def read_cloud(case: Path, name: str) -> Any:
+    """The time series of a cloud, or None if there is none yet."""
+    folder = case / "postProcessing" / name
+    pvd = folder / f"{name}.pvd"
+    if not pvd.is_file():
+        others = sorted(path.stem for path in case.glob("postProcessing/*/*.pvd"))
+        hint = f"There is: {', '.join(others)} (--cloud)." if others else "Run foamprb first."
+        say(f"{pvd}: no such file, so no particles are shown. {hint}")
+        return None
+    cloud = simple.PVDReader(registrationName=name, FileName=str(pvd))
+    cloud.UpdatePipelineInformation()
+    return cloud
+
+
+def select_time(cloud: Any, time: float | None) -> None:
+    """Set ParaView's clock to the written time that is nearest, or to the last."""
+    times = list(cloud.TimestepValues)
+    nearest = times[-1] if time is None else min(times, key=lambda t: abs(t - time))
+    if time is not None and not math.isclose(nearest, time, rel_tol=1e-9, abs_tol=1e-15):
+        say(f"Time {time:g} s was not written; the nearest is {nearest:g} s.")
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    scene.AnimationTime = nearest
+    cloud.UpdatePipeline(nearest)
+
+
+def positions(cloud: Any) -> Vector:
+    """Positions of the particles that a source gives, shape (n, 3), m."""
+    points = servermanager.Fetch(cloud).GetPoints()
+    return vtk_to_numpy(points.GetData()) if points and points.GetNumberOfPoints() else NO_POINTS
+
+
+def point_array(cloud: Any, name: str) -> Vector:
+    """Point array of the particles that a source gives, shape (n,)."""
+    array = servermanager.Fetch(cloud).GetPointData().GetArray(name)
+    return vtk_to_numpy(array) if array and array.GetNumberOfTuples() else np.empty(0)
+
+
+def automatic_scale(diameters: Vector, corners: Vector) -> float:
+    """A round magnification: bodies at rest are seen in the box, and mostly not in each other."""
+    sides = np.sort(np.ptp(corners, axis=0))
+    if len(diameters) == 0 or not sides[0] > 0:
+        return 1.0
+    spacing = (sides.prod() / len(diameters)) ** (1 / 3)
+    return max(1.0, round_down(min(BODY_SIZE * sides[1], spacing / 2) / np.median(diameters)))
+
+
+def round_down(value: float) -> float:
+    """The largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not above a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max(digit for digit in (1, 2, 3, 4, 5, 6, 8) if digit * power <= value * (1 + 1e-12)) * power
+
+
+def round_up(value: float) -> float:
+    """The least multiple of a power of ten, of one digit, that is not below a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return math.ceil(value / power * (1 - 1e-12)) * power
+
+
+def draw_bodies(cloud: Any, scale: float, count: int) -> Any:
+    """The deformed bodies: the unit sphere under R F, whose columns ``glyph`` holds, and enlarged."""
+    bodies = simple.TensorGlyph(
+        registrationName="bodies",
+        Input=cloud,
+        GlyphType="Sphere",
+        Tensors=["POINTS", "glyph"],
+        Scalars=["POINTS", "taylorDeformation"],
+        ExtractEigenvalues=0,
+        LimitScalingByEigenvalues=0,
+        ScaleFactor=scale,
+    )
+    bodies.GlyphType.Radius = 1.0
+    bodies.GlyphType.ThetaResolution, bodies.GlyphType.PhiResolution = (
+        (16, 9) if count > MANY_BODIES else (48, 25)
+    )
+    return bodies
+
+
+def show_bodies(bodies: Any, largest: float, view: Any) -> None:
+    """Colour the bodies from 0 to a round number above the largest deformation, with a colour bar."""
+    display = simple.Show(bodies, view)
+    simple.ColorBy(display, ("POINTS", "taylorDeformation"))
+    display.Specular = 0.35
+    display.SpecularPower = 40
+    display.Ambient = 0.12
+    colours = simple.GetColorTransferFunction("taylorDeformation")
+    colours.ApplyPreset("Viridis (matplotlib)", True)
+    colours.RescaleTransferFunction(0.0, round_up(largest) if largest > 0 else 1.0)
+    display.SetScalarBarVisibility(view, True)
+    bar = simple.GetScalarBar(colours, view)
+    bar.Title = "Taylor deformation (a − c)/(a + c)"
+    bar.ComponentTitle = ""
+    bar.Orientation = "Horizontal"
+    bar.WindowLocation = "Any Location"
+    bar.Position = [0.62, 0.045]
+    bar.ScalarBarLength = 0.33
+    bar.ScalarBarThickness = 14
+    bar.TitleColor = bar.LabelColor = INK
+    bar.TitleFontSize = bar.LabelFontSize = 18
+    bar.AutomaticLabelFormat = 0
+    bar.LabelFormat = bar.RangeLabelFormat = "%.2g"
+
+
+def show_walls(walls: Any, view: Any) -> None:
+    """Draw the walls as glass, their far side too."""
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = PAPER
+    view.OrientationAxesVisibility = 0
+    if walls is None:
+        return
+    # Two copies, as a source has one display: an opaque far half behind the bodies, a hint of the near one.
+    far = smooth(walls)
+    near = simple.ExtractSurface(registrationName="near side", Input=far)
+    for side, culled, opacity in ((far, "Cull Frontface", 1.0), (near, "Cull Backface", 0.1)):
+        display = simple.Show(side, view)
+        display.ColorArrayName = ["POINTS", ""]
+        display.SetRepresentationType("Surface")
+        display.AmbientColor = display.DiffuseColor = GLASS
+        display.BackfaceRepresentation = culled
+        display.Opacity = opacity
+        display.Ambient, display.Diffuse, display.Specular = 0.45, 0.55, 0.2
+        display.Pickable = 0
+
+
+def smooth(walls: Any) -> Any:
+    """The walls with normals for smooth shading, by the filter's name in this version of ParaView."""
+    normals = getattr(simple, "SurfaceNormals", None) or simple.GenerateSurfaceNormals
+    return normals(registrationName="far side", Input=walls)
+
+
+def annotate(text: str, view: Any, where: str) -> None:
+    """Write a line in a corner of the view."""
+    source = simple.Text(registrationName="caption", Text=text)
+    style_text(simple.Show(source, view), where)
+
+
+def annotate_time(cloud: Any, view: Any) -> None:
+    """Write the time in the upper left corner; it follows ParaView's clock."""
+    source = simple.AnnotateTimeFilter(registrationName="time", Input=cloud, Format="t = {time:.4g} s")
+    style_text(simple.Show(source, view), "Upper Left Corner")
+
+
+def style_text(display: Any, where: str) -> None:
+    """Place and colour a text."""
+    display.WindowLocation = where
+    display.Color = INK
+    display.FontSize = 20
+
+
+def caption(scale: float, count: int) -> str:
+    """Say how many bodies there are and how they are drawn."""
+    bodies = f"{count} {'body' if count == 1 else 'bodies'}"
+    return f"{bodies}, drawn {scale:g} times larger" if scale != 1.0 else f"{bodies}, drawn to scale"
+
+
+def look_at(case: Path, corners: Vector, points: Vector, view: Any) -> None:
+    """Look at the long axis of a box from the side, a little from above and from one end, gravity down."""
+    sides = np.ptp(corners, axis=0)
+    axis, up, side = camera_frame(sides, gravity(case))
+    window = min(float(abs(axis) @ sides), WINDOW_LENGTH * np.sort(sides)[1])
+    focus = corners.mean(axis=0)
+    focus = focus + axis * (densest(points @ axis, window, corners @ axis) - focus @ axis)
+
+    yaw, pitch, half = np.radians((YAW, PITCH, VIEW_ANGLE / 2))
+    towards = math.cos(pitch) * (math.cos(yaw) * side - math.sin(yaw) * axis) + math.sin(pitch) * up
+    width, height = view.ViewSize
+    distance = max(
+        window * math.cos(yaw) / 2 / (math.tan(half) * width / height),
+        float(abs(up) @ sides) / 2 / math.tan(half),
+    )
+    view.CameraParallelProjection = 0
+    view.CameraViewAngle = VIEW_ANGLE
+    view.CameraFocalPoint = focus
+    view.CameraPosition = focus + 1.15 * distance * towards
+    view.CameraViewUp = up
+    view.CenterOfRotation = focus
+
+
+def box(walls: Any, points: Vector) -> Vector:
+    """Lowest and highest corner of the walls, or of the points where there are no walls; shape (2, 3), m."""
+    if walls is not None:
+        return np.reshape(walls.GetDataInformation().GetBounds(), (3, 2)).T
+    if len(points) < 2:
+        return np.array([[-0.5], [0.5]]) + (points[0] if len(points) else np.zeros(3))
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
+def camera_frame(sides: Vector, g: Vector) -> tuple[Vector, Vector, Vector]:
+    """Unit vectors to the right, up and towards the camera: the long side horizontal if gravity lets it."""
+    up = -g / np.linalg.norm(g)
+    order = np.argsort(sides)[::-1]
+    axis = np.eye(3)[order[0]]
+    if abs(axis @ up) > 0.9:
+        axis = np.eye(3)[order[1]]
+    axis = axis - (axis @ up) * up
+    axis = axis / np.linalg.norm(axis)
+    return axis, up, np.cross(axis, up)
+
+
+def gravity(case: Path) -> Vector:
+    """Gravity from ``constant/g``, m/s2; along −z where there is none."""
+    file = case / "constant" / "g"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    found = re.search(r"\bvalue\s*\(\s*(\S+)\s+(\S+)\s+([^\s)]+)\s*\)", text)
+    try:
+        g = np.array([float(number) for number in found.groups()]) if found else np.zeros(3)
+    except ValueError:
+        g = np.zeros(3)
+    return g if g.any() else np.array([0.0, 0.0, -9.81])
+
+
+def densest(places: Vector, window: float, ends: Vector) -> float:
+    """Middle of the stretch of length ``window`` between the ends that holds most of the places."""
+    low, high = ends.min() + window / 2, ends.max() - window / 2
+    if len(places) == 0 or high <= low:
+        return float(ends.mean())
+    places = np.sort(places)
+    held = np.searchsorted(places, places + window, side="right") - np.arange(len(places))
+    return float(np.clip(places[held.argmax()] + window / 2, low, high))
+
+
+def say(message: str) -> None:
+    """Print a message at once, also where ParaView's window shows it."""
+    print(message, flush=True)
+
+
+def case_of_active_source() -> Path:
+    """Case that the active source of ParaView's window was read from; else the working folder."""
+    source = simple.GetActiveSource()
+    file = getattr(source, "FileName", None) if source else None
+    for folder in Path(str(file)).resolve().parents if file else ():
+        if (folder / "system" / "controlDict").is_file():
+            return folder
+    return Path.cwd()
+
+
+def parse(arguments: list[str]) -> argparse.Namespace:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("case", type=Path, metavar="CASE", help="folder of the OpenFOAM case")
+    parser.add_argument("--cloud", default="softCloud", help="name of the cloud (default: softCloud)")
+    parser.add_argument("--time", type=float, help="time to show, s (default: the last)")
+    parser.add_argument(
+        "--scale", type=float, help="draw the bodies this many times larger (default: automatic)"
+    )
+    parser.add_argument("--screenshot", type=Path, help="write this picture and stop")
+    parser.add_argument("--size", type=picture_size, default=(1600, 900), help="of the picture, as 1600x900")
+    return parser.parse_args(arguments)
+
+
+def picture_size(text: str) -> tuple[int, int]:
+    """Read a size like 1600x900."""
+    found = re.fullmatch(r"([1-9]\d*)x([1-9]\d*)", text)
+    if found is None:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a size like 1600x900")
+    return int(found[1]), int(found[2])
+
+
+def main(arguments: list[str]) -> None:
+    """Show a run in a window of its own, or write its picture."""
+    options = parse(arguments)
+    if not options.case.is_dir():
+        raise SystemExit(f"{options.case}: no such folder.")
+    view = simple.CreateView("RenderView")
+    view.ViewSize = options.size
+    show(options.case.resolve(), options.cloud, options.time, options.scale)
+    if options.screenshot:
+        simple.SaveScreenshot(str(options.screenshot), view, ImageResolution=options.size)
+    else:
+        simple.Interact(view)
+
+
+if __name__ == "__main__":
+    # Only pvpython puts the script's own name first.
+    if sys.argv and sys.argv[0].endswith(".py"):
+        main(sys.argv[1:])
+    else:
+        show(case_of_active_source())
+        simple.Render()
