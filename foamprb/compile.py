@@ -13,7 +13,7 @@ import os
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from types import CodeType, FunctionType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import platformdirs
@@ -60,19 +60,14 @@ def link(
     A numba dispatcher. Equal code with equal bindings is compiled once per process and kept on disk in
     :func:`cache_directory`, under a key made of the code of every function that was linked.
     """
-    linker = _Linker(dict(bindings or {}), separate)
-    clone = linker.clone(entry)
-    key = linker.key()
-    if key not in _compiled:
-        dispatcher = numba.njit(**_OPTIONS)(clone)
-        _enable_cache(dispatcher, key)
-        _compiled[key] = dispatcher
-        _keys[dispatcher] = key
-    return _compiled[key]
+    return _link(entry, dict(bindings or {}), frozenset(separate), inline=False).dispatcher
 
 
-_compiled: dict[str, Any] = {}
-_keys: dict[Any, str] = {}
+class _Part(NamedTuple):
+    """A compiled function, and a key that changes with its code and with that of all it calls."""
+
+    dispatcher: Any
+    key: str
 
 
 @numba.njit(inline="always")  # type: ignore[untyped-decorator]
@@ -80,45 +75,41 @@ def _select_scalar(condition: Any, a: Any, b: Any) -> Any:
     return a if condition else b
 
 
-class _Linker:
-    """Clones functions so that each global callee is a compiled one; remembers what it has seen."""
+_parts: dict[tuple[str, bool], _Part] = {}
+_SELECT = _Part(_select_scalar, "select")
 
-    def __init__(
-        self, bindings: dict[str, Callable[..., Any]], separate: Collection[Callable[..., Any]]
-    ) -> None:
-        self._bindings = bindings
-        self._separate = separate
-        self._linked: dict[Callable[..., Any], Any] = {select: _select_scalar}
-        self._digest = hashlib.sha256(f"{numba.__version__} {_FAST_MATH}".encode())
 
-    def key(self) -> str:
-        return self._digest.hexdigest()[:24]
-
-    def clone(self, function: Callable[..., Any]) -> FunctionType:
-        assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
-        names = _global_names(function.__code__)
-        values = {name: self._bindings.get(name, function.__globals__.get(name)) for name in names}
-        scope = dict(function.__globals__)
-        for name, value in sorted(values.items()):
-            if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
-                scope[name] = self._compiled(value)
-            elif isinstance(value, int | float | tuple):
-                self._digest.update(f"{name}={value!r};".encode())
-        self._digest.update(_fingerprint(function.__code__))
+def _link(
+    function: Callable[..., Any],
+    bindings: dict[str, Callable[..., Any]],
+    separate: frozenset[Callable[..., Any]],
+    inline: bool,
+) -> _Part:
+    """Compile a function after its callees; a part that has been compiled before is used again."""
+    if function is select:
+        return _SELECT
+    assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
+    scope = dict(function.__globals__)
+    digest = hashlib.sha256(f"{numba.__version__} {_FAST_MATH} {function.__qualname__}".encode())
+    digest.update(_fingerprint(function.__code__))
+    for name in sorted(_global_names(function.__code__)):
+        value = bindings.get(name, scope.get(name))
+        if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
+            part = _link(value, bindings, separate, inline=value not in separate)
+            scope[name] = part.dispatcher
+            digest.update(f"{name}={part.key};".encode())
+        elif isinstance(value, int | float | tuple):
+            digest.update(f"{name}={value!r};".encode())
+    key = digest.hexdigest()[:24]
+    if (key, inline) not in _parts:
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
         clone.__qualname__ = function.__qualname__
         clone.__module__ = function.__module__
-        return clone
-
-    def _compiled(self, function: FunctionType) -> Any:
-        if function not in self._linked:
-            if function in self._separate:
-                part = link(function, self._bindings)
-                self._digest.update(_keys[part].encode())
-            else:
-                part = numba.njit(forceinline=True, **_OPTIONS)(self.clone(function))
-            self._linked[function] = part
-        return self._linked[function]
+        dispatcher = numba.njit(forceinline=inline, **_OPTIONS)(clone)
+        if not inline:
+            _enable_cache(dispatcher, key)
+        _parts[key, inline] = _Part(dispatcher, key)
+    return _parts[key, inline]
 
 
 def _global_names(code: CodeType) -> set[str]:

@@ -45,20 +45,21 @@ def by_quadrature(a, b, c):
             return weight(lam) / delta * 2 * g2 / s**3
 
         # The integrand varies over the decades between the axes.
-        knots = sorted({0, 1, *(mpmath.sqrt(g2 / (g2 + v * 10**k)) for v in (x, y, z) for k in (-2, -1, 0, 1, 2))})
+        scales = [v * 10**k for v in (x, y, z) for k in (-2, -1, 0, 1, 2)]
+        knots = sorted({0, 1, *(mpmath.sqrt(g2 / (g2 + scale)) for scale in scales)})
         return mpmath.quad(f, knots)
 
     return {
-        "alpha0": integral(lambda l: 1 / (x + l)),
-        "beta0": integral(lambda l: 1 / (y + l)),
-        "gamma0": integral(lambda l: 1 / (z + l)),
-        "alpharing": integral(lambda l: 1 / ((y + l) * (z + l))),
-        "betaring": integral(lambda l: 1 / ((z + l) * (x + l))),
-        "gammaring": integral(lambda l: 1 / ((x + l) * (y + l))),
-        "alphastar": integral(lambda l: l / ((y + l) * (z + l))),
-        "betastar": integral(lambda l: l / ((z + l) * (x + l))),
-        "gammastar": integral(lambda l: l / ((x + l) * (y + l))),
-        "chi": integral(lambda l: 1),
+        "alpha0": integral(lambda lam: 1 / (x + lam)),
+        "beta0": integral(lambda lam: 1 / (y + lam)),
+        "gamma0": integral(lambda lam: 1 / (z + lam)),
+        "alpharing": integral(lambda lam: 1 / ((y + lam) * (z + lam))),
+        "betaring": integral(lambda lam: 1 / ((z + lam) * (x + lam))),
+        "gammaring": integral(lambda lam: 1 / ((x + lam) * (y + lam))),
+        "alphastar": integral(lambda lam: lam / ((y + lam) * (z + lam))),
+        "betastar": integral(lambda lam: lam / ((z + lam) * (x + lam))),
+        "gammastar": integral(lambda lam: lam / ((x + lam) * (y + lam))),
+        "chi": integral(lambda _: 1),
     }
 
 

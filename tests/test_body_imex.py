@@ -81,7 +81,7 @@ def test_fast_step_comes_as_near_to_the_solution_as_it_says(seed, kappa):
 
 
 def test_fast_step_suffices_in_the_papers_pipe():
-    """Δt = 1e-5 s, 5 µm in air, Ca = 0.5: the estimate stays below the tolerance at a shape like that there."""
+    """Δt = 1e-5 s, 5 µm in air, Ca = 0.5: the estimate stays below the tolerance at such a shape."""
     mu_f, rate = 1.208 * 1.491e-5, 923.8
     mu = mu_f * rate / 0.5
     kappa = imex.inertia_factor(1e-5, 2560.0, 2.5e-6)
@@ -105,4 +105,6 @@ def test_relaxation_time_is_that_of_a_spinning_sphere(R):
     """I dω/dt = −8π μ R³ ω with I = 2/5 m R² gives 15 μ/(ρ R²)."""
     rho, mu = 2560.0, 1.8e-5
     inertia = 2 / 5 * (4 / 3 * np.pi * R**3 * rho) * R**2
-    np.testing.assert_allclose(imex.relaxation_time(rho, R, mu), inertia / (8 * np.pi * mu * R**3), rtol=1e-14)
+    np.testing.assert_allclose(
+        imex.relaxation_time(rho, R, mu), inertia / (8 * np.pi * mu * R**3), rtol=1e-14
+    )

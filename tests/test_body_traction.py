@@ -54,9 +54,9 @@ def test_linearity_in_the_velocity_gradients(name, axes, a, b, c, d):
 
 
 @given(mild_stretches, tensors)
-def test_a_body_that_moves_with_the_fluid_feels_the_fluids_own_stress(axes, l):
+def test_a_body_that_moves_with_the_fluid_feels_the_fluids_own_stress(axes, gradient):
     """With l_s = l_f, traceless, the particle disturbs nothing: σ̃ = 2 μ d."""
-    d = dev(l)
+    d = dev(gradient)
     np.testing.assert_allclose(roscoe(axes, integrals(axes), d, d), 2.0 * np.array(sym(d)), atol=1e-12)
 
 

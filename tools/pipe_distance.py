@@ -29,7 +29,6 @@ def distances(flow, drag: str, dt: float) -> np.ndarray:
     medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
     start = np.tile([0.0, -1.65e-3, 0.0], (len(CAPILLARY), 1))
     particles = foamprb.spheres(start, d=DIAMETER, rho=2560.0, mu=medium.mu * WALL_SHEAR_RATE / CAPILLARY)
-    particles.host[:] = flow.locate(start)
     interactions = [foamprb.Stick() if p.type == "wall" else foamprb.Escape() for p in flow.patches]
     models = foamprb.Models(drag=drag, touching="centre")
     cloud = foamprb.Cloud(particles, flow, medium, interactions, dt, models)

@@ -62,6 +62,7 @@ _NEW_V, _NEW_F, _NEW_A = 76, 79, 88
 _R, _RHO, _MU, _LAME, _DT, _ERROR, _J = 97, 98, 99, 100, 101, 102, 103
 ROWS = 104
 
+_SHORTEST_STEP = 1e-6
 _MAX_BOUNCES = 10
 _DENSE_STEPS = 25
 _MIN_J, _MAX_J = 0.125, 8.0
@@ -443,7 +444,8 @@ def track_block(
         moving = 0
         for i in range(len(members)):
             k = members[i]
-            if p.status[k] == PENDING and p.t0[k] < t_end:
+            # A first step of no length would divide round-off by nothing in Aⁿ⁺¹.
+            if p.status[k] == PENDING and p.t0[k] < t_end - _SHORTEST_STEP * dt:
                 clearance[i] = _release(flow, patches, p, k, block, i)
             if p.status[k] == ACTIVE:
                 moving += 1

@@ -19,6 +19,7 @@ from foamprb.cloud.advance import LANES, ROWS, STAGES, Medium, PatchTable, track
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile import link
+from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
@@ -64,6 +65,13 @@ class Cloud:
         Number of threads; the answer does not depend on it.
     step
         Number of steps done.
+
+    Raises
+    ------
+    InputError
+        If a particle without a host lies outside the flow.
+    ValueError
+        If there is not one interaction for each patch.
     """
 
     particles: Particles
@@ -79,13 +87,16 @@ class Cloud:
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
+        _find_hosts(self.particles, self.flow)
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
             bindings["gap"] = gap_free
         bindings["traction"] = TRACTIONS[self.models.traction]
         bindings["drag"] = DRAGS[self.models.drag]
         bindings["coefficients"] = MATERIALS[self.models.material].coefficients
-        self._track = link(track_block, bindings, separate=STAGES)
+        # The walk and the wall test are long and called from several places: inlined they would multiply.
+        parts = (*STAGES, bindings["walk"], bindings["gap"], bindings["recover"])
+        self._track = link(track_block, bindings, separate=parts)
         self._table = _patch_table(self.interactions)
         self._reach = 0.0
         self._arrays: Any = None
@@ -133,6 +144,17 @@ class Cloud:
                 touchable = []
             self._arrays = self.flow.arrays(self._reach, touchable)
         return self._arrays
+
+
+def _find_hosts(p: Particles, flow: Flow) -> None:
+    homeless = np.flatnonzero((p.host < 0) & (p.status <= Status.ACTIVE))
+    if len(homeless) == 0:
+        return
+    p.host[homeless] = flow.locate(p.x[homeless])
+    outside = homeless[p.host[homeless] < 0]
+    if len(outside):
+        first = ", ".join("({:g} {:g} {:g})".format(*x) for x in p.x[outside[:3]])
+        raise InputError(f"{len(outside)} of {p.size} particles lie outside the flow: {first}")
 
 
 def _longest_semi_axis(p: Particles) -> float:

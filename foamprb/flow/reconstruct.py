@@ -90,8 +90,8 @@ class Reconstruction:
 
         The order of the second derivatives is xx, yy, zz, xy, xz, yz.
         """
-        # One correction: beside a wall, cell values of a finite-volume solution are off by as much as the next
-        # would change.
+        # One correction: beside a wall, the cell values of a finite-volume solution are themselves off by as
+        # much as a second would change.
         plain = self._gradient(cells, boundary[self._valued])
         slopes = self._bend(plain.reshape(-1, 9), np.empty((0, 9))).reshape(-1, 3, 3, 3)
         h = np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
@@ -228,12 +228,13 @@ class _Taylor:
 def _by_row(rows: _Index, columns: _Index, n: int) -> tuple[_Index, _Index, _Index]:
     """Entries of a sparse matrix of n rows, sorted by row: rows, columns, start of each row.
 
-    Two cells may share several faces; unlike scipy's conversion this keeps every entry.
+    Two cells may share several faces; unlike scipy's own conversion this keeps every entry.
     """
-    order = np.argsort(rows, kind="stable")
-    start = np.zeros(n + 1, dtype=np.intp)
-    np.cumsum(np.bincount(rows, minlength=n), out=start[1:])
-    return rows[order], columns[order], start
+    # With a column of its own for each entry the conversion is a counting sort, and loses none.
+    entries = np.arange(len(rows))
+    sorted_rows = sparse.csr_array((np.ones(len(rows), dtype=np.int8), (rows, entries)), shape=(n, len(rows)))
+    order = sorted_rows.indices
+    return rows[order], columns[order], sorted_rows.indptr.astype(np.intp)
 
 
 def _directions(centres: Floats, sites: Floats, rows: _Index, columns: _Index) -> Floats:

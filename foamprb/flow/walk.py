@@ -28,8 +28,9 @@ __all__ = [
     "near_walls",
     "normal",
     "recover",
+    "sample",
+    "walk",
 ]
-__all__ += ["sample", "walk"]
 
 REACHED = -1
 FAILED = -2
