@@ -165,7 +165,6 @@ class TestBookkeeping:
         assert all(p.reason[1:] != Reason.NONE)
         assert np.isfinite(p.x).all()
 
-
     def test_a_particle_due_at_the_end_of_a_step_starts_in_the_next(self):
         """Otherwise its first step would have a length of round-off, and its rate of deformation be noise."""
         cloud = pipe_cloud(0.5)

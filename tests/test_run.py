@@ -153,10 +153,9 @@ def test_dry_run_reports_and_writes_nothing(case, capsys):
 def test_log_ends_with_the_fate_of_every_particle(short_run, capsys):
     assert main(["run", "--case", str(short_run)]) == 0
     out = capsys.readouterr().out
-    numbers = {
-        name: int(n) for name, n in re.findall(r"^    (injected|active|stuck|escaped|failed) +(\d+)$", out, re.M)
-    }
-    assert numbers["injected"] == numbers["active"] + numbers["stuck"] + numbers["escaped"] + numbers["failed"]
+    table = re.findall(r"^    (injected|active|stuck|escaped|failed) +(\d+)$", out, re.MULTILINE)
+    numbers = {name: int(n) for name, n in table}
+    assert numbers.pop("injected") == sum(numbers.values())
     assert out.rstrip().endswith("End")
     assert "Time = 0.02" in out
 

@@ -1,10 +1,10 @@
 """How far soft particles travel in the paper's pipe, against their softness: the paper's Fig. 14 (a).
 
 Tracks the particle of Sect. 5.4 from (0, −1.65 mm, 0) until its centre meets the wall, for capillary numbers
-from 0.0001 to 1, with both drag laws, in the exact Poiseuille flow and in an OpenFOAM case of the same pipe.
+from 0.0001 to 1, with both drag laws, in the exact Poiseuille flow and in OpenFOAM cases of the same pipe.
 Writes ``distance.csv`` and, with matplotlib, ``distance.png``.
 
-    python tools/pipe_distance.py --case cases/pipe --output docs
+    python tools/pipe_distance.py cases/pipe --output docs
 """
 
 from __future__ import annotations
@@ -41,22 +41,24 @@ def distances(flow, drag: str, dt: float) -> np.ndarray:
 def main() -> None:
     """Compute, write and plot."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--case", type=Path, default=Path("cases/pipe"))
+    parser.add_argument("cases", type=Path, nargs="*", default=[Path("cases/pipe")], metavar="CASE")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     parser.add_argument("--dt", type=float, default=1e-5, help="time step, s [1e-5]")
     options = parser.parse_args()
     flows = {
         "analytic": foamprb.analytic.pipe(RADIUS, WALL_SHEAR_RATE * RADIUS / 4),
-        "OpenFOAM": foamprb.read_case(options.case),
     }
+    for case in options.cases:
+        flow = foamprb.read_case(case)
+        flows[f"OpenFOAM, {flow.mesh.n_cells} cells"] = flow
     columns = {"Ca": CAPILLARY}
     for name, flow in flows.items():
         for drag in DRAGS:
-            columns[f"{drag} {name}"] = distances(flow, drag, options.dt)
+            columns[f"{drag}, {name}"] = distances(flow, drag, options.dt)
     options.output.mkdir(parents=True, exist_ok=True)
     write_table(options.output / "distance.csv", columns)
     for name, values in columns.items():
-        print(f"{name:28s}", " ".join(f"{v:9.4g}" for v in values[::5]))
+        print(f"{name:40s}", " ".join(f"{v:9.5g}" for v in values[::5]))
     plot(columns, options.output / "distance.png")
 
 
@@ -69,12 +71,17 @@ def plot(columns: dict[str, np.ndarray], file: Path) -> None:
 
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
     colours = dict(zip(DRAGS, ("tab:blue", "tab:orange"), strict=True))
+    markers = {drag: iter("osv^") for drag in DRAGS}
     for name, values in columns.items():
         if name == "Ca":
             continue
-        drag, flow = name.split()
-        style = {"ls": "-"} if flow == "analytic" else {"ls": "", "marker": "o", "ms": 4, "mfc": "none"}
-        axes.plot(CAPILLARY, values, color=colours[drag], label=f"{drag}, {flow} pipe", **style)
+        drag, flow = name.split(", ", 1)
+        style = (
+            {"ls": "-"}
+            if flow == "analytic"
+            else {"ls": "", "marker": next(markers[drag]), "ms": 4, "mfc": "none"}
+        )
+        axes.plot(CAPILLARY, values, color=colours[drag], label=name, **style)
     axes.axhline(RIGID_ANALYTIC, color="0.4", lw=0.8, label="rigid sphere, closed form")
     axes.axhline(RIGID_PRINTED, color="0.4", lw=0.8, ls=":", label="rigid sphere, the paper's print")
     axes.set(xlabel="Ca at the wall shear rate", ylabel="landing distance / particle diameter")
