@@ -7,7 +7,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from foamprb.cloud.advance import Medium
+    from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud, Models
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
@@ -23,7 +23,7 @@ _HOMES = {
     "Cloud": "foamprb.cloud.cloud",
     "Escape": "foamprb.cloud.patches",
     "InputError": "foamprb.errors",
-    "Medium": "foamprb.cloud.advance",
+    "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.cloud",
     "Particles": "foamprb.cloud.state",
     "Rebound": "foamprb.cloud.patches",

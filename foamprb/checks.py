@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.imex import STABLE_STEPS, relaxation_time
+from foamprb.body.imex import SMALL_STOKES, STABLE_STEPS, relaxation_time
 from foamprb.body.tensor import Tensor
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import shear_rate
@@ -55,21 +55,26 @@ def _range(values: np.ndarray) -> tuple[float, float]:
     return (float(values.min()), float(values.max())) if len(values) else (np.nan, np.nan)
 
 
-def doubts(g: Groups, where: str) -> list[str]:
+def doubts(g: Groups, integrator: str, where: str) -> list[str]:
     """One sentence with its number for each group that is out of the model's range.
 
     Parameters
     ----------
-    g
-        The groups.
+    g, integrator
+        The groups, and the integrator of the shape.
     where
         What the sentences speak of, e.g. ``injection model inlet``.
     """
     found = []
-    if g.step[1] > STABLE_STEPS:
+    if integrator == "paper" and g.step[1] > STABLE_STEPS:
         found.append(
             f"{where}: deltaT is {g.step[1]:.3g} times the shape's relaxation time; the integrator is stable "
             f"only below about {STABLE_STEPS:g}, less for elongated particles."
+        )
+    if integrator == "stokes" and g.stokes[1] > 10 * SMALL_STOKES:
+        found.append(
+            f"{where}: the shape Stokes number is {g.stokes[1]:.3g}; the integrator stokes leaves out the "
+            "inertia of the solid, which matters there."
         )
     if g.reynolds[1] > SMALL_REYNOLDS:
         found.append(

@@ -15,8 +15,9 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
 from foamprb.checks import Groups, doubts, groups
-from foamprb.cloud.advance import Medium
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate
@@ -98,16 +99,31 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
+    particles = concatenate(parts)
+    solution = settings.solution
+    integrator = solution.shape
+    if integrator == "auto":
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu))
+    models = Models(
+        settings.traction,
+        settings.drag,
+        settings.injections[0].solid.type,
+        settings.touching,
+        integrator,
+        solution.tolerance,
+    )
     cloud = Cloud(
-        concatenate(parts),
-        flow,
-        medium,
-        interactions,
-        settings.solution.deltaT,
-        Models(settings.traction, settings.drag, settings.injections[0].solid.type, settings.touching),
-        threads or available_threads(),
+        particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
     )
     return Job(settings, cloud)
+
+
+def _shape_stokes_number(p: Particles, flow: Flow, mu: float) -> float:
+    """The largest γ̇ τ_s of the particles where they start."""
+    if p.size == 0:
+        return 0.0
+    rate = shear_rate(tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T))  # type: ignore[arg-type]
+    return float((rate * relaxation_time(p.rho, p.R, mu)).max())
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
@@ -133,7 +149,12 @@ def describe(job: Job) -> list[str]:
     log.info("Selecting tractionModel %s", settings.traction)
     log.info("Selecting ellipsoidDrag %s", settings.drag)
     log.info("Selecting solid %s", cloud.models.material)
-    log.info("Selecting integrationScheme %s", settings.solution.shape)
+    scheme = cloud.models.integrator
+    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
+    if settings.solution.shape == "auto":
+        number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu)
+        log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
+                 number, SMALL_STOKES)  # fmt: skip
     log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
@@ -142,7 +163,7 @@ def describe(job: Job) -> list[str]:
         g = groups(cloud, index)
         log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
         _log_groups(g)
-        warnings += doubts(g, f"injection model {injection.name}") if g.n else []
+        warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
     for warning in warnings:
         log.warning("%s", warning)
     return warnings

@@ -54,12 +54,13 @@ MULTIPLE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Time stepping: step, end and write interval, s, and the integrator of the shape."""
+    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance."""
 
     deltaT: float
     endTime: float
     writeInterval: float
     shape: str
+    tolerance: float
 
 
 @dataclass(frozen=True)
@@ -175,6 +176,7 @@ def _solution(entries: _Solution, root: Dictionary) -> Solution:
         endTime=entries.endTime,
         writeInterval=entries.endTime if interval is None else interval,
         shape=entries.integrationSchemes.shape,
+        tolerance=entries.integrationSchemes.tolerance,
     )
 
 
@@ -364,7 +366,8 @@ class _InterpolationSchemes:
 @dataclass(frozen=True, kw_only=True)
 class _IntegrationSchemes:
     U: Literal["Euler"] = "Euler"
-    shape: Annotated[str, Choice(INTEGRATORS)] = "paper"
+    shape: Annotated[str, Choice(("auto", *INTEGRATORS))] = "auto"
+    tolerance: Annotated[float, Positive] = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)

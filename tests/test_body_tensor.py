@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.linalg import expm
 from strategies import flat, mild_stretches, rotations, square, stretches, tensors
 
 from foamprb.body import tensor as t
@@ -83,3 +84,11 @@ def test_arrays_and_floats_give_the_same(random):
         Qk, stretch_k = t.principal_frame(flat(F[k]))
         np.testing.assert_array_equal([c[k] for c in Q], Qk)
         np.testing.assert_array_equal([c[k] for c in stretch], stretch_k)
+
+
+@given(tensors)
+def test_exponential_is_a_rotation_for_a_skew_tensor_and_of_fourth_order(T):
+    R = square(t.exponential(t.skew(T)))
+    np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-13)
+    small = t.scale(1e-2, T)
+    np.testing.assert_allclose(square(t.exponential(small)), expm(square(small)), atol=5e-8)

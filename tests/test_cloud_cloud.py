@@ -8,9 +8,11 @@ from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals, reach
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS
-from foamprb.cloud.advance import LANES, ROWS, Medium, PatchTable, track_block
+from foamprb.cloud.advance import track_block
+from foamprb.cloud.block import LANES, ROWS, Medium
 from foamprb.cloud.cloud import Cloud, Models
 from foamprb.cloud.measures import context, measure
+from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Reason, Status, spheres
 

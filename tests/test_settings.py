@@ -105,7 +105,7 @@ def test_defaults(read: Reader, case: Path) -> None:
     assert settings.name == "softCloud"
     assert settings.solution.writeInterval == settings.solution.endTime == 0.4
     assert settings.solution.deltaT == 2e-5
-    assert settings.solution.shape == "paper"
+    assert (settings.solution.shape, settings.solution.tolerance) == ("auto", 1e-4)
     assert settings.fluid.mu == pytest.approx(1.208 * 1.5e-5, rel=1e-15)
     assert settings.gravity == (0.0, 0.0, 0.0)
     assert (settings.traction, settings.drag, settings.touching) == ("roscoe", "oberbeck", "ellipsoid")

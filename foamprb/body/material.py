@@ -15,6 +15,8 @@ class Material(NamedTuple):
     """Stored energy per undeformed volume w₀(F, μ, λ), J/m³."""
     coefficients: Callable[[Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
     """φ, ψ and J dψ/dJ of (J, μ, λ), Pa."""
+    derivatives: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
+    """∂w₀/∂I₁, ∂w₀/∂I₂ and ∂w₀/∂J of (I₁, I₂, J, μ, λ), Pa; I₁ and I₂ are those of b = F Fᵀ."""
 
 
 def neo_hooke_energy(F: Tensor, mu: Scalar, lame: Scalar) -> Scalar:
@@ -38,7 +40,16 @@ def neo_hooke_coefficients(J: Scalar, mu: Scalar, lame: Scalar) -> tuple[Scalar,
     return mu, lame * log_ratio(J) - mu, lame
 
 
-MATERIALS: dict[str, Material] = {"neoHooke": Material(neo_hooke_energy, neo_hooke_coefficients)}
+def neo_hooke_derivatives(
+    _I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar
+) -> tuple[Scalar, Scalar, Scalar]:
+    """½ μ, 0 and (λ ln J − μ)/J, Pa: the derivatives of :func:`neo_hooke_energy` by the invariants."""
+    return 0.5 * mu, 0.0 * mu, (lame * log_ratio(J) - mu) / J
+
+
+MATERIALS: dict[str, Material] = {
+    "neoHooke": Material(neo_hooke_energy, neo_hooke_coefficients, neo_hooke_derivatives),
+}
 
 
 def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar) -> Tensor:

@@ -150,6 +150,15 @@ def from_frame(Q: Tensor, T: Tensor) -> Tensor:
     return dot(dot(transpose(Q), T), Q)
 
 
+def exponential(K: Tensor) -> Tensor:
+    """Exp K to fourth order, for a small K, and a rotation for a skew one.
+
+    exp K = (1 − k)⁻¹·(1 + k) with k = tanh(K/2) = K/2 − K³/24 + O(K⁵), a Cayley transform.
+    """
+    half = add(scale(0.5, K), scale(-1.0 / 24.0, dot(dot(K, K), K)))
+    return dot(inverse(add_identity(scale(-1.0, half), 1.0)), add_identity(half, 1.0))
+
+
 def log_ratio(J: Scalar) -> Scalar:
     """ln J without a branch or a library call, to 4 units in the last place of 1, for J in [1/8, 8].
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,18 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.material import MATERIALS
 from foamprb.body.tensor import principal_frame
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.advance import LANES, ROWS, STAGES, Medium, PatchTable, track_block
+from foamprb.cloud.adaptive import (
+    ADAPTIVE_ROWS,
+    ADAPTIVE_STAGES,
+    first_inertial,
+    first_inertialess,
+    second_inertial,
+    second_inertialess,
+    track_adaptive,
+)
+from foamprb.cloud.advance import STAGES, track_block
+from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile import link
@@ -33,6 +44,27 @@ def available_threads() -> int:
     return len(os.sched_getaffinity(0))
 
 
+class Loop(NamedTuple):
+    """A compiled loop over particles, and what it is made of."""
+
+    entry: Callable[..., int]
+    stages: tuple[Callable[..., Any], ...]
+    rows: int
+    """Rows of a block."""
+    adaptive: bool
+    bindings: dict[str, Callable[..., Any]]
+
+
+_SECOND_ORDER = (track_adaptive, ADAPTIVE_STAGES, ADAPTIVE_ROWS, True)
+
+LOOPS: dict[str, Loop] = {
+    "paper": Loop(track_block, STAGES, ROWS, False, {}),
+    "rosenbrock": Loop(*_SECOND_ORDER, {"first_slope": first_inertial, "second_slope": second_inertial}),
+    "stokes": Loop(*_SECOND_ORDER, {"first_slope": first_inertialess, "second_slope": second_inertialess}),
+}
+"""The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
+
+
 @dataclass(frozen=True)
 class Models:
     """Names of the models that a cloud selects, from the registries of :mod:`foamprb.body`."""
@@ -41,6 +73,9 @@ class Models:
     drag: str = "oberbeck"
     material: str = "neoHooke"
     touching: Literal["ellipsoid", "centre"] = "ellipsoid"
+    integrator: str = "paper"
+    tolerance: float = 1e-4
+    """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
 
 
 @dataclass
@@ -69,7 +104,7 @@ class Cloud:
     Raises
     ------
     InputError
-        If a particle without a host lies outside the flow.
+        If a particle without a host lies outside the flow, or the models do not go together.
     ValueError
         If there is not one interaction for each patch.
     """
@@ -87,16 +122,24 @@ class Cloud:
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
+        if self.models.integrator == "stokes" and self.models.traction != "roscoe":
+            raise InputError(f"the integrator stokes needs the traction roscoe, not {self.models.traction}")
         _find_hosts(self.particles, self.flow)
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
             bindings["gap"] = gap_free
         bindings["traction"] = TRACTIONS[self.models.traction]
         bindings["drag"] = DRAGS[self.models.drag]
-        bindings["coefficients"] = MATERIALS[self.models.material].coefficients
+        material = MATERIALS[self.models.material]
+        bindings["coefficients"] = material.coefficients
+        bindings["derivatives"] = material.derivatives
+        loop = LOOPS[self.models.integrator]
+        bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
-        parts = (*STAGES, bindings["walk"], bindings["gap"], bindings["recover"])
-        self._track = link(track_block, bindings, separate=parts)
+        parts = (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
+        self._track = link(loop.entry, bindings, separate=parts)
+        self._rows = loop.rows
+        self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
         self._reach = 0.0
         self._arrays: Any = None
@@ -116,12 +159,12 @@ class Cloud:
         flow_arrays = self._flow_arrays()
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
-            block = np.empty(ROWS * LANES)
+            block = np.empty(self._rows * LANES)
             clearance = np.empty(LANES)
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, block, clearance,
+                    self.step, steps, self.dt, block, clearance, *self._options,
                 )
                 for members in share
             )  # fmt: skip

@@ -69,6 +69,7 @@ class Particles(NamedTuple):
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection")]
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection")]
     t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
+    h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 until it has one")]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
     patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]

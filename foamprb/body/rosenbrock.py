@@ -1,0 +1,278 @@
+"""Second-order linearly implicit steps of the shape: with the solid's inertia, or without.
+
+The method is ROS2 (Verwer, Spee, Blom & Hundsdorfer 1999): for y' = f(y), with γ = 1 + 1/√2,
+
+    (1 − γhJ) k₁ = f(y),   (1 − γhJ) k₂ = f(y + h k₁) − 2 k₁,   y' = y + h (3 k₁ + k₂)/2.
+
+The deformation gradient is advanced as dF/dt = l F with slopes k of l, F' = exp(h k)·F, so that a turning
+body turns and is not stretched by the step.
+
+It is of second order whatever J is, and L-stable as far as J is the Jacobian. Here J holds what is stiff: the
+solid's elasticity, and with inertia also the traction's dependence on the body's own rate of deformation.
+In the particle frame, with the off-diagonal components of the elastic stretch left out, it couples only
+components ij and ji, and the three ii, so that the equations are solved in closed form. The difference
+h (k₁ + k₂)/2 of the two orders is the error estimate.
+
+All tensors are components in the particle frame Q of the step's start, unless said otherwise.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+from foamprb.body.ellipsoid import Integrals
+from foamprb.body.material import neo_hooke_derivatives as derivatives
+from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, inverse
+
+GAMMA = 1.0 + 1.0 / sqrt(2.0)
+_DIFFERENCE = 1e-6
+
+
+class Elasticity(NamedTuple):
+    """Kirchhoff stress of an isotropic solid and its derivative where the stretch is diagonal."""
+
+    tau: Vector
+    """Principal stresses, Pa."""
+    slopes: Tensor
+    """∂τ_a/∂ln λ_c, Pa."""
+    shear: Vector
+    """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij λ_j² + X_ji λ_i²)."""
+
+
+def invariants(e: Vector) -> tuple[Scalar, Scalar]:
+    """I₁ and I₂ of b = F Fᵀ with principal values e."""
+    return e[0] + e[1] + e[2], e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
+
+
+def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar) -> Tensor:
+    """Kirchhoff stress τ = P Fᵀ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I, Pa, in any frame.
+
+    Parameters
+    ----------
+    b, J
+        F Fᵀ and det F.
+    mu, lame
+        Lamé parameters of the solid, Pa.
+    """
+    I1 = b[0] + b[4] + b[8]
+    square = dot(b, b)
+    I2 = 0.5 * (I1 * I1 - square[0] - square[4] - square[8])
+    w1, w2, wJ = derivatives(I1, I2, J, mu, lame)
+    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
+    T = (
+        p * b[0] - q * square[0], p * b[1] - q * square[1], p * b[2] - q * square[2],
+        p * b[3] - q * square[3], p * b[4] - q * square[4], p * b[5] - q * square[5],
+        p * b[6] - q * square[6], p * b[7] - q * square[7], p * b[8] - q * square[8],
+    )  # fmt: skip
+    return add_identity(T, J * wJ)
+
+
+def _principal_kirchhoff(e: Vector, mu: Scalar, lame: Scalar, J: Scalar) -> Vector:
+    I1, I2 = invariants(e)
+    w1, w2, wJ = derivatives(I1, I2, J, mu, lame)
+    p, q, r = 2.0 * (w1 + I1 * w2), 2.0 * w2, J * wJ
+    return (
+        p * e[0] - q * e[0] * e[0] + r,
+        p * e[1] - q * e[1] * e[1] + r,
+        p * e[2] - q * e[2] * e[2] + r,
+    )
+
+
+def elasticity(stretches: Vector, mu: Scalar, lame: Scalar) -> Elasticity:
+    """Principal stresses and their derivatives, the latter by one-sided differences.
+
+    Parameters
+    ----------
+    stretches
+        λ_a.
+    mu, lame
+        Lamé parameters of the solid, Pa.
+    """
+    x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
+    J = stretches[0] * stretches[1] * stretches[2]
+    tau = _principal_kirchhoff((x, y, z), mu, lame, J)
+    h = _DIFFERENCE
+    g = 1.0 + 2.0 * h + 2.0 * h * h
+    Jh = J * (1.0 + h + 0.5 * h * h)
+    tx = _principal_kirchhoff((x * g, y, z), mu, lame, Jh)
+    ty = _principal_kirchhoff((x, y * g, z), mu, lame, Jh)
+    tz = _principal_kirchhoff((x, y, z * g), mu, lame, Jh)
+    slopes = (
+        (tx[0] - tau[0]) / h, (ty[0] - tau[0]) / h, (tz[0] - tau[0]) / h,
+        (tx[1] - tau[1]) / h, (ty[1] - tau[1]) / h, (tz[1] - tau[1]) / h,
+        (tx[2] - tau[2]) / h, (ty[2] - tau[2]) / h, (tz[2] - tau[2]) / h,
+    )  # fmt: skip
+    I1, I2 = invariants((x, y, z))
+    w1, w2, _ = derivatives(I1, I2, J, mu, lame)
+    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
+    return Elasticity(tau, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
+
+
+def traction_slopes(semi_axes: Vector, g: Integrals) -> Tensor:
+    """Change of the normal tractions σ̃_aa/μ_f with the body's own stretching d_s,cc (26).
+
+    Columns are the responses to unit d_s,cc, its dilation with −4/3 included.
+    """
+    p, q, r = (
+        _normal_traction(semi_axes, g, (2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0)),
+        _normal_traction(semi_axes, g, (-1.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0)),
+        _normal_traction(semi_axes, g, (-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0)),
+    )
+    sphere = -4.0 / 3.0
+    return (
+        p[0] + sphere, q[0] + sphere, r[0] + sphere,
+        p[1] + sphere, q[1] + sphere, r[1] + sphere,
+        p[2] + sphere, q[2] + sphere, r[2] + sphere,
+    )  # fmt: skip
+
+
+def disturbance_normal(semi_axes: Vector, g: Integrals, d: Vector) -> tuple[Vector, Scalar]:
+    """s̃_aa of (B.5) for the traceless normal strain rates d, and the pressure of (B.1) for unit viscosity."""
+    x, y, z = g.star[0] * d[0], g.star[1] * d[1], g.star[2] * d[2]
+    s = g.star
+    n = 1.0 / (6.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]))
+    A, B, C = n * (2.0 * x - y - z), n * (2.0 * y - z - x), n * (2.0 * z - x - y)
+    k = 8.0 / (semi_axes[0] * semi_axes[1] * semi_axes[2])
+    return (k * A, k * B, k * C), 4.0 * (g.alpha[0] * A + g.alpha[1] * B + g.alpha[2] * C)
+
+
+def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector) -> Vector:
+    """−p̃ + s̃_aa(−e) + 2 e_aa for a traceless stretching e of the body in a fluid at rest."""
+    s, pressure = disturbance_normal(semi_axes, g, (-e[0], -e[1], -e[2]))
+    return s[0] - pressure + 2.0 * e[0], s[1] - pressure + 2.0 * e[1], s[2] - pressure + 2.0 * e[2]
+
+
+def shear_coefficients(
+    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, k: Scalar
+) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    """Change of σ̃_ab/μ_f by the body's l_s,ab and l_s,ba, then that of σ̃_ba/μ_f.
+
+    Parameters
+    ----------
+    a, b, alpha, beta, ring
+        Two semi-axes, their α₀, and the third axis' α₀°.
+    k
+        8/(abc).
+    """
+    a2, b2 = a * a, b * b
+    f = 0.5 * k / (ring * (a2 * alpha + b2 * beta))
+    # d = (Y_ab + Y_ba)/2 and w_ba = (Y_ba − Y_ab)/2 in H and H° (B.8), with d and w of the fluid zero.
+    d1, w1 = 1.0 - 0.5 * f * alpha, 0.5 * f * b2 * ring
+    d2, w2 = 1.0 - 0.5 * f * beta, -0.5 * f * a2 * ring
+    return d1 - w1, d1 + w1, d2 - w2, d2 + w2
+
+
+def solve_pair(
+    m11: Scalar, m12: Scalar, m21: Scalar, m22: Scalar, r1: Scalar, r2: Scalar
+) -> tuple[Scalar, Scalar]:
+    """Solution of the two equations."""
+    d = 1.0 / (m11 * m22 - m12 * m21)
+    return d * (m22 * r1 - m12 * r2), d * (m11 * r2 - m21 * r1)
+
+
+class Stiffness(NamedTuple):
+    """The Jacobian of the inertial shape at the start of a step; see :func:`solve_inertial`."""
+
+    b: Vector
+    """λ_a²."""
+    traction: Tensor
+    """c J μ_f times :func:`traction_slopes`, 1/s, with c = 5/(ρ_s R²)."""
+    traction_pairs: tuple[Tensor, Tensor]
+    """The same of :func:`shear_coefficients`, 23, 13 and 12 in turn, four each; one unused at the end."""
+    elastic: Tensor
+    """c ∂τ_a/∂ln λ_c, 1/s²."""
+    elastic_pairs: tuple[Tensor, Tensor]
+    """The same of the shear stresses, laid out as ``traction_pairs``."""
+
+
+def inertial_stiffness(stretches: Vector, g: Integrals, e: Elasticity, c: Scalar, mu_f: Scalar) -> Stiffness:
+    """Assemble the Jacobian.
+
+    Parameters
+    ----------
+    stretches, g
+        Semi-axes over R and their integrals.
+    e
+        :func:`elasticity` there.
+    c
+        5/(ρ_s R²), m/kg.
+    mu_f
+        Viscosity of the fluid, Pa s.
+    """
+    x, y, z = stretches
+    b = (x * x, y * y, z * z)
+    J = x * y * z
+    t = traction_slopes(stretches, g)
+    f = c * J * mu_f
+    traction = (f * t[0], f * t[1], f * t[2], f * t[3], f * t[4], f * t[5], f * t[6], f * t[7], f * t[8])
+    s = e.slopes
+    elastic = (
+        c * s[0], c * s[1], c * s[2],
+        c * s[3], c * s[4], c * s[5],
+        c * s[6], c * s[7], c * s[8],
+    )  # fmt: skip
+    k = 8.0 / J
+    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k)
+    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k)
+    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k)
+    zero = 0.0 * f
+    first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], zero)
+    second = (f * r[0], f * r[1], f * r[2], f * r[3], zero, zero, zero, zero, zero)
+    s23, s13, s12 = e.shear
+    stiff_first = (
+        c * s23 * b[2], c * s23 * b[1], c * s23 * b[2], c * s23 * b[1],
+        c * s13 * b[2], c * s13 * b[0], c * s13 * b[2], c * s13 * b[0], zero,
+    )  # fmt: skip
+    stiff_second = (
+        c * s12 * b[1], c * s12 * b[0], c * s12 * b[1], c * s12 * b[0],
+        zero, zero, zero, zero, zero,
+    )  # fmt: skip
+    return Stiffness(b, traction, (first, second), elastic, (stiff_first, stiff_second))
+
+
+def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
+    """What the displacement H = X F takes from Ȧ Fᵀ through the elastic part of the Jacobian, 1/s²."""
+    p, q = n.elastic_pairs
+    d = dot_vector(n.elastic, (X[0], X[4], X[8]))
+    return (
+        d[0], q[0] * X[1] + q[1] * X[3], p[4] * X[2] + p[5] * X[6],
+        q[2] * X[1] + q[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],
+        p[6] * X[2] + p[7] * X[6], p[2] * X[5] + p[3] * X[7], d[2],
+    )  # fmt: skip
+
+
+def solve_inertial(n: Stiffness, gh: Scalar, r: Tensor) -> Tensor:
+    """Y in Y b − γh T(Y) + (γh)² E(Y) = r, T the traction's and E the elastic part of the Jacobian.
+
+    Parameters
+    ----------
+    n
+        The Jacobian.
+    gh
+        γh, s.
+    r
+        Right side, a rate of l_s times b, 1/s².
+    """
+    gh2 = gh * gh
+    t, e = n.traction, n.elastic
+    M = (
+        n.b[0] - gh * t[0] + gh2 * e[0], gh2 * e[1] - gh * t[1], gh2 * e[2] - gh * t[2],
+        gh2 * e[3] - gh * t[3], n.b[1] - gh * t[4] + gh2 * e[4], gh2 * e[5] - gh * t[5],
+        gh2 * e[6] - gh * t[6], gh2 * e[7] - gh * t[7], n.b[2] - gh * t[8] + gh2 * e[8],
+    )  # fmt: skip
+    d = dot_vector(inverse(M), (r[0], r[4], r[8]))
+    (p, q), (f, h) = n.traction_pairs, n.elastic_pairs
+    Y23, Y32 = solve_pair(
+        n.b[2] - gh * p[0] + gh2 * f[0], gh2 * f[1] - gh * p[1],
+        gh2 * f[2] - gh * p[2], n.b[1] - gh * p[3] + gh2 * f[3], r[5], r[7],
+    )  # fmt: skip
+    Y13, Y31 = solve_pair(
+        n.b[2] - gh * p[4] + gh2 * f[4], gh2 * f[5] - gh * p[5],
+        gh2 * f[6] - gh * p[6], n.b[0] - gh * p[7] + gh2 * f[7], r[2], r[6],
+    )  # fmt: skip
+    Y12, Y21 = solve_pair(
+        n.b[1] - gh * q[0] + gh2 * h[0], gh2 * h[1] - gh * q[1],
+        gh2 * h[2] - gh * q[2], n.b[0] - gh * q[3] + gh2 * h[3], r[1], r[3],
+    )  # fmt: skip
+    return (d[0], Y12, Y13, Y21, d[1], Y23, Y31, Y32, d[2])

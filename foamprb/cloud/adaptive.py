@@ -1,0 +1,509 @@
+"""The compiled loop for the second-order integrators, each particle with error-controlled steps of its own.
+
+A tracking step Δt is cut into as many steps h as the tolerance asks for; the size that a particle found is
+part of its state. As in :mod:`foamprb.cloud.advance`, the lanes of a block go side by side and all alike.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.drag import oberbeck as drag
+from foamprb.body.drag import reduced_gravity
+from foamprb.body.ellipsoid import Integrals
+from foamprb.body.rosenbrock import (
+    GAMMA,
+    Elasticity,
+    Stiffness,
+    elastic_response,
+    elasticity,
+    inertial_stiffness,
+    kirchhoff,
+    solve_inertial,
+)
+from foamprb.body.stokes import Mobility, isochoric, mobility, solve_inertialess, velocity_gradient
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    add,
+    det,
+    dot,
+    dot_vector,
+    exponential,
+    from_frame,
+    inverse,
+    scale,
+    to_frame,
+    transpose,
+    vector_dot,
+)
+from foamprb.body.traction import roscoe as traction
+from foamprb.cloud.block import (
+    AT_A,
+    AT_ERROR,
+    AT_F,
+    AT_J,
+    AT_L,
+    AT_LAME,
+    AT_MU,
+    AT_NEW_A,
+    AT_NEW_F,
+    AT_NEW_V,
+    AT_NEW_X,
+    AT_Q,
+    AT_R,
+    AT_RHO,
+    AT_STRETCH,
+    AT_U,
+    AT_V,
+    AT_X,
+    LANES,
+    Medium,
+    frame_stage,
+    idle,
+    integrals_stage,
+    load3,
+    load9,
+    load_integrals,
+    load_particle,
+    save_particle,
+    store3,
+    store9,
+)
+from foamprb.cloud.block import ROWS as FIRST_ROW
+from foamprb.cloud.motion import (
+    ACTIVE,
+    NOT_CONVERGED,
+    PENDING,
+    SHORTEST_STEP,
+    PatchTable,
+    accept_shape,
+    fail,
+    reach_end,
+    release,
+)
+from foamprb.cloud.state import Particles
+from foamprb.flow.analytic import gap_free as gap
+from foamprb.flow.analytic import sample_linear as sample
+from foamprb.flow.analytic import walk_free as walk
+
+# Rows beyond those that every integrator has: the step h, the slopes k₁, and what belongs to the start of the
+# step, its frame included.
+AT_H = FIRST_ROW
+AT_KX, AT_KV, AT_KF, AT_KA = AT_H + 1, AT_H + 4, AT_H + 7, AT_H + 16
+AT_START_Q, AT_START_STRETCH, AT_RATE = AT_H + 25, AT_H + 34, AT_H + 37
+AT_STIFF = AT_H + 40
+ADAPTIVE_ROWS = AT_STIFF + 57
+
+_SAFETY, _LEAST, _MOST = 0.9, 0.2, 4.0
+_SMALLEST = 1e-9
+"""A step that must be smaller than this share of Δt is a failure."""
+
+
+def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
+    store3(block, AT_STIFF, i, n.b)
+    store9(block, AT_STIFF + 3, i, n.traction)
+    store9(block, AT_STIFF + 12, i, n.traction_pairs[0])
+    store9(block, AT_STIFF + 21, i, n.traction_pairs[1])
+    store9(block, AT_STIFF + 30, i, n.elastic)
+    store9(block, AT_STIFF + 39, i, n.elastic_pairs[0])
+    store9(block, AT_STIFF + 48, i, n.elastic_pairs[1])
+
+
+def _load_stiffness(block: Any, i: int) -> Stiffness:
+    return Stiffness(
+        load3(block, AT_STIFF, i),
+        load9(block, AT_STIFF + 3, i),
+        (load9(block, AT_STIFF + 12, i), load9(block, AT_STIFF + 21, i)),
+        load9(block, AT_STIFF + 30, i),
+        (load9(block, AT_STIFF + 39, i), load9(block, AT_STIFF + 48, i)),
+    )
+
+
+def _inertia(block: Any, i: int) -> float:
+    """c = 5/(ρ_s R²), the inverse inertia of the shape per volume."""
+    R = block[AT_R * LANES + i]
+    return 5.0 / (block[AT_RHO * LANES + i] * R * R)  # type: ignore[no-any-return]
+
+
+def _drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
+    """μ_f K_a/m, 1/s, with K_a in units of R."""
+    R = block[AT_R * LANES + i]
+    c = mu_f / (4.0 / 3.0 * math.pi * R * R * block[AT_RHO * LANES + i])
+    return c * k[0], c * k[1], c * k[2]
+
+
+def _drift(Q: Tensor, rate: Vector, a_G: Vector) -> Vector:
+    """Velocity relative to the fluid at which drag balances weight, m/s."""
+    g = dot_vector(Q, a_G)
+    return vector_dot((g[0] / rate[0], g[1] / rate[1], g[2] / rate[2]), Q)
+
+
+def _combine(y: Tensor, h: Any, k1: Tensor, k2: Tensor) -> Tensor:
+    """Y + h (3 k₁ + k₂)/2."""
+    return add(y, add(scale(1.5 * h, k1), scale(0.5 * h, k2)))
+
+
+def _largest(T: Tensor) -> Any:
+    p = np.maximum(np.maximum(abs(T[0]), abs(T[1])), np.maximum(abs(T[2]), abs(T[3])))
+    q = np.maximum(np.maximum(abs(T[4]), abs(T[5])), np.maximum(abs(T[6]), abs(T[7])))
+    return np.maximum(np.maximum(p, q), abs(T[8]))
+
+
+def _finish(block: Any, i: int, F: Tensor, k2F: Tensor, x_slopes: tuple[Vector, Vector]) -> None:
+    """Store the new deformation gradient and position, and the error estimate of the step."""
+    h = block[AT_H * LANES + i]
+    k1F = load9(block, AT_KF, i)
+    store9(block, AT_NEW_F, i, dot(exponential(add(scale(1.5 * h, k1F), scale(0.5 * h, k2F))), F))
+    k1, k2 = x_slopes
+    x = load3(block, AT_X, i)
+    store3(
+        block,
+        AT_NEW_X,
+        i,
+        (
+            x[0] + h * (1.5 * k1[0] + 0.5 * k2[0]),
+            x[1] + h * (1.5 * k1[1] + 0.5 * k2[1]),
+            x[2] + h * (1.5 * k1[2] + 0.5 * k2[2]),
+        ),
+    )
+    bend = abs(k1[0] + k2[0]) + abs(k1[1] + k2[1]) + abs(k1[2] + k2[2])
+    way = abs(k1[0]) + abs(k1[1]) + abs(k1[2]) + block[AT_R * LANES + i] / h
+    block[AT_ERROR * LANES + i] = np.maximum(0.5 * h * _largest(add(k1F, k2F)), 0.5 * bend / way)
+
+
+def first_inertial(block: Any, medium: Medium) -> None:
+    """Stage 1 with inertia: slopes at the start of the step, and the state that they predict.
+
+    The shape's unknowns are F and l_s = A F⁻¹, with dF/dt = l_s F and dl_s/dt = Ȧ F⁻¹ − l_s l_s: the traction
+    depends on l_s, so that what is stiff in l_s does not reappear in F.
+    """
+    for i in range(LANES):
+        h = block[AT_H * LANES + i]
+        gh = GAMMA * h
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F, A = load9(block, AT_F, i), load9(block, AT_A, i)
+        mu, lame, c = block[AT_MU * LANES + i], block[AT_LAME * LANES + i], _inertia(block, i)
+        l_s = dot(A, inverse(F))
+        L, G = to_frame(Q, l_s), dot(Q, F)
+        b = dot(G, transpose(G))
+        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b)
+        n = inertial_stiffness(stretches, g, elasticity(stretches, mu, lame), c, medium.mu)
+        r = add(W, scale(-1.0, dot(dot(L, L), b)))
+        Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, L))))
+        kL = from_frame(Q, Y)
+        kF = add(l_s, scale(gh, kL))
+        _store_stiffness(block, i, n)
+        store9(block, AT_KA, i, kL)
+        store9(block, AT_KF, i, kF)
+        store9(block, AT_NEW_A, i, add(l_s, scale(h, kL)))
+        store9(block, AT_NEW_F, i, dot(exponential(scale(h, kF)), F))
+
+        rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
+        v, x = load3(block, AT_V, i), load3(block, AT_X, i)
+        kv = _damped(Q, rate, gh, _acceleration(block, i, medium, Q, rate, v, det(F)))
+        kx = (v[0] + gh * kv[0], v[1] + gh * kv[1], v[2] + gh * kv[2])
+        store3(block, AT_KV, i, kv)
+        store3(block, AT_KX, i, kx)
+        store3(block, AT_NEW_V, i, (v[0] + h * kv[0], v[1] + h * kv[1], v[2] + h * kv[2]))
+        store3(block, AT_NEW_X, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
+        store9(block, AT_START_Q, i, Q)
+        store3(block, AT_RATE, i, rate)
+
+
+def second_inertial(block: Any, medium: Medium) -> None:
+    """Stage 2 with inertia: slopes at the predicted state, and the new state."""
+    for i in range(LANES):
+        h = block[AT_H * LANES + i]
+        gh = GAMMA * h
+        n = _load_stiffness(block, i)
+        Q0, rate0 = load9(block, AT_START_Q, i), load3(block, AT_RATE, i)
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F, A = load9(block, AT_F, i), load9(block, AT_A, i)
+        F_p, l_p = load9(block, AT_NEW_F, i), load9(block, AT_NEW_A, i)
+        k1F, k1L = load9(block, AT_KF, i), load9(block, AT_KA, i)
+        L, G = to_frame(Q, l_p), dot(Q, F_p)
+        b = dot(G, transpose(G))
+        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b)
+        f_L = from_frame(Q, add(dot(W, inverse(b)), scale(-1.0, dot(L, L))))
+        r_F = add(l_p, scale(-2.0, k1F))
+        r_L = add(f_L, scale(-2.0, k1L))
+        G0 = dot(Q0, F)
+        r = dot(to_frame(Q0, r_L), dot(G0, transpose(G0)))
+        Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, to_frame(Q0, r_F)))))
+        k2L = from_frame(Q0, Y)
+        k2F = add(r_F, scale(gh, k2L))
+        l_s = _combine(dot(A, inverse(F)), h, k1L, k2L)
+
+        rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
+        v, v_p = load3(block, AT_V, i), load3(block, AT_NEW_V, i)
+        k1v, k1x = load3(block, AT_KV, i), load3(block, AT_KX, i)
+        f_v = _acceleration(block, i, medium, Q, rate, v_p, det(F_p))
+        k2v = _damped(Q0, rate0, gh, (f_v[0] - 2.0 * k1v[0], f_v[1] - 2.0 * k1v[1], f_v[2] - 2.0 * k1v[2]))
+        k2x = (
+            v_p[0] - 2.0 * k1x[0] + gh * k2v[0],
+            v_p[1] - 2.0 * k1x[1] + gh * k2v[1],
+            v_p[2] - 2.0 * k1x[2] + gh * k2v[2],
+        )
+        _finish(block, i, F, k2F, (k1x, k2x))
+        F_new = load9(block, AT_NEW_F, i)
+        store9(block, AT_NEW_A, i, dot(l_s, F_new))
+        block[AT_J * LANES + i] = det(F_new)
+        # Over the step, an error of l_s is one of the deformation gradient.
+        error = 0.5 * h * h * _largest(add(k1L, k2L))
+        block[AT_ERROR * LANES + i] = np.maximum(block[AT_ERROR * LANES + i], error)
+        store3(
+            block,
+            AT_NEW_V,
+            i,
+            (
+                v[0] + h * (1.5 * k1v[0] + 0.5 * k2v[0]),
+                v[1] + h * (1.5 * k1v[1] + 0.5 * k2v[1]),
+                v[2] + h * (1.5 * k1v[2] + 0.5 * k2v[2]),
+            ),
+        )
+
+
+def _shape_force(
+    block: Any, i: int, mu_f: float, Q: Tensor, stretches: Vector, g: Integrals, L: Tensor, b: Tensor
+) -> Tensor:
+    """Ȧ Fᵀ = c (Jσ̃ − τ) (33), 1/s², in the particle frame, where l_s is L and F Fᵀ is b."""
+    stress = scale(mu_f, traction(stretches, g, to_frame(Q, load9(block, AT_L, i)), L))
+    J = stretches[0] * stretches[1] * stretches[2]
+    tau = kirchhoff(b, J, block[AT_MU * LANES + i], block[AT_LAME * LANES + i])
+    c = _inertia(block, i)
+    return add(scale(c * J, stress), scale(-c, tau))
+
+
+def _acceleration(block: Any, i: int, medium: Medium, Q: Tensor, rate: Vector, v: Vector, J: Any) -> Vector:
+    """a_G + a_D (34), m/s²."""
+    u = load3(block, AT_U, i)
+    a_G = reduced_gravity(J, block[AT_RHO * LANES + i], medium.rho, medium.gravity)
+    w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
+    a_D = vector_dot((rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]), Q)
+    return a_G[0] + a_D[0], a_G[1] + a_D[1], a_G[2] + a_D[2]
+
+
+def _damped(Q: Tensor, rate: Vector, gh: Any, r: Vector) -> Vector:
+    """Solution k of (1 + γh rate_a) k_a = r_a in the frame Q."""
+    w = dot_vector(Q, r)
+    return vector_dot(
+        (w[0] / (1.0 + gh * rate[0]), w[1] / (1.0 + gh * rate[1]), w[2] / (1.0 + gh * rate[2])), Q
+    )
+
+
+def first_inertialess(block: Any, medium: Medium) -> None:
+    """Stage 1 without inertia."""
+    for i in range(LANES):
+        h = block[AT_H * LANES + i]
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F, x = load9(block, AT_F, i), load3(block, AT_X, i)
+        e = _shear_elasticity(block, i, stretches)
+        m = mobility(stretches, g)
+        l_s, kx = _balance(block, i, medium, Q, stretches, g, m, F)
+        Y = solve_inertialess(m, e, stretches, GAMMA * h, medium.mu, l_s)
+        kF = from_frame(Q, Y)
+        store9(block, AT_KF, i, kF)
+        store3(block, AT_KX, i, kx)
+        store9(block, AT_NEW_F, i, dot(exponential(scale(h, kF)), F))
+        store3(block, AT_NEW_X, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
+        store9(block, AT_START_Q, i, Q)
+        store3(block, AT_START_STRETCH, i, stretches)
+        store9(block, AT_STIFF, i, m.normal)
+        store3(block, AT_STIFF + 9, i, m.resistance)
+        store3(block, AT_STIFF + 12, i, m.slip)
+
+
+def second_inertialess(block: Any, medium: Medium) -> None:
+    """Stage 2 without inertia; the volume is restored exactly."""
+    for i in range(LANES):
+        h = block[AT_H * LANES + i]
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        Q0, stretches0 = load9(block, AT_START_Q, i), load3(block, AT_START_STRETCH, i)
+        m0 = _load_mobility(block, i)
+        F, F_p = load9(block, AT_F, i), load9(block, AT_NEW_F, i)
+        l_s, v = _balance(block, i, medium, Q, stretches, g, mobility(stretches, g), F_p)
+        l_p = from_frame(Q, l_s)
+        k1F, k1x = load9(block, AT_KF, i), load3(block, AT_KX, i)
+        r = to_frame(Q0, add(l_p, scale(-2.0, k1F)))
+        e = _shear_elasticity(block, i, stretches0)
+        Y = solve_inertialess(m0, e, stretches0, GAMMA * h, medium.mu, r)
+        k2x = (v[0] - 2.0 * k1x[0], v[1] - 2.0 * k1x[1], v[2] - 2.0 * k1x[2])
+        _finish(block, i, F, from_frame(Q0, Y), (k1x, k2x))
+        F_new = load9(block, AT_NEW_F, i)
+        J = det(F_new)
+        F_new = isochoric(F_new, J)
+        store9(block, AT_NEW_F, i, F_new)
+        block[AT_J * LANES + i] = J
+        store9(block, AT_NEW_A, i, dot(l_p, F_new))
+        store3(block, AT_NEW_V, i, v)
+
+
+def _shear_elasticity(block: Any, i: int, stretches: Vector) -> Elasticity:
+    """The solid's elasticity without its resistance to dilation, which the pressure takes over."""
+    mu = block[AT_MU * LANES + i]
+    return elasticity(stretches, mu, 0.0 * mu)
+
+
+def _load_mobility(block: Any, i: int) -> Mobility:
+    """The mobility at the start of the step, as stage 1 left it."""
+    return Mobility(load9(block, AT_STIFF, i), load3(block, AT_STIFF + 9, i), load3(block, AT_STIFF + 12, i))
+
+
+def _balance(
+    block: Any, i: int, medium: Medium, Q: Tensor, stretches: Vector, g: Integrals, m: Mobility, F: Tensor
+) -> tuple[Tensor, Vector]:
+    """l_s in the particle frame, 1/s, and the barycentre's velocity u + K⁻¹ f_G/μ_f, m/s."""
+    G = dot(Q, F)
+    tau = kirchhoff(
+        dot(G, transpose(G)), 0.0 * F[0] + 1.0, block[AT_MU * LANES + i], block[AT_LAME * LANES + i]
+    )
+    sigma = scale(1.0 / medium.mu, tau)
+    l_f = to_frame(Q, load9(block, AT_L, i))
+    l_s = velocity_gradient(stretches, g, m, sigma, l_f)
+    rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
+    a_G = reduced_gravity(1.0, block[AT_RHO * LANES + i], medium.rho, medium.gravity)
+    u, w = load3(block, AT_U, i), _drift(Q, rate, a_G)
+    return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
+
+
+first_slope, second_slope = first_inertial, second_inertial
+
+
+def _begin(block: Any, i: int, h: float) -> None:
+    """Put the state of lane i where the frame is taken from, and its step."""
+    store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+    block[AT_H * LANES + i] = h
+
+
+def _predicted_host(flow: Any, host: int, block: Any, i: int) -> int:
+    """Host of the predicted position, or the last one on the way to a boundary."""
+    found, _, patch, _ = walk(flow, host, load3(block, AT_X, i), load3(block, AT_NEW_X, i))
+    return host if patch == -2 else found
+
+
+def _next_size(h: float, error: float, tolerance: float) -> float:
+    """Step that the error estimate, of second order in h, allows."""
+    if not math.isfinite(error):
+        return _LEAST * h
+    factor = _SAFETY * math.sqrt(tolerance / (error + 1e-300))
+    return h * min(_MOST, max(_LEAST, factor))
+
+
+def track_adaptive(
+    flow: Any,
+    patches: PatchTable,
+    medium: Medium,
+    p: Particles,
+    members: NDArray[np.int64],
+    step: int,
+    steps: int,
+    dt: float,
+    block: NDArray[np.float64],
+    clearance: NDArray[np.float64],
+    tolerance: float,
+) -> int:
+    """Carry up to LANES particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
+
+    Parameters
+    ----------
+    As :func:`foamprb.cloud.advance.track_block`, with a block of ADAPTIVE_ROWS × LANES, and
+    tolerance
+        Largest error of a step in the deformation gradient, and in the direction of the path.
+
+    Returns
+    -------
+    The number of walks that failed and were mended by the tree.
+    """
+    recovered = 0
+    last = step + steps
+    current = np.full(LANES, step)
+    hosts = np.zeros(LANES, dtype=np.int32)
+    for i in range(LANES):
+        idle(block, i, dt)
+        block[AT_H * LANES + i] = dt
+    for i in range(len(members)):
+        k = members[i]
+        load_particle(p, k, block, i)
+        clearance[i] = math.inf
+        if p.status[k] == ACTIVE:
+            clearance[i], _, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
+
+    while True:
+        moving = 0
+        for i in range(len(members)):
+            k = members[i]
+            while p.status[k] == PENDING and current[i] < last:
+                if p.t0[k] < (current[i] + 1) * dt - SHORTEST_STEP * dt:
+                    clearance[i] = release(flow, patches, p, k, block, i)
+                    p.h[k] = dt
+                else:
+                    current[i] += 1
+            if p.status[k] != ACTIVE or current[i] >= last:
+                continue
+            moving += 1
+            rest = (current[i] + 1) * dt - p.t[k]
+            # A little more than one step left is two equal ones, not one and a sliver.
+            h = rest if p.h[k] >= rest else min(p.h[k], 0.5 * rest)
+            _begin(block, i, h)
+            u, l_f = sample(flow, p.host[k], load3(block, AT_X, i))
+            store3(block, AT_U, i, u)
+            store9(block, AT_L, i, l_f)
+        if moving == 0:
+            break
+
+        frame_stage(block)
+        integrals_stage(block)
+        first_slope(block, medium)
+        for i in range(len(members)):
+            k = members[i]
+            if p.status[k] == ACTIVE and current[i] < last:
+                hosts[i] = _predicted_host(flow, p.host[k], block, i)
+                u, l_f = sample(flow, hosts[i], load3(block, AT_NEW_X, i))
+                store3(block, AT_U, i, u)
+                store9(block, AT_L, i, l_f)
+        frame_stage(block)
+        integrals_stage(block)
+        second_slope(block, medium)
+
+        for i in range(len(members)):
+            k = members[i]
+            if p.status[k] != ACTIVE or current[i] >= last:
+                continue
+            h = block[AT_H * LANES + i]
+            t_end = (current[i] + 1) * dt
+            error = block[AT_ERROR * LANES + i]
+            size = _next_size(h, error, tolerance)
+            if not error <= tolerance:
+                p.h[k] = size
+                if size < _SMALLEST * dt:
+                    fail(p, k, NOT_CONVERGED)
+                continue
+            if not accept_shape(p, k, block, i, tolerance):
+                continue
+            whole = p.t[k] + h >= t_end - SHORTEST_STEP * dt
+            # A step cut short by the end of Δt says nothing against the size before it.
+            p.h[k] = min(dt, max(size, p.h[k]) if whole else size)
+            goal = load3(block, AT_NEW_X, i)
+            t_new = t_end if whole else p.t[k] + h
+            recovered += reach_end(flow, patches, p, k, block, i, goal, t_new, h, clearance)
+            if whole:
+                current[i] += 1
+    for i in range(len(members)):
+        save_particle(p, members[i], block, i)
+    return recovered
+
+
+ADAPTIVE_STAGES = (
+    frame_stage,
+    integrals_stage,
+    first_inertial,
+    second_inertial,
+    first_inertialess,
+    second_inertialess,
+)
+"""Parts of the loop that do not depend on the flow, compiled once for all flows."""
