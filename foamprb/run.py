@@ -57,7 +57,7 @@ class Job:
 
 
 def prepare(
-    case: Path,
+    case: Path | str,
     time: float | str = "latestTime",
     dictionary: Path | None = None,
     threads: int | None = None,
@@ -80,6 +80,7 @@ def prepare(
     InputError
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
+    case = Path(case)
     settings = read_settings(case, dictionary)
     log.info("Reading flow of case %s", case)
     flow = read_case(case, time)

@@ -261,3 +261,12 @@ def test_doubtful_numbers_are_warned_of_with_their_size(case, capsys):
     assert "Warning" in out
     assert "particle Reynolds number is" in out
     assert "times as large as the cell" in out
+
+
+def test_the_readmes_python_runs():
+    """The ten lines, as they stand."""
+    text = (PIPE.parents[1] / "README.md").read_text()
+    lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
+    names: dict[str, object] = {}
+    exec(lines.replace('"cases/pipe"', f'"{PIPE}"').replace("20_000", "200"), names)
+    assert names["particles"].x[0, 0] > 0.0

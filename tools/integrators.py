@@ -1,8 +1,8 @@
 """Error against work of the integrators of the shape, in the air pipe of the paper and in a water pipe.
 
 A particle in a pipe for a given time, steps of fixed size; the error is that of the deformation gradient and
-of the position over the diameter, against a far finer run of the second-order integrator with inertia. Work is
-the number of evaluations of the traction: one a step for the paper's scheme, two for the others. Writes
+of the position over the diameter, against a far finer run of the second-order integrator with inertia. Work
+is the number of evaluations of the traction: one a step for the paper's scheme, two for the others. Writes
 ``integrators.csv`` and ``integrators.png``.
 
     python tools/integrators.py --output docs

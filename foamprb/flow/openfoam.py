@@ -137,7 +137,7 @@ def describe(case: Path) -> CaseInfo:
     return CaseInfo(case, times, patches, len(points), cells, bounds)
 
 
-def read_case(case: Path, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
+def read_case(case: Path | str, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
     Parameters
@@ -154,7 +154,7 @@ def read_case(case: Path, time: float | str = "latestTime", velocity: str = "U")
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    mesh, cells, boundary, name = read_fields(case, time, velocity)
+    mesh, cells, boundary, name = read_fields(Path(case), time, velocity)
     u, l = Reconstruction(mesh)(cells, boundary)  # noqa: E741
     notes = [_PRECISION_NOTE]
     if float(name) == 0.0:
