@@ -101,6 +101,9 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
+    solids = sorted({injection.solid.type for injection in settings.injections})
+    if len(solids) > 1:
+        raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
@@ -136,6 +139,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
     p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
+    p.k[:] = solid.parameter
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:

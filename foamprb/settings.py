@@ -6,6 +6,7 @@ dictionary (:mod:`foamprb.records` reads any of them).
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -27,7 +28,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection import INJECTIONS, SIZE_DISTRIBUTIONS, FixedValue, Injection
 from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
 from foamprb.dictionary import Dictionary, DictionaryList, Entry, read_dictionary, unquoted
-from foamprb.entries import Choice, Only, PoissonsRatio, Positive, Vector3
+from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
 from foamprb.records import (
     Line,
@@ -78,12 +79,13 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: its name, μ_s and λ_s, Pa, and the shear rate that its Ca refers to, 1/s."""
+    """A particle's material: its name, μ_s and λ_s, Pa, the shear rate of its Ca, 1/s, and its parameter."""
 
     type: str
     shear_modulus: float
     lame: float
     reference_shear_rate: float | None = None
+    parameter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -227,8 +229,12 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
     """
     entries: dict[str, Any] = {}
     for dictionary in dictionaries:
-        own = {
-            key: value for key, value in vars(read_entries(_Solid, dictionary)).items() if value is not None
+        read = vars(read_entries(_Solid, dictionary, also=_PARAMETERS))
+        own = {key: value for key, value in read.items() if value is not None}
+        own |= {
+            name: read_entry(dictionary, name, hint)
+            for name, hint in _PARAMETERS.items()
+            if name in dictionary.entries
         }
         stiffness = [key for key in _STIFFNESS if key in own]
         if len(stiffness) > 1:
@@ -244,12 +250,19 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
     for key in ("type", "poissonsRatio", *(["referenceShearRate"] if "Ca" in entries else [])):
         if key not in entries:
             raise where.missing(key, allowed(hints[key]))
+    parameter = MATERIALS[entries["type"]].parameter
+    for name, hint in _PARAMETERS.items():
+        if parameter is not None and name == parameter.entry and name not in entries:
+            raise where.missing(name, allowed(hint))
+        if name in entries and (parameter is None or name != parameter.entry):
+            raise where.mistake(f"gives {name}, which the solid {entries['type']} does not have.")
     mu = _shear_modulus(entries, fluid)
     return Solid(
         type=entries["type"],
         shear_modulus=mu,
         lame=lame_parameter(mu, entries["poissonsRatio"]),
         reference_shear_rate=entries.get("referenceShearRate"),
+        parameter=entries[parameter.entry] if parameter else 0.0,
     )
 
 
@@ -394,6 +407,17 @@ class _Solid:
 
 
 _STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
+
+
+_PARAMETERS: dict[str, Any] = {
+    p.entry: Annotated[
+        float,
+        Bounds(p.lower, p.upper, True, math.isinf(p.upper), f"a number > {p.lower:g} and <= {p.upper:g}"),
+    ]
+    for p in (material.parameter for material in MATERIALS.values())
+    if p is not None
+}
+"""The entries of the solids' third parameters."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,14 +1,13 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import flat, mild_stretches, rotations, square, tensors
 
 from foamprb.body import rosenbrock, stokes
 from foamprb.body.ellipsoid import integrals
-from foamprb.body.material import MATERIALS, piola
+from foamprb.body.material import MATERIALS, piola, stored_energy
 from foamprb.body.tensor import dev
 from foamprb.body.traction import roscoe
 
@@ -24,27 +23,26 @@ def kirchhoff(F):
 @given(rotations, mild_stretches, rotations)
 def test_kirchhoff_stress_is_the_piola_stress_pushed_forward(Q1, stretch, Q2):
     F = Q1 @ np.diag(stretch) @ Q2
-    found = square(rosenbrock.kirchhoff(flat(F @ F.T), np.linalg.det(F), MU, LAME))
+    found = square(rosenbrock.kirchhoff(flat(F @ F.T), np.linalg.det(F), MU, LAME, 0.0))
     np.testing.assert_allclose(found, kirchhoff(F), atol=1e-11)
 
 
-@pytest.mark.parametrize("name", MATERIALS)
 @given(mild_stretches)
-def test_derivatives_by_the_invariants_are_those_of_the_energy(name, stretch):
-    """∂w₀/∂λ_a λ_a = τ_a for the principal stresses."""
-    material = MATERIALS[name]
+def test_principal_stresses_are_the_energys_derivatives(stretch):
+    """∂w₀/∂λ_a λ_a = τ_a."""
+    material = MATERIALS["neoHooke"]
     x = np.array(stretch)
     h = 1e-5
     for a in range(3):
         step = h * x * np.eye(3)[a]
-        w = [material.energy(flat(np.diag(x + k * step)), MU, LAME) for k in (-1, 1)]
-        tau = rosenbrock.elasticity(stretch, MU, LAME).tau[a]
+        w = [stored_energy(material, flat(np.diag(x + k * step)), MU, LAME) for k in (-1, 1)]
+        tau = rosenbrock.elasticity(stretch, MU, LAME, 0.0).tau[a]
         np.testing.assert_allclose((w[1] - w[0]) / (2 * h), tau, atol=1e-7)
 
 
 @given(mild_stretches, tensors)
 def test_elasticity_is_the_derivative_of_the_kirchhoff_stress(stretch, X):
-    e, F, X = rosenbrock.elasticity(stretch, MU, LAME), np.diag(stretch), square(X)
+    e, F, X = rosenbrock.elasticity(stretch, MU, LAME, 0.0), np.diag(stretch), square(X)
     h = 1e-5
     change = (kirchhoff(F + h * X @ F) - kirchhoff(F - h * X @ F)) / (2 * h)
     np.testing.assert_allclose(square(e.slopes) @ np.diag(X), np.diag(change), atol=3e-3)
@@ -70,7 +68,7 @@ def test_traction_coefficients_are_those_of_roscoes_traction(axes, Y):
 @given(mild_stretches, tensors, st.floats(1e-3, 10.0), st.floats(0.1, 100.0))
 def test_solve_inertial_solves_its_equation(stretch, r, gh, c):
     g = integrals(stretch)
-    n = rosenbrock.inertial_stiffness(stretch, g, rosenbrock.elasticity(stretch, MU, LAME), c, 0.7)
+    n = rosenbrock.inertial_stiffness(stretch, g, rosenbrock.elasticity(stretch, MU, LAME, 0.0), c, 0.7)
     Y = rosenbrock.solve_inertial(n, gh, r)
     traction = c * np.prod(stretch) * 0.7 * square(roscoe(stretch, g, AT_REST, Y))
     left = square(Y) * np.array(n.b) - gh * traction + gh**2 * square(rosenbrock.elastic_response(n, Y))
@@ -104,7 +102,7 @@ def test_inertialess_sphere_has_its_closed_form(stress, l_f):
 def test_solve_inertialess_solves_its_equation(stretch, r, gh):
     """Y − γh (l_s(σ + δτ(Y)/μ_f) − l_s(σ)) = r, l_s being affine in the stress."""
     g, mu_f = integrals(stretch), 0.7
-    m, e = stokes.mobility(stretch, g), rosenbrock.elasticity(stretch, MU, LAME)
+    m, e = stokes.mobility(stretch, g), rosenbrock.elasticity(stretch, MU, LAME, 0.0)
     Y = square(stokes.solve_inertialess(m, e, stretch, gh, mu_f, r))
     change = np.diag(square(e.slopes) @ np.diag(Y))
     for i, j, k in PAIRS:

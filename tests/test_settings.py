@@ -195,7 +195,7 @@ MISTAKES = [
         "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5.",
     ),
     ("poissonsRatio 0.4;", "", "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1"),
-    ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: neoHooke."),
+    ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
     ("neoHooke", "neoHook", "solid/type is 'neoHook'. Did you mean 'neoHooke'?"),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
@@ -715,3 +715,25 @@ def test_dictionary_agrees_with_foamlib(file):
                 assert float(entry.text) == value
 
     compare(ours.entries, FoamFile(PIPE / file).as_dict())
+
+
+def test_a_solid_reads_its_third_parameter(read: Reader) -> None:
+    settings = read(("type neoHooke;", "type gent; stretchLimit 30;"))
+    assert settings.injections[0].solid.parameter == 30.0
+    assert read(("type neoHooke;", "type saintVenantKirchhoff;")).injections[0].solid.parameter == 0.0
+
+
+@pytest.mark.parametrize(
+    ("solid", "message"),
+    [
+        ("type gent;", "stretchLimit is missing"),
+        ("type gent; stretchLimit -1;", "a number > 0"),
+        ("type gent; mooneyRatio 0.5; stretchLimit 30;", "which the solid gent does not have"),
+        ("type mooneyRivlin; mooneyRatio 1.5;", "a number > 0 and <= 1"),
+        ("type neoHooke; stretchLimit 30;", "which the solid neoHooke does not have"),
+    ],
+)
+def test_a_wrong_third_parameter_has_its_message(read: Reader, solid: str, message: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read(("type neoHooke;", solid))
+    assert message in str(caught.value)

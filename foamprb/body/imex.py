@@ -18,7 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.material import neo_hooke_coefficients as coefficients
+from foamprb.body.material import neo_hooke_derivatives as derivatives
+from foamprb.body.material import neo_hooke_dilation as dilation
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -95,7 +96,9 @@ def equation(G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Sc
     """
     J = det(G)
     b = dot(G, transpose(G))
-    phi, psi, bulk = coefficients(J, mu, lame)
+    # φ = 2 w₁ is a constant of the solids that this scheme takes, ψ = J w_J a function of J.
+    w1, _, wJ = derivatives(3.0, 3.0, J, mu, lame, 0.0)
+    phi, psi, bulk = 2.0 * w1, J * wJ, dilation(J, mu, lame)
     traction = scale(J, stress)
     S = add_identity(traction, -psi)
     D = add_identity(traction, -bulk)

@@ -22,6 +22,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
+from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
 from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, inverse
 
@@ -40,25 +41,19 @@ class Elasticity(NamedTuple):
     """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij λ_j² + X_ji λ_i²)."""
 
 
-def invariants(e: Vector) -> tuple[Scalar, Scalar]:
-    """I₁ and I₂ of b = F Fᵀ with principal values e."""
-    return e[0] + e[1] + e[2], e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
-
-
-def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar) -> Tensor:
+def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
     """Kirchhoff stress τ = P Fᵀ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I, Pa, in any frame.
 
     Parameters
     ----------
     b, J
         F Fᵀ and det F.
-    mu, lame
-        Lamé parameters of the solid, Pa.
+    mu, lame, k
+        Lamé parameters of the solid, Pa, and its third parameter.
     """
-    I1 = b[0] + b[4] + b[8]
+    I1, I2 = invariants(b)
     square = dot(b, b)
-    I2 = 0.5 * (I1 * I1 - square[0] - square[4] - square[8])
-    w1, w2, wJ = derivatives(I1, I2, J, mu, lame)
+    w1, w2, wJ = derivatives(I1, I2, J, mu, lame, k)
     p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
     T = (
         p * b[0] - q * square[0], p * b[1] - q * square[1], p * b[2] - q * square[2],
@@ -68,9 +63,13 @@ def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar) -> Tensor:
     return add_identity(T, J * wJ)
 
 
-def _principal_kirchhoff(e: Vector, mu: Scalar, lame: Scalar, J: Scalar) -> Vector:
-    I1, I2 = invariants(e)
-    w1, w2, wJ = derivatives(I1, I2, J, mu, lame)
+def _principal_invariants(e: Vector) -> tuple[Scalar, Scalar]:
+    return e[0] + e[1] + e[2], e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
+
+
+def _principal_kirchhoff(e: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Vector:
+    I1, I2 = _principal_invariants(e)
+    w1, w2, wJ = derivatives(I1, I2, J, mu, lame, k)
     p, q, r = 2.0 * (w1 + I1 * w2), 2.0 * w2, J * wJ
     return (
         p * e[0] - q * e[0] * e[0] + r,
@@ -79,32 +78,32 @@ def _principal_kirchhoff(e: Vector, mu: Scalar, lame: Scalar, J: Scalar) -> Vect
     )
 
 
-def elasticity(stretches: Vector, mu: Scalar, lame: Scalar) -> Elasticity:
+def elasticity(stretches: Vector, mu: Scalar, lame: Scalar, k: Scalar) -> Elasticity:
     """Principal stresses and their derivatives, the latter by one-sided differences.
 
     Parameters
     ----------
     stretches
         λ_a.
-    mu, lame
-        Lamé parameters of the solid, Pa.
+    mu, lame, k
+        Lamé parameters of the solid, Pa, and its third parameter.
     """
     x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
     J = stretches[0] * stretches[1] * stretches[2]
-    tau = _principal_kirchhoff((x, y, z), mu, lame, J)
+    tau = _principal_kirchhoff((x, y, z), J, mu, lame, k)
     h = _DIFFERENCE
     g = 1.0 + 2.0 * h + 2.0 * h * h
     Jh = J * (1.0 + h + 0.5 * h * h)
-    tx = _principal_kirchhoff((x * g, y, z), mu, lame, Jh)
-    ty = _principal_kirchhoff((x, y * g, z), mu, lame, Jh)
-    tz = _principal_kirchhoff((x, y, z * g), mu, lame, Jh)
+    tx = _principal_kirchhoff((x * g, y, z), Jh, mu, lame, k)
+    ty = _principal_kirchhoff((x, y * g, z), Jh, mu, lame, k)
+    tz = _principal_kirchhoff((x, y, z * g), Jh, mu, lame, k)
     slopes = (
         (tx[0] - tau[0]) / h, (ty[0] - tau[0]) / h, (tz[0] - tau[0]) / h,
         (tx[1] - tau[1]) / h, (ty[1] - tau[1]) / h, (tz[1] - tau[1]) / h,
         (tx[2] - tau[2]) / h, (ty[2] - tau[2]) / h, (tz[2] - tau[2]) / h,
     )  # fmt: skip
-    I1, I2 = invariants((x, y, z))
-    w1, w2, _ = derivatives(I1, I2, J, mu, lame)
+    I1, I2 = _principal_invariants((x, y, z))
+    w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
     p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
     return Elasticity(tau, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
 

@@ -47,6 +47,7 @@ from foamprb.cloud.block import (
     AT_ERROR,
     AT_F,
     AT_J,
+    AT_K,
     AT_L,
     AT_LAME,
     AT_MU,
@@ -124,6 +125,11 @@ def _load_stiffness(block: Any, i: int) -> Stiffness:
     )
 
 
+def _solid(block: Any, i: int) -> tuple[Any, Any, Any]:
+    """μ_s and λ_s, Pa, and the third parameter of the solid."""
+    return block[AT_MU * LANES + i], block[AT_LAME * LANES + i], block[AT_K * LANES + i]
+
+
 def _inertia(block: Any, i: int) -> float:
     """c = 5/(ρ_s R²), the inverse inertia of the shape per volume."""
     R = block[AT_R * LANES + i]
@@ -187,12 +193,13 @@ def first_inertial(block: Any, medium: Medium) -> None:
         gh = GAMMA * h
         Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
         F, A = load9(block, AT_F, i), load9(block, AT_A, i)
-        mu, lame, c = block[AT_MU * LANES + i], block[AT_LAME * LANES + i], _inertia(block, i)
+        mu, lame, k = _solid(block, i)
+        c = _inertia(block, i)
         l_s = dot(A, inverse(F))
         L, G = to_frame(Q, l_s), dot(Q, F)
         b = dot(G, transpose(G))
         W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b)
-        n = inertial_stiffness(stretches, g, elasticity(stretches, mu, lame), c, medium.mu)
+        n = inertial_stiffness(stretches, g, elasticity(stretches, mu, lame, k), c, medium.mu)
         r = add(W, scale(-1.0, dot(dot(L, L), b)))
         Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, L))))
         kL = from_frame(Q, Y)
@@ -274,7 +281,7 @@ def _shape_force(
     """Ȧ Fᵀ = c (Jσ̃ − τ) (33), 1/s², in the particle frame, where l_s is L and F Fᵀ is b."""
     stress = scale(mu_f, traction(stretches, g, to_frame(Q, load9(block, AT_L, i)), L))
     J = stretches[0] * stretches[1] * stretches[2]
-    tau = kirchhoff(b, J, block[AT_MU * LANES + i], block[AT_LAME * LANES + i])
+    tau = kirchhoff(b, J, *_solid(block, i))
     c = _inertia(block, i)
     return add(scale(c * J, stress), scale(-c, tau))
 
@@ -345,8 +352,8 @@ def second_inertialess(block: Any, medium: Medium) -> None:
 
 def _shear_elasticity(block: Any, i: int, stretches: Vector) -> Elasticity:
     """The solid's elasticity without its resistance to dilation, which the pressure takes over."""
-    mu = block[AT_MU * LANES + i]
-    return elasticity(stretches, mu, 0.0 * mu)
+    mu, lame, k = _solid(block, i)
+    return elasticity(stretches, mu, 0.0 * lame, k)
 
 
 def _load_mobility(block: Any, i: int) -> Mobility:
@@ -359,9 +366,7 @@ def _balance(
 ) -> tuple[Tensor, Vector]:
     """l_s in the particle frame, 1/s, and the barycentre's velocity u + K⁻¹ f_G/μ_f, m/s."""
     G = dot(Q, F)
-    tau = kirchhoff(
-        dot(G, transpose(G)), 0.0 * F[0] + 1.0, block[AT_MU * LANES + i], block[AT_LAME * LANES + i]
-    )
+    tau = kirchhoff(dot(G, transpose(G)), 0.0 * F[0] + 1.0, *_solid(block, i))
     sigma = scale(1.0 / medium.mu, tau)
     l_f = to_frame(Q, load9(block, AT_L, i))
     l_s = velocity_gradient(stretches, g, m, sigma, l_f)

@@ -20,8 +20,8 @@ AT_INTEGRALS = 36
 AT_U, AT_L, AT_STRESS, AT_PREDICTOR = 46, 49, 58, 67
 AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
-AT_NEW_X = 104
-ROWS = 107
+AT_NEW_X, AT_K = 104, 107
+ROWS = 108
 
 
 class Medium(NamedTuple):
@@ -103,6 +103,7 @@ def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
     block[AT_RHO * LANES + i] = p.rho[k]
     block[AT_MU * LANES + i] = p.mu[k]
     block[AT_LAME * LANES + i] = p.lame[k]
+    block[AT_K * LANES + i] = p.k[k]
 
 
 def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
@@ -119,6 +120,18 @@ def idle(block: Any, i: int, dt: float) -> None:
     """Fill a lane that has no particle with a sphere at rest, so that its numbers stay finite."""
     for row in range(ROWS):
         block[row * LANES + i] = 0.0
-    for c in (AT_F, AT_F + 4, AT_F + 8, AT_NEW_F, AT_NEW_F + 4, AT_NEW_F + 8, AT_R, AT_RHO, AT_MU, AT_LAME):
+    for c in (
+        AT_F,
+        AT_F + 4,
+        AT_F + 8,
+        AT_NEW_F,
+        AT_NEW_F + 4,
+        AT_NEW_F + 8,
+        AT_R,
+        AT_RHO,
+        AT_MU,
+        AT_LAME,
+        AT_K,
+    ):
         block[c * LANES + i] = 1.0
     block[AT_DT * LANES + i] = dt

@@ -122,8 +122,7 @@ class Cloud:
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
-        if self.models.integrator == "stokes" and self.models.traction != "roscoe":
-            raise InputError(f"the integrator stokes needs the traction roscoe, not {self.models.traction}")
+        _check(self.models)
         _find_hosts(self.particles, self.flow)
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
@@ -131,8 +130,9 @@ class Cloud:
         bindings["traction"] = TRACTIONS[self.models.traction]
         bindings["drag"] = DRAGS[self.models.drag]
         material = MATERIALS[self.models.material]
-        bindings["coefficients"] = material.coefficients
         bindings["derivatives"] = material.derivatives
+        if material.dilation is not None:
+            bindings["dilation"] = material.dilation
         loop = LOOPS[self.models.integrator]
         bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
@@ -187,6 +187,17 @@ class Cloud:
                 touchable = []
             self._arrays = self.flow.arrays(self._reach, touchable)
         return self._arrays
+
+
+def _check(models: Models) -> None:
+    """Raise InputError if the models do not go together."""
+    material = MATERIALS[models.material]
+    if models.integrator == "stokes" and models.traction != "roscoe":
+        raise InputError(f"the integrator stokes needs the traction roscoe, not {models.traction}")
+    if models.integrator == "stokes" and not material.isochoric:
+        raise InputError(f"the integrator stokes takes no {models.material}: it has no incompressible form")
+    if models.integrator == "paper" and material.dilation is None:
+        raise InputError(f"the integrator paper takes no {models.material}: choose rosenbrock or stokes")
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:

@@ -65,6 +65,7 @@ class Particles(NamedTuple):
     rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest")]
     mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid")]
     lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid")]
+    k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one")]
     Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate")]
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection")]
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection")]
@@ -112,22 +113,25 @@ def concatenate(parts: list[Particles]) -> Particles:
     return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
 
-def spheres(x: Any, *, d: Any, rho: Any, mu: Any, poissons_ratio: float = 0.499, t0: Any = 0.0) -> Particles:
+def spheres(
+    x: Any, *, d: Any, rho: Any, mu: Any, poissons_ratio: float = 0.499, k: Any = 0.0, t0: Any = 0.0
+) -> Particles:
     """Pending spheres at rest.
 
     Parameters
     ----------
     x
         Positions, shape (n, 3), m.
-    d, rho, mu, t0
-        Diameter (m), density (kg/m³), shear modulus (Pa) and time of injection (s), one for all or (n,).
+    d, rho, mu, k, t0
+        Diameter (m), density (kg/m³), shear modulus (Pa), third parameter of the solid and time of injection
+        (s), one for all or (n,).
     poissons_ratio
         Of the solid, below ½.
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x
     p.R[:] = np.asarray(d) / 2.0
-    p.rho[:], p.mu[:] = rho, mu
+    p.rho[:], p.mu[:], p.k[:] = rho, mu, k
     p.lame[:] = lame_parameter(p.mu, poissons_ratio)
     p.t0[:] = p.t[:] = t0
     return p

@@ -1,0 +1,212 @@
+from __future__ import annotations
+
+import builtins
+
+import mpmath
+import numpy as np
+import pytest
+
+from foamprb.cli import main
+from foamprb.validation import references as ref
+from foamprb.validation import report
+from foamprb.validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
+from foamprb.validation.registry import CASES
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_quick_case_passes(name):
+    outcome = CASES[name].run(True)
+    assert outcome.rows
+    failed = [report.cells(row) for row in outcome.rows if row.passed is False]
+    assert not failed, failed
+    assert len({figure.name for figure in outcome.figures}) == len(outcome.figures)
+
+
+class TestReferences:
+    """The references against each other and against closed forms."""
+
+    @pytest.mark.parametrize("axes", [(1.0, 1.0, 1.0), (2.5, 0.4, 1.0), (4.9, 0.14, 1.45)])
+    def test_integrals_by_another_quadrature(self, axes):
+        a, b, c = (mpmath.mpf(r) ** 2 for r in axes)
+
+        def integral(f):
+            return float(
+                mpmath.quad(
+                    lambda x: f(x) / mpmath.sqrt((a + x) * (b + x) * (c + x)),
+                    [0, 0.1, 1, 10, 100, mpmath.inf],
+                )
+            )
+
+        g = ref.integrals(np.array(axes))
+        assert g.first[0] == pytest.approx(integral(lambda x: 1 / (a + x)), rel=1e-9)
+        assert g.ring[0] == pytest.approx(integral(lambda x: 1 / ((b + x) * (c + x))), rel=1e-9)
+        assert g.star[1] == pytest.approx(integral(lambda x: x / ((c + x) * (a + x))), rel=1e-9)
+        assert g.chi == pytest.approx(integral(lambda _: 1), rel=1e-6)
+        # (B.10) and α₀ + β₀ + γ₀ = 2/(abc).
+        assert g.first.sum() == pytest.approx(2 / np.prod(axes), rel=1e-12)
+
+    def test_spheres_have_the_known_traction_and_resistance(self):
+        np.testing.assert_allclose(ref.resistances(np.ones(3)), 6 * np.pi, rtol=1e-12)
+        np.testing.assert_allclose(
+            ref.prolate_resistances(np.array([1.0, 3.0, 1.0])),
+            ref.resistances(np.array([1.0, 3.0, 1.0])),
+            rtol=1e-9,
+        )
+        l_f = np.array([[1.0, 2.0, 0.0], [0.5, -3.0, 0.3], [0.0, 1.0, 2.0]])
+        d, w = 0.5 * (l_f + l_f.T), 0.5 * (l_f - l_f.T)
+        found = ref.traction_stress(np.eye(3), l_f, np.zeros((3, 3)))
+        np.testing.assert_allclose(found, 5 * d + 3 * w, atol=1e-12)
+
+    def test_inertialess_rate_balances_traction_and_stress(self, random):
+        F = np.eye(3) + 0.4 * random.normal(size=(3, 3))
+        F *= np.linalg.det(F) ** (-1 / 3) if np.linalg.det(F) > 0 else np.nan
+        l_f = random.normal(size=(3, 3))
+        l_f -= np.trace(l_f) / 3 * np.eye(3)
+        Ca, ratio = 0.3, 0.7
+        l_s = ref.inertialess_rate(F, l_f, Ca, ratio)
+        assert np.trace(l_s) == pytest.approx(0.0, abs=1e-12)
+        rest = ref.traction_stress(F, l_f, l_s) - F @ F.T / Ca - ratio * (l_s + l_s.T)
+        # What is left is a pressure.
+        np.testing.assert_allclose(rest, rest[0, 0] * np.eye(3), atol=1e-10)
+
+    @pytest.mark.parametrize("Ca", ref.TABLE)
+    def test_roscoes_algebra_agrees_with_the_table(self, Ca):
+        np.testing.assert_allclose(ref.roscoe_at(Ca)[:3], ref.TABLE[Ca][:3], atol=6e-6)
+        np.testing.assert_allclose(ref.roscoe_at(Ca)[3:], ref.TABLE[Ca][3:], atol=6e-4)
+
+    @pytest.mark.parametrize(
+        ("Ca", "ratio"), [(0.1, 0.0), (0.4, 0.0), (1.0, 0.0), (0.4, 0.5), (0.4, 1.0), (1.0, 3.0)]
+    )
+    def test_roscoes_algebra_is_the_steady_state_of_the_equations(self, Ca, ratio):
+        """Elastic and viscoelastic."""
+        np.testing.assert_allclose(ref.steady_shear(Ca, ratio), ref.roscoe_at(Ca, ratio), rtol=1e-7)
+
+    def test_a_viscous_solid_stretches_only_so_far(self):
+        assert ref.roscoe(3.0, 3.0).Ca == np.inf
+
+    def test_transient_agrees_with_the_table(self):
+        times = np.array(list(ref.TRANSIENT_TABLE))
+        for F, expected in zip(
+            ref.inertialess_history(ref.SHEAR, 0.4, times), ref.TRANSIENT_TABLE.values(), strict=True
+        ):
+            shape = ref.shear_shape(F, np.zeros((3, 3)))
+            # Printed to four digits, and at 3/γ̇ in a steep overshoot.
+            np.testing.assert_allclose(shape[1:3], expected[:2], atol=1e-4)
+            assert shape[3] == pytest.approx(expected[2], abs=5e-3)
+
+    def test_tank_treading_rate_is_roscoes_frequency(self):
+        F = ref.inertialess_history(ref.SHEAR, 0.1, np.array([30.0]))[0]
+        nu = ref.tank_treading_rate(ref.inertialess_rate(F, ref.SHEAR, 0.1))
+        assert nu == pytest.approx(0.49692, abs=1e-5)
+
+    def test_small_extension_is_linear(self):
+        """r − 1 = 5/2 Ca d̂."""
+        for rates in ref.EXTENSIONS.values():
+            axes = ref.steady_extension(rates, 1e-4)
+            np.testing.assert_allclose((axes - 1) / 1e-4, 2.5 * rates, atol=5e-3)
+            np.testing.assert_allclose(
+                ref.steady_compressible_extension(rates, 0.1, 0.4999999),
+                ref.steady_extension(rates, 0.1),
+                atol=1e-6,
+            )
+
+    def test_too_strong_an_extension_has_no_steady_shape(self):
+        with pytest.raises(ValueError, match="no steady shape"):
+            ref.steady_extension(ref.EXTENSIONS["uniaxial"], 0.5)
+
+    def test_rigid_sphere_lands_where_the_closed_form_says(self):
+        radius = 2.1e-3
+        air = ref.Surroundings(
+            1.491e-5 * 1.208, 1.208, np.array([0.0, -9.81, 0.0]), ref.poiseuille(radius, 923.8 * radius / 4)
+        )
+        fall = ref.rigid_sphere(
+            2.5e-6, 2560.0, air, np.array([0.0, -1.65e-3, 0.0]), np.array([0.0, 0.3]), -radius
+        )
+        assert fall.t[-1] == pytest.approx(0.2327, abs=5e-5)
+        assert fall.x[-1, 0] / 5e-6 == pytest.approx(8989, abs=0.5)
+
+    def test_settling_in_extension_solves_its_equation(self):
+        K, rates, a = np.array([5.0, 4.0, 6.0]), np.array([1.0, -1.0, 0.0]), np.array([0.3, 0.2, -0.1])
+        t, h = 0.7, 1e-4
+        x = [ref.settling_in_extension(K, 2.0, 3.0, rates, a, t + s)[0] for s in (-h, 0.0, h)]
+        v = ref.settling_in_extension(K, 2.0, 3.0, rates, a, t)[1]
+        np.testing.assert_allclose((x[2] - x[0]) / (2 * h), v, rtol=1e-6)
+        k = 3.0 * K / 2.0
+        np.testing.assert_allclose((x[2] - 2 * x[1] + x[0]) / h**2, k * (rates * x[1] - v) + a, atol=1e-6)
+
+
+def fake(rows):
+    def run(quick: bool) -> Outcome:  # noqa: ARG001
+        """A made-up case."""
+        x = np.array([0.0, 1.0])
+        panel = Panel(
+            "x", "y", [Curve(x, x, "ours"), Curve(x, x, "theirs", "reference"), Curve(x, x, "", "guide")]
+        )
+        return Outcome(
+            rows, [Figure("made-up", "A caption with <angles> and [brackets].", [panel])], ["A `remark`."]
+        )
+
+    return {"madeUp": Case("nowhere", run)}
+
+
+GOOD, BAD = Row("good", 1.0, 1.001, "me", 0.01), Row("bad | bar", 1.0, 2.0, "me", 0.01, relative=True)
+INFORMS = Row("informs", 1.0, None, "me")
+
+
+class TestRows:
+    def test_a_row_passes_within_its_allowed_difference(self):
+        assert GOOD.passed is True
+        assert BAD.passed is False
+        assert INFORMS.passed is None
+        assert BAD.difference == pytest.approx(0.5)
+
+    @pytest.mark.parametrize("value", [np.nan, np.inf, None])
+    def test_what_is_no_number_fails(self, value):
+        assert Row("x", value, 1.0, "me", 1e9).passed is False
+
+    def test_worst_finds_the_largest_difference_or_what_is_no_number(self):
+        assert worst("x", np.array([1.0, 2.0]), np.array([1.0, 1.5]), "me", 1.0).difference == 0.5
+        assert worst("x", np.array([np.nan, 2.0]), np.array([1.0, 1.5]), "me", 1.0).passed is False
+
+
+class TestCommand:
+    def test_a_failing_row_gives_exit_status_1(self, tmp_path, monkeypatch, capsys):
+        pytest.importorskip("matplotlib")
+        import foamprb.validation.registry as registry
+
+        for rows, status in (([GOOD, INFORMS], 0), ([GOOD, BAD], 1)):
+            monkeypatch.setattr(registry, "CASES", fake(rows))
+            assert main(["validate", "-output", str(tmp_path)]) == status
+        printed = capsys.readouterr().out
+        assert "failed: madeUp: bad | bar" in printed
+        assert "1 of 2 rows pass" in printed
+        text = (tmp_path / "report.md").read_text()
+        assert "bad \\| bar" in text
+        assert "made-up.png" in text
+        page = (tmp_path / "report.html").read_text()
+        assert "data:image/png;base64," in page
+        assert "&lt;angles&gt;" in page
+        assert "<code>remark</code>" in page
+        assert (tmp_path / "made-up.png").exists()
+
+    def test_list_names_every_case(self, capsys):
+        assert main(["validate", "-list"]) == 0
+        printed = capsys.readouterr().out
+        assert all(name in printed for name in CASES)
+
+    def test_an_unknown_case_is_an_error_that_says_what_was_meant(self, capsys):
+        assert main(["validate", "-case", "rotatoin"]) == 1
+        assert "Did you mean 'rotation'" in capsys.readouterr().err
+
+    def test_without_matplotlib_the_message_says_what_to_install(self, tmp_path, monkeypatch, capsys):
+        real = builtins.__import__
+
+        def refuse(name, *arguments, **options):
+            if name.startswith("matplotlib"):
+                raise ModuleNotFoundError(name)
+            return real(name, *arguments, **options)
+
+        monkeypatch.setattr(builtins, "__import__", refuse)
+        assert main(["validate", "-case", "rotation", "-output", str(tmp_path / "r")]) == 1
+        assert "pip install foamprb[plot]" in capsys.readouterr().err
+        assert not (tmp_path / "r").exists()
