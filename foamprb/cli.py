@@ -6,14 +6,14 @@ import argparse
 import logging
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
 
 import foamprb
 from foamprb.errors import InputError, suggestion
 
-_COMMANDS = ("run", "info")
+_COMMANDS = ("run", "info", "validate")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -40,20 +40,32 @@ def _parser() -> argparse.ArgumentParser:
         "run", help="track the particles of constant/softCloudProperties", add_help=False, allow_abbrev=False
     )
     info = commands.add_parser("info", help="say what a case holds", add_help=False, allow_abbrev=False)
-    for command in (run, info):
+    validate = commands.add_parser(
+        "validate", help="compare with independent solutions", add_help=False, allow_abbrev=False
+    )
+    for command in (run, info, validate):
         command.add_argument("--help", action="help", help="show this text and stop")
-        command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
+    for command in (run, info):
+        command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow")
     when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
     run.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
     run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
+    validate.add_argument(
+        "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
+    )
+    validate.add_argument("--quick", action="store_true", help="a short form of every case")
+    validate.add_argument(
+        "--output", type=Path, default=Path("validation"), metavar="DIR", help="[validation]"
+    )
+    validate.add_argument("--list", action="store_true", help="list the cases and stop")
     return parser
 
 
-def _run(arguments: argparse.Namespace) -> None:
+def _run(arguments: argparse.Namespace) -> int:
     from foamprb.run import describe, execute, prepare
 
     if arguments.threads is not None and arguments.threads < 1:
@@ -65,14 +77,28 @@ def _run(arguments: argparse.Namespace) -> None:
         logging.getLogger("foamprb").info(
             "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
         )
-        return
+        return 0
     execute(job)
+    return 0
 
 
-def _info(arguments: argparse.Namespace) -> None:
+def _info(arguments: argparse.Namespace) -> int:
     from foamprb.flow.openfoam import describe
 
     print(describe(arguments.case))
+    return 0
+
+
+def _validate(arguments: argparse.Namespace) -> int:
+    from foamprb.validation.registry import CASES
+    from foamprb.validation.report import choose, validate
+
+    chosen = choose(CASES, arguments.case)
+    if arguments.list:
+        for name, case in chosen.items():
+            print(f"{name:14s} {case.title} ({case.section})")
+        return 0
+    return 0 if validate(chosen, arguments.output, arguments.quick) else 1
 
 
 class _Format(logging.Formatter):
@@ -93,7 +119,10 @@ def _log_to_stdout() -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return the exit status: 0, 1 for a mistake in the input, 130 after Ctrl-C."""
+    """Run the command line; return the exit status.
+
+    It is 0, 1 for a mistake in the input or a validation that fails, 130 after Ctrl-C.
+    """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
     debug = "--debug" in words
@@ -106,7 +135,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if parsed.command is None:
             _parser().print_help()
             return 1
-        {"run": _run, "info": _info}[parsed.command](parsed)
+        commands: dict[str, Callable[[argparse.Namespace], int]] = {
+            "run": _run,
+            "info": _info,
+            "validate": _validate,
+        }
+        return commands[parsed.command](parsed)
     except (InputError, OSError) as error:
         if debug:
             raise
@@ -115,7 +149,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
         return 130
-    return 0
 
 
 if __name__ == "__main__":

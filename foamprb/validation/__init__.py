@@ -1,0 +1,1 @@
+"""Validation: foamprb against independent solutions and the paper's figures, by one command."""

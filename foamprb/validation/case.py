@@ -1,0 +1,110 @@
+"""What a validation case returns: rows of a table, figures as data, and remarks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+class Row(NamedTuple):
+    """One number of ours beside its reference."""
+
+    quantity: str
+    ours: float | None
+    reference: float | None
+    source: str
+    """Of the reference."""
+    allowed: float | None = None
+    """Largest difference that passes; none for a row that only informs."""
+    relative: bool = False
+    """Whether differences are relative to the reference."""
+    note: str = ""
+
+    @property
+    def difference(self) -> float | None:
+        """|ours − reference|, or that over |reference|."""
+        if self.ours is None or self.reference is None:
+            return None
+        return abs(self.ours - self.reference) / (abs(self.reference) if self.relative else 1.0)
+
+    @property
+    def passed(self) -> bool | None:
+        """Whether the difference is allowed; none where the row only informs."""
+        if self.allowed is None:
+            return None
+        # A number that is not finite must fail.
+        return self.difference is not None and bool(self.difference <= self.allowed)
+
+
+class Curve(NamedTuple):
+    """A curve of ours, or points of a reference."""
+
+    x: Floats
+    """(n,)."""
+    y: Floats
+    """(n,)."""
+    label: str
+    kind: Literal["ours", "reference", "guide"] = "ours"
+    """A line, markers, or a thin grey line."""
+    colour: int = 0
+    """Number of the colour, shared by a curve and its reference."""
+
+
+class Panel(NamedTuple):
+    """One pair of axes."""
+
+    xlabel: str
+    ylabel: str
+    curves: list[Curve]
+    scale: Literal["linear", "log", "equal"] = "linear"
+
+
+class Figure(NamedTuple):
+    """Panels side by side, written as ``name.png``."""
+
+    name: str
+    caption: str
+    panels: list[Panel]
+
+
+class Outcome(NamedTuple):
+    """All that a case found."""
+
+    rows: list[Row]
+    figures: list[Figure]
+    remarks: list[str]
+    """Paragraphs on where the paper and foamprb differ, and why."""
+
+
+class Case(NamedTuple):
+    """A validation case; its title is the first line of the function's docstring."""
+
+    section: str
+    """Of the paper, or where else it comes from."""
+    run: Callable[[bool], Outcome]
+    """Computes the case; with True the quick form of it."""
+
+    @property
+    def title(self) -> str:
+        """What the case shows."""
+        return (self.run.__doc__ or "").partition("\n")[0].rstrip(".")
+
+
+def worst(
+    quantity: str,
+    ours: Floats,
+    reference: Floats,
+    source: str,
+    allowed: float,
+    scale: float = 1.0,
+    note: str = "",
+) -> Row:
+    """The row of the largest difference between two curves (n,), both divided by ``scale``."""
+    miss = np.abs(np.asarray(ours) - reference)
+    k = int(np.argmax(np.where(np.isfinite(miss), miss, np.inf)))
+    return Row(quantity, float(ours[k] / scale), float(reference[k] / scale), source, allowed, note=note)

@@ -1,0 +1,98 @@
+"""Temporal order of accuracy of the integrators."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from foamprb.body.imex import INTEGRATORS
+from foamprb.cloud.cloud import Models
+from foamprb.flow import analytic
+from foamprb.validation import references as ref
+from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row
+from foamprb.validation.runs import (
+    DIAMETER,
+    MU_F,
+    POISSONS_RATIO,
+    RHO_S,
+    START,
+    WALL_RATE,
+    advance_to,
+    air_around,
+    pipe_cloud,
+    unit_cloud,
+)
+
+DESIGN = {"paper": 1, "rosenbrock": 2, "stokes": 2}
+"""Order that each integrator is made for."""
+
+
+def _with_inertia(name: str, steps: Floats) -> Floats:
+    """Error of x/d and F against the reference in the pipe after 2 ms, for each step, s."""
+    end, Ca = 2e-3, 0.5
+    own = ref.soft_sphere(
+        DIAMETER / 2,
+        RHO_S,
+        MU_F * WALL_RATE / Ca,
+        POISSONS_RATIO,
+        air_around(),
+        START,
+        np.array([0.0, end]),
+        tolerance=1e-9,
+    )
+    errors = []
+    for dt in steps:
+        cloud = pipe_cloud(Ca, float(dt), Models(integrator=name, tolerance=math.inf))
+        advance_to(cloud, end)
+        miss = [*(cloud.particles.x[0] - own.x[-1]) / DIAMETER, *(cloud.particles.F[0] - own.F[-1].ravel())]
+        errors.append(np.linalg.norm(miss))
+    return np.array(errors)
+
+
+def _without_inertia(name: str, steps: Floats) -> Floats:
+    """Error of F against the inertialess reference in simple shear at γ̇t = 2, for each step in 1/γ̇."""
+    own = ref.inertialess_history(ref.SHEAR, 0.4, np.array([2.0]))[-1]
+    errors = []
+    for dt in steps:
+        cloud = unit_cloud(
+            analytic.shear(1.0), 0.4, 1e-6, float(dt), Models(integrator=name, tolerance=math.inf)
+        )
+        advance_to(cloud, 2.0)
+        errors.append(np.linalg.norm(cloud.particles.F[0] - own.ravel()))
+    return np.array(errors)
+
+
+def order(quick: bool) -> Outcome:
+    """Temporal order of accuracy of every integrator."""
+    rows = []
+    inertial: list[Curve] = []
+    inertialess: list[Curve] = []
+    for colour, name in enumerate(INTEGRATORS):
+        slow = name == "stokes"
+        steps = (0.1 if slow else 2e-5) * 0.5 ** np.arange(4.0 if quick else 6.0)
+        errors = _without_inertia(name, steps) if slow else _with_inertia(name, steps)
+        slopes = np.log2(errors[:-1] / errors[1:])
+        design = DESIGN.get(name)
+        flow = "simple shear, Ca = 0.4, γ̇t = 2" if slow else "pipe, Ca = 0.5, 2 ms"
+        rows.append(
+            Row(
+                f"{name}: order ({flow})",
+                float(slopes[-1]),
+                None if design is None else float(design),
+                "error against solve_ivp over Δt",
+                None if design is None else 0.15,
+                note="" if design else "no order is declared for it",
+            )
+        )
+        target = inertialess if slow else inertial
+        target.append(Curve(steps, errors, f"{name}", colour=colour))
+        if design is not None:
+            guide = errors[0] * (steps / steps[0]) ** design
+            target.append(Curve(steps, guide, f"order {design}", "guide", colour))
+    panels = [Panel("Δt [s]", "error of x/d and F", inertial, "log")]
+    if inertialess:
+        panels.append(Panel("γ̇Δt", "error of F", inertialess, "log"))
+    return Outcome(
+        rows, [Figure("order", "Error against the solution by solve_ivp, fixed steps.", panels)], []
+    )

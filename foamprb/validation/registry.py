@@ -1,0 +1,23 @@
+"""Every validation case by name."""
+
+from __future__ import annotations
+
+from foamprb.validation import cost, extension, order, pipe, rotation, shear
+from foamprb.validation.case import Case
+
+CASES: dict[str, Case] = {
+    "rotation": Case("5.1, Fig. 4", rotation.spin_up),
+    "shear": Case("5.3, Figs. 6 and 7", shear.steady),
+    "roscoe": Case("5.3, references", shear.formulas),
+    "transient": Case("5.3, Fig. 8", shear.transient),
+    "tankTreading": Case("5.3, Fig. 9", shear.tank_treading),
+    "pipeRigid": Case("5.4, Figs. 11 and 12", pipe.rigid),
+    "pipeSoft": Case("5.4, Figs. 13 and 14", pipe.soft),
+    "pipeOpenFOAM": Case("5.4, Figs. 10 and 14", pipe.openfoam),
+    "cost": Case("Appendix F, Table F.1", cost.cost),
+    "extension": Case("beyond the paper", extension.steady_extension),
+    "settling": Case("beyond the paper", extension.settling),
+    "order": Case("beyond the paper", order.order),
+    "volume": Case("beyond the paper", extension.volume),
+}
+"""A case is one function and its line here."""
