@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.state import Particles, Status, spheres
     from foamprb.errors import InputError
     from foamprb.flow import analytic
+    from foamprb.flow.meshfile import read_mesh_file
     from foamprb.flow.openfoam import read_case
     from foamprb.run import execute, prepare
 
@@ -35,6 +36,7 @@ _HOMES = {
     "measure": "foamprb.cloud.measures",
     "prepare": "foamprb.run",
     "read_case": "foamprb.flow.openfoam",
+    "read_mesh_file": "foamprb.flow.meshfile",
     "spheres": "foamprb.cloud.state",
 }
 
@@ -54,6 +56,7 @@ __all__ = [
     "measure",
     "prepare",
     "read_case",
+    "read_mesh_file",
     "spheres",
 ]
 

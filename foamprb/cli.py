@@ -85,7 +85,7 @@ def _run(arguments: argparse.Namespace) -> int:
 def _info(arguments: argparse.Namespace) -> int:
     from foamprb.flow.openfoam import describe
 
-    print(describe(arguments.case))
+    print("\n".join(describe(arguments.case).lines()))
     return 0
 
 

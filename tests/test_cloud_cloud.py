@@ -207,6 +207,16 @@ class TestWalls:
             lowest = min(lowest, cloud.particles.x[0, 1])
         assert lowest == pytest.approx(-RADIUS + D / 2, abs=0.05 * 1e-5)
 
+    def test_a_particle_sticks_at_the_moment_of_contact(self):
+        """In free flight, after 3.5 diameters at 0.05 m/s, which is no whole number of steps."""
+        cloud = self.falling(Stick(), (0.0, -0.05, 0.0))
+        cloud.dt = 1.3e-5
+        cloud.advance(60)
+        p = cloud.particles
+        assert p.status[0] == Status.STUCK
+        assert p.t[0] == pytest.approx(3.5 * D / 0.05, rel=1e-4)
+        assert p.x[0, 1] == pytest.approx(-RADIUS + D / 2, abs=1e-4 * D)
+
     def test_a_particle_released_in_touch_with_a_sticky_wall_stays_there(self):
         cloud = pipe_cloud(0.1, x=(0.05, -RADIUS + 0.4 * D, 0.0))
         cloud.advance(3)

@@ -21,7 +21,7 @@ def test_linear_fields_are_reproduced(kind, perturbation, seed, numbers):
     shape = block(2, perturbation, kind, seed)
     mesh = build_mesh(shape, box_patches(shape))
     gradient, offset = np.reshape(numbers[:9], (3, 3)), np.array(numbers[9:])
-    u, l = Reconstruction(mesh)(  # noqa: E741
+    u, l = Reconstruction(mesh)(
         mesh.centres @ gradient.T + offset, mesh.boundary_centres @ gradient.T + offset
     )
     assert u == pytest.approx(mesh.nodes @ gradient.T + offset, abs=1e-11)
@@ -32,14 +32,14 @@ def test_linear_fields_are_reproduced(kind, perturbation, seed, numbers):
 def test_linear_fields_are_reproduced_from_points(kind):
     mesh = build_mesh(block(4, 0.3, kind))
     gradient = np.arange(9.0).reshape(3, 3) - 4.0
-    u, l = from_points(mesh, mesh.points @ gradient.T + 1.0)  # noqa: E741
+    u, l = from_points(mesh, mesh.points @ gradient.T + 1.0)
     assert u == pytest.approx(mesh.nodes @ gradient.T + 1.0, abs=1e-12)
     assert l == pytest.approx(np.broadcast_to(gradient, l.shape), abs=1e-11)
 
 
 def quadratic(x):
     u = np.column_stack([x[:, 0] * x[:, 1], x[:, 2] ** 2 - x[:, 0], x[:, 1] * x[:, 2]])
-    l = np.zeros((len(x), 3, 3))  # noqa: E741
+    l = np.zeros((len(x), 3, 3))
     l[:, 0, 0], l[:, 0, 1] = x[:, 1], x[:, 0]
     l[:, 1, 0], l[:, 1, 2] = -1.0, 2.0 * x[:, 2]
     l[:, 2, 1], l[:, 2, 2] = x[:, 2], x[:, 1]
@@ -49,7 +49,7 @@ def quadratic(x):
 def test_quadratic_fields_are_nearly_reproduced_walls_included():
     shape = block(6, 0.0)
     mesh = build_mesh(shape, box_patches(shape))
-    u, l = Reconstruction(mesh)(quadratic(mesh.centres)[0], quadratic(mesh.boundary_centres)[0])  # noqa: E741
+    u, l = Reconstruction(mesh)(quadratic(mesh.centres)[0], quadratic(mesh.boundary_centres)[0])
     exact_u, exact_l = quadratic(mesh.nodes)
     assert l == pytest.approx(exact_l, abs=0.03)
     assert u == pytest.approx(exact_u, abs=1e-2)
@@ -85,7 +85,7 @@ def test_constraint_patches_have_no_say(kind):
     cells, faces = mesh.centres.copy(), mesh.boundary_centres.copy()
     assert mesh.patches[1] == Patch("lid", kind)
     faces[mesh.patch_start[1] : mesh.patch_start[2]] = np.nan
-    u, l = Reconstruction(mesh)(cells, faces)  # noqa: E741
+    u, l = Reconstruction(mesh)(cells, faces)
     assert u == pytest.approx(mesh.nodes, abs=1e-11)
     assert l == pytest.approx(np.broadcast_to(np.eye(3), l.shape), abs=1e-10)
 
@@ -94,7 +94,7 @@ def test_a_mesh_of_one_layer_has_no_gradient_across():
     shape = block(1, 0.0)
     shape.points = np.array(shape.points)
     mesh = build_mesh(shape, [p._replace(type="empty") for p in box_patches(shape)])
-    u, l = Reconstruction(mesh)(np.ones((1, 3)), np.zeros((6, 3)))  # noqa: E741
+    u, l = Reconstruction(mesh)(np.ones((1, 3)), np.zeros((6, 3)))
     assert np.all(u == 1.0)
     assert np.all(l == 0.0)
 
@@ -115,7 +115,7 @@ def pipe_errors():
         flow = MeshFlow(mesh, *Reconstruction(mesh)(poiseuille(mesh.centres)[0], boundary))
         hosts = flow.locate(points)
         inside, core = hosts >= 0, r < 0.9
-        u, l = flow.sample(points[inside], hosts[inside])  # noqa: E741
+        u, l = flow.sample(points[inside], hosts[inside])
         exact_u, exact_l = poiseuille(points[inside])
         off_u = np.linalg.norm(u - exact_u, axis=1)
         off_l = np.linalg.norm(l - exact_l, axis=(1, 2)) / 4.0
@@ -126,7 +126,7 @@ def pipe_errors():
 
 
 def poiseuille(x):
-    u, l = np.zeros((len(x), 3)), np.zeros((len(x), 3, 3))  # noqa: E741
+    u, l = np.zeros((len(x), 3)), np.zeros((len(x), 3, 3))
     u[:, 0] = 2.0 * (1.0 - x[:, 1] ** 2 - x[:, 2] ** 2)
     l[:, 0, 1:] = -4.0 * x[:, 1:]
     return u, l

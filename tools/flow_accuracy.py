@@ -42,7 +42,7 @@ class Pipe(NamedTuple):
 
     def gradient(self, x: Floats) -> Floats:
         """∂u_i/∂x_j at the points, (n, 3, 3)."""
-        l = np.zeros((len(x), 3, 3))  # noqa: E741
+        l = np.zeros((len(x), 3, 3))
         l[:, 0, 1:] = -4.0 * self.mean / self.radius**2 * x[:, 1:]
         return l
 
@@ -127,7 +127,7 @@ def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
 
 def errors(sample: Sampler, pipe: Pipe, x: Floats) -> list[tuple[float, float]]:
     """Rms and maximum of the errors, for each of the columns, in %."""
-    u, l = sample(x)  # noqa: E741
+    u, l = sample(x)
     core = np.hypot(x[:, 1], x[:, 2]) < 0.9 * pipe.radius
     of_u = np.linalg.norm(u - pipe.velocity(x), axis=1) / pipe.mean
     of_l = np.linalg.norm((l - pipe.gradient(x)).reshape(-1, 9), axis=1) / (4.0 * pipe.mean / pipe.radius)

@@ -27,7 +27,7 @@ class LinearArrays(NamedTuple):
     """u = u0 + l·x, everywhere."""
 
     u0: Floats
-    l: Floats  # noqa: E741 - the paper's symbol
+    l: Floats
 
 
 def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:  # noqa: ARG001

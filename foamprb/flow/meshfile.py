@@ -48,10 +48,10 @@ def read_mesh_file(path: Path, velocity: str = "U") -> MeshFlow:
     if velocity in grid.cell_data:
         nowhere = np.zeros(len(mesh.boundary_centres), dtype=bool)
         cells = _vectors(grid.cell_data[velocity], velocity, path)
-        u, l = Reconstruction(mesh, valued=nowhere)(cells, np.zeros((len(nowhere), 3)))  # noqa: E741
+        u, l = Reconstruction(mesh, valued=nowhere)(cells, np.zeros((len(nowhere), 3)))
         note = "Velocities are cell values; none were given on the boundary, where they are extrapolated."
     elif velocity in grid.point_data:
-        u, l = from_points(mesh, _vectors(grid.point_data[velocity], velocity, path))  # noqa: E741
+        u, l = from_points(mesh, _vectors(grid.point_data[velocity], velocity, path))
         note = "Velocities are point values; their gradient is first-order accurate."
     else:
         names = sorted({*grid.cell_data.keys(), *grid.point_data.keys()})

@@ -77,6 +77,27 @@ class CaseInfo:
     bounds: tuple[Floats, Floats]
     """Lowest and highest coordinates, m."""
 
+    def lines(self) -> list[str]:
+        """The same for a person to read."""
+        low, high = ("({:g} {:g} {:g})".format(*corner) for corner in self.bounds)
+        return [
+            f"Case    {self.case}",
+            "",
+            "Mesh",
+            f"    {'points':20s} {self.points:10d}",
+            *(f"    {kind:20s} {n:10d}" for kind, n in self.cells.items()),
+            f"    {'bounds [m]':20s} {low} {high}",
+            "",
+            "Patches",
+            *(f"    {patch.name:20s} {patch.faces:10d} faces  {patch.type}" for patch in self.patches),
+            "",
+            "Times and fields",
+            *(
+                f"    {time.name:20s} " + ", ".join(f"{name} ({kind})" for name, kind in time.fields.items())
+                for time in self.times
+            ),
+        ]
+
 
 def available_times(case: Path) -> tuple[str, ...]:
     """Names of the time directories, as OpenFOAM wrote them, in the order of time."""
@@ -155,7 +176,7 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
     mesh, cells, boundary, name = read_fields(Path(case), time, velocity)
-    u, l = Reconstruction(mesh)(cells, boundary)  # noqa: E741
+    u, l = Reconstruction(mesh)(cells, boundary)
     notes = [_PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")

@@ -81,7 +81,7 @@ class Reconstruction:
         u, l
             (n_nodes, 3) and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j, mesh points first, then cell centres.
         """
-        l, h = self.derivatives(cells, boundary)  # noqa: E741
+        l, h = self.derivatives(cells, boundary)
         u_points, l_points = self._at_points(cells, boundary, l, h)
         return np.concatenate([u_points, cells]), np.concatenate([l_points, l])
 
@@ -97,7 +97,7 @@ class Reconstruction:
         h = np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
         return plain - np.einsum("njp,nip->nij", self._curvature, h), h
 
-    def _at_points(self, cells: Floats, boundary: Floats, l: Floats, h: Floats) -> tuple[Floats, Floats]:  # noqa: E741
+    def _at_points(self, cells: Floats, boundary: Floats, l: Floats, h: Floats) -> tuple[Floats, Floats]:
         mesh, faces = self.mesh, self._valued
         rows, columns = _face_points(mesh, faces)
         around = _Taylor(
@@ -118,14 +118,14 @@ class Reconstruction:
         self._impose_walls(u_points, boundary, self._at_faces(self._walls, l, slopes))
         return u_points, l_points
 
-    def _at_faces(self, faces: _Index, l: Floats, slopes: Floats) -> Floats:  # noqa: E741
+    def _at_faces(self, faces: _Index, l: Floats, slopes: Floats) -> Floats:
         """Gradients continued from the cells to their boundary faces."""
         owner = self._owner[faces]
         arms = self.mesh.boundary_centres[faces] - self.mesh.centres[owner]
         faces_l: Floats = l[owner] + np.einsum("nijk,nk->nij", slopes[owner], arms)
         return faces_l
 
-    def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats) -> None:  # noqa: E741
+    def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats) -> None:
         """Give the points of walls the wall's velocity, from the gradients at the wall's faces.
 
         Where the wall's faces about a point move alike, the point moves so too, exactly; elsewhere their
@@ -311,7 +311,7 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
     for j in range(3):
         matrix[:, j] = mean(arms * arms[:, j, None])
         right[:, :, j] = mean(differences * arms[:, j, None])
-    l = np.einsum("nij,njk->nik", right, _invert(matrix, 1e-12))  # noqa: E741
+    l = np.einsum("nij,njk->nik", right, _invert(matrix, 1e-12))
     u = average + np.einsum("nij,nj->ni", l, mesh.centres - middle)
     # A point's gradient is the mean over its cells, which is what a Taylor series without slopes gives.
     around = _Taylor(mesh.points, mesh.centres, rows, columns)

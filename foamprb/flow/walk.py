@@ -55,7 +55,7 @@ def sample(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
         w0 * f[a, 4] + w1 * f[b, 4] + w2 * f[c, 4] + w3 * f[d, 4],
         w0 * f[a, 5] + w1 * f[b, 5] + w2 * f[c, 5] + w3 * f[d, 5],
     )
-    l = (  # noqa: E741
+    l = (
         w0 * f[a, 6] + w1 * f[b, 6] + w2 * f[c, 6] + w3 * f[d, 6],
         w0 * f[a, 7] + w1 * f[b, 7] + w2 * f[c, 7] + w3 * f[d, 7],
         w0 * f[a, 8] + w1 * f[b, 8] + w2 * f[c, 8] + w3 * f[d, 8],
@@ -310,7 +310,7 @@ class MeshFlow:
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
 
-    def __init__(self, mesh: Mesh, u: Floats, l: Floats, notes: Iterable[str] = ()) -> None:  # noqa: E741
+    def __init__(self, mesh: Mesh, u: Floats, l: Floats, notes: Iterable[str] = ()) -> None:
         self.mesh = mesh
         self.patches = mesh.patches
         self.notes = tuple(notes)
@@ -407,7 +407,7 @@ def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
 
 def _sample_all(flow: MeshArrays, points: Floats, hosts: Ints, values: Floats) -> None:
     for i in range(points.shape[0]):
-        u, l = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]))  # noqa: E741
+        u, l = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]))
         for k in range(3):
             values[i, k] = u[k]
         for k in range(9):

@@ -130,7 +130,7 @@ def traction_stress(F: Floats, l_f: Floats, l_s: Floats, traction: str = "roscoe
     return np.asarray(U @ stress @ U.T)
 
 
-def _parts(l: Floats) -> tuple[Floats, Floats]:  # noqa: E741 - the paper's symbol
+def _parts(l: Floats) -> tuple[Floats, Floats]:
     return 0.5 * (l + l.T), 0.5 * (l - l.T)
 
 
@@ -282,11 +282,11 @@ def roscoe(a1: float, viscosity_ratio: float = 0.0) -> Roscoe:
         return np.array([a1, a2, 1.0 / (a1 * a2)])
 
     def balance(a2: float) -> float:
-        I, Jr, _ = _roscoe_integrals(axes(a2))  # noqa: E741 - Roscoe's symbol
+        I, Jr, _ = _roscoe_integrals(axes(a2))
         return float((a1**2 + a2**2 - 2.0 / (a1 * a2) ** 2) * I - Jr * (a1**2 - a2**2))
 
     a2 = float(brentq(balance, 0.2 / a1, 1.0 - 1e-12, xtol=1e-15, rtol=1e-14))
-    I, _, K = _roscoe_integrals(axes(a2))  # noqa: E741
+    I, _, K = _roscoe_integrals(axes(a2))
     # In units of η₀/μ₁: σ = 5/2, τ = 3/2 + η₁/η₀.
     sigma, tau = 2.5, 1.5 + viscosity_ratio
     q = (tau - sigma) / (K * sigma)
