@@ -15,10 +15,23 @@ from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Reason, Status, spheres
+from foamprb.flow.analytic import walk_free
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 WALL_RATE, RADIUS, D = 923.8, 2.1e-3, 5e-6
 MEAN = WALL_RATE * RADIUS / 4
+
+
+def walk_fails(flow, host, x0, x1):
+    return host, 0.0, -2, -1
+
+
+def recover_everywhere(flow, x):
+    return 0
+
+
+def recover_nowhere(flow, x):
+    return -1
 
 
 def modulus(Ca):
@@ -178,6 +191,29 @@ class TestBookkeeping:
         reference.advance(1)
         np.testing.assert_allclose(cloud.particles.F, reference.particles.F, atol=1e-15)
         np.testing.assert_allclose(cloud.particles.A, reference.particles.A, rtol=1e-12, atol=1e-9)
+
+    def test_a_walk_that_fails_is_mended_by_the_tree_and_counted(self):
+        cloud = self.with_walks_that_fail(recover_everywhere)
+        cloud.advance(7)
+        assert cloud.recovered == 7
+        assert cloud.particles.status[0] == Status.ACTIVE
+        reference = self.with_walks_that_fail(recover_everywhere, walk_free)
+        reference.advance(7)
+        np.testing.assert_array_equal(cloud.particles.x, reference.particles.x)
+
+    def test_a_particle_that_the_tree_does_not_find_fails_with_its_reason_and_place(self):
+        cloud = self.with_walks_that_fail(recover_nowhere)
+        cloud.advance(7)
+        p = cloud.particles
+        assert (p.status[0], p.reason[0]) == (Status.FAILED, Reason.LOST)
+        assert np.isfinite(p.x).all()
+        assert p.t[0] == pytest.approx(cloud.dt)
+
+    def with_walks_that_fail(self, recover, walk=None):
+        flow = analytic.shear(100.0)
+        flow.kernels = {**flow.kernels, "walk": walk or walk_fails, "recover": recover}
+        p = spheres([[0.0, 1e-3, 0.0]], d=D, rho=2560.0, mu=modulus(0.1))
+        return Cloud(p, flow, AIR, (), 2e-5)
 
 
 class TestWalls:

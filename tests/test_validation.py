@@ -136,7 +136,7 @@ class TestReferences:
 
 
 def fake(rows):
-    def run(quick: bool) -> Outcome:  # noqa: ARG001
+    def run(quick: bool) -> Outcome:
         """A made-up case."""
         x = np.array([0.0, 1.0])
         panel = Panel(

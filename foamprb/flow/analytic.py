@@ -30,7 +30,7 @@ class LinearArrays(NamedTuple):
     l: Floats
 
 
-def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:  # noqa: ARG001
+def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
     """Velocity, m/s, and its gradient ∂u_i/∂x_j, 1/s."""
     g = flow.l
     L = (g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8])
@@ -42,22 +42,22 @@ def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Ten
     return u, L
 
 
-def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:  # noqa: ARG001
+def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Nothing is in the way."""
     return host, 1.0, _FREE, -1
 
 
-def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:  # noqa: ARG001
+def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """No wall is near."""
     return math.inf, _FREE, -1
 
 
-def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
+def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
     """No wall has a normal."""
     return 0.0, 0.0, 0.0
 
 
-def recover_free(flow: Any, x: Vector) -> int:  # noqa: ARG001
+def recover_free(flow: Any, x: Vector) -> int:
     """The flow is everywhere."""
     return 0
 
@@ -73,7 +73,7 @@ class PipeArrays(NamedTuple):
 _WALL, _INLET, _OUTLET = 0, 1, 2
 
 
-def sample_pipe(flow: PipeArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:  # noqa: ARG001
+def sample_pipe(flow: PipeArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
     """u = 2 U (1 − r²/a²), m/s, and its gradient, 1/s."""
     k = 2.0 * flow.mean_velocity / (flow.radius * flow.radius)
     r2 = x[1] * x[1] + x[2] * x[2]
@@ -101,14 +101,14 @@ def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
     return host, fraction, patch, patch
 
 
-def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:  # noqa: ARG001
+def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """Clearance between the ellipsoid and the wall's tangent plane, m."""
     n = normal_pipe(flow, _WALL, x)
     r = math.sqrt(x[1] * x[1] + x[2] * x[2])
     return flow.radius - r - reach(R, F, n), _WALL, _WALL
 
 
-def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
+def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
     """Unit normal into the fluid, of the wall or of an end."""
     if triangle == _INLET:
         return 1.0, 0.0, 0.0

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from foamprb import read_case
+from foamprb import Cloud, Escape, Medium, Models, Status, Stick, read_case, spheres
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
@@ -72,3 +72,20 @@ def test_openfoams_own_tools_read_the_committed_result(tmp_path):
     subprocess.run(
         ["postProcess", "-func", "mag(U)", "-latestTime"], cwd=case, capture_output=True, check=True
     )
+
+
+def test_on_the_fine_mesh_the_quasi_rigid_particle_lands_within_half_a_percent(tmp_path):
+    """Against 8989 diameters of the exact pipe, touching by its centre as there."""
+    folder = tmp_path / "fine"
+    subprocess.run([PIPE / "Allrun", "fine", folder], check=True)
+    flow = read_case(folder)
+    start = [[0.0, -1.65e-3, 0.0]]
+    mu = 1.208 * 1.491e-5
+    particles = spheres(start, d=D, rho=2560.0, mu=mu * 923.8 / 1e-4)
+    walls = [Stick() if patch.type == "wall" else Escape() for patch in flow.patches]
+    air = Medium(mu, 1.208, (0.0, -9.81, 0.0))
+    cloud = Cloud(particles, flow, air, walls, 2e-5, Models(touching="centre"))
+    cloud.advance(15_000)
+    assert particles.status[0] == Status.STUCK
+    assert particles.x[0, 0] / D == pytest.approx(8989, rel=5e-3)
+    assert particles.t[0] == pytest.approx(0.2327, rel=5e-3)
