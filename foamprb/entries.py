@@ -55,7 +55,6 @@ class Only:
 Rule: TypeAlias = Bounds | Choice | Only
 Vector3: TypeAlias = tuple[float, float, float]
 
-Finite = Bounds(-math.inf, math.inf, True, True, "a finite number")
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")

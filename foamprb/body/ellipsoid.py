@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, Vector, cofactor, det, dot_vector, select, transpose
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, select, transpose
 
 _DUPLICATIONS = 5
 
@@ -150,19 +150,3 @@ def sorted_frame(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:
 def taylor_deformation(a: Scalar, b: Scalar) -> Scalar:
     """Taylor's deformation parameter D = (a − b)/(a + b) (54)."""
     return (a - b) / (a + b)
-
-
-def rotation_of(F: Tensor, iterations: int = 12) -> Tensor:
-    """The rotation of the polar decomposition F = R·U (6), by Newton's iteration R ← ½(R + R⁻ᵀ)."""
-    for _ in range(iterations):
-        C = cofactor(F)
-        J = det(F)
-        # Scaling by |J|^(-1/3) makes the number of iterations independent of the stretches' size.
-        g = abs(J) ** (-1.0 / 3.0)
-        f, h = 0.5 * g, 0.5 / (g * J)
-        F = (
-            f * F[0] + h * C[0], f * F[1] + h * C[1], f * F[2] + h * C[2],
-            f * F[3] + h * C[3], f * F[4] + h * C[4], f * F[5] + h * C[5],
-            f * F[6] + h * C[6], f * F[7] + h * C[7], f * F[8] + h * C[8],
-        )  # fmt: skip
-    return F
