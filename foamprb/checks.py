@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from foamprb.body.imex import SMALL_STOKES, STABLE_STEPS, relaxation_time
-from foamprb.body.tensor import Tensor
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import shear_rate
+from foamprb.cloud.measures import shear_rate_at
 
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number at which Stokes flow around the particle is taken for granted."""
@@ -37,8 +36,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     """Dimensionless groups of the particles that one injection model releases."""
     p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
     medium = cloud.medium
-    l_f: Tensor = tuple(cloud.flow.sample(p.x, p.host)[1].reshape(-1, 9).T)  # type: ignore[assignment]
-    gamma = shear_rate(l_f)
+    gamma = shear_rate_at(cloud.flow, p)
     tau = relaxation_time(p.rho, p.R, medium.mu)
     return Groups(
         p.size,

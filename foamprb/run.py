@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -20,7 +21,7 @@ from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
 from foamprb.cloud.injection import release
-from foamprb.cloud.measures import MEASURES, context, measure, shear_rate
+from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
@@ -116,9 +117,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         integrator,
         solution.tolerance,
     )
-    cloud = Cloud(
-        particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
-    )
+    try:
+        cloud = Cloud(
+            particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
+        )
+    except InputError as error:
+        raise InputError(f"{settings.file}: {error}.") from error
     return Job(settings, cloud)
 
 
@@ -126,7 +130,7 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float) -> float:
     """The largest γ̇ τ_s of the particles where they start."""
     if p.size == 0:
         return 0.0
-    rate = shear_rate(tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T))  # type: ignore[arg-type]
+    rate = shear_rate_at(flow, p)
     return float((rate * relaxation_time(p.rho, p.R, mu)).max())
 
 
@@ -143,7 +147,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
-        rate = shear_rate(tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T))  # type: ignore[arg-type]
+        rate = shear_rate_at(flow, p)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
 
@@ -206,7 +210,7 @@ def execute(job: Job) -> dict[Status, int]:
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
     series = Series(job.folder, job.settings.name)
     started, cpu = clock.perf_counter(), clock.process_time()
-    reported = 0
+    reported = np.empty(0, dtype=np.int64)
     log.info("\nStarting time loop\n")
     with _progress(solution.endTime) as show:
         while cloud.step < last:
@@ -287,12 +291,14 @@ def _log_time(job: Job, cpu: float, wall: float) -> None:
     log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
 
 
-def _log_failures(p: Particles, reported: int) -> int:
+def _log_failures(p: Particles, reported: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Log the failures since those ``reported``, as far as the log lists them; return all of them."""
     failed = np.flatnonzero(p.status == Status.FAILED)
-    for k in failed[reported:_MAX_LISTED_FAILURES]:
+    room = max(0, _MAX_LISTED_FAILURES - len(reported))
+    for k in np.setdiff1d(failed, reported)[:room]:
         log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
                     k, p.t[k], *p.x[k], REASONS[Reason(p.reason[k])])  # fmt: skip
-    return len(failed)
+    return failed
 
 
 def write_fates(job: Job) -> None:

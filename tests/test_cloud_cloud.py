@@ -235,6 +235,19 @@ class TestWalls:
         assert cloud.particles.status[0] == Status.ACTIVE
         assert cloud.particles.counts()[Status.FAILED] == 0
 
+    @pytest.mark.parametrize("integrator", ["paper", "rosenbrock", "stokes"])
+    def test_a_body_at_rest_on_a_bouncing_wall_does_not_sink_into_it(self, integrator):
+        """Without restitution it stays in touch and slides; its centre keeps its distance."""
+        p = spheres([[0.05, -RADIUS + 0.6 * D, 0.0]], d=D, rho=2560.0, mu=modulus(0.01))
+        walls = (Rebound(0.0, 0.0), Escape(), Escape())
+        flow = analytic.pipe(RADIUS, MEAN, 1.0)
+        cloud = Cloud(p, flow, AIR, walls, 2e-5, Models(integrator=integrator))
+        cloud.advance(3000)
+        assert p.status[0] == Status.ACTIVE
+        assert p.x[0, 0] > 0.05
+        # Free fall in that time would be forty diameters.
+        assert RADIUS - np.hypot(p.x[0, 1], p.x[0, 2]) == pytest.approx(D / 2, rel=0.05)
+
     def test_rebound_turns_back_where_the_surface_touches(self):
         cloud = self.falling(Rebound(), (0.0, -0.05, 0.0))
         lowest = 0.0

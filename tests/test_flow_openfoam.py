@@ -242,7 +242,6 @@ def test_a_case_without_times(case):
     assert describe(case).times == ()
 
 
-@pytest.mark.skipif(not (PIPE / "constant" / "polyMesh").is_dir(), reason="the pipe's result is not there")
 def test_the_pipe(random):
     flow = read_case(PIPE)
     radius, mean = 2.1e-3, 0.484995

@@ -246,6 +246,21 @@ def test_mistakes_in_the_arguments(words, expected, capsys):
     assert "Traceback" not in err
 
 
+def test_positions_that_are_left_out_are_counted(case, capsys):
+    edit(case, r"^\(\s*$|^\(", "( (0 -0.0022 0) ", "constant/softCloudPositions")
+    edit(case, r"type(\s+)manualInjection;", r"type\1manualInjection; ignoreOutOfBounds true;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    assert "1 of 2 positions lie outside the mesh and are left out" in capsys.readouterr().out
+
+
+def test_models_that_do_not_go_together_name_the_file(case, capsys):
+    edit(case, r"shape(\s+)paper;", r"shape\1stokes;")
+    edit(case, r"tractionModel(\s+)roscoe;", r"tractionModel\1jeffery;")
+    text = message(case, capsys)
+    assert "softCloudProperties" in text
+    assert "roscoe" in text
+
+
 def test_debug_shows_where_an_error_arose(case):
     (case / "constant/softCloudProperties").unlink()
     with pytest.raises(Exception, match="softCloudProperties"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +17,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 
 Floats = NDArray[np.float64]
+log = logging.getLogger("foamprb")
 
 
 class Places(NamedTuple):
@@ -75,6 +77,9 @@ class ManualInjection:
                 f"{self.positionsFile}: {outside.sum()} of {len(x)} positions lie outside the mesh: "
                 f"{first}{more}. Move them inside, or set ignoreOutOfBounds true to leave them out."
             )
+        if outside.any():
+            log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
+                        self.positionsFile, outside.sum(), len(x))  # fmt: skip
         return Places(x[~outside], hosts[~outside], np.full(np.count_nonzero(~outside), self.SOI))
 
 

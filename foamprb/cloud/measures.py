@@ -65,6 +65,12 @@ def shear_rate(l_f: Tensor) -> Any:
     return np.sqrt(2.0 * ddot(d, d))
 
 
+def shear_rate_at(flow: Flow, p: Particles) -> Floats:
+    """Shear rate γ̇ of the flow where the particles are, (n,), 1/s."""
+    l_f: Tensor = tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T)  # type: ignore[assignment]
+    return np.asarray(shear_rate(l_f))
+
+
 def _semi_axes(c: Context) -> Floats:
     return np.stack(c.stretches, axis=1) * c.particles.R[:, None]
 

@@ -151,11 +151,10 @@ def touch(
     after, patch, triangle = gap(flow, p.host[k], x, F, R)
     if after > 0.0:
         return after, 1.0
-    code = patches.code[patch]
-    if code == STICK:
-        f = before / (before - after) if before > 0.0 and before < math.inf else 1.0
-        if before <= 0.0:
-            f = 0.0
+    f = 0.0
+    if before > 0.0:
+        f = before / (before - after) if before < math.inf else 1.0
+    if patches.code[patch] == STICK:
         contact = between(start, x, f)
         host, _, _, _ = walk(flow, p.host[k], x, contact)
         p.host[k] = host
@@ -165,6 +164,16 @@ def touch(
     n = normal(flow, triangle, x)
     v = load3(block, AT_V, i)
     store3(block, AT_V, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
+    # What the centre went towards the wall after the contact is taken back: else a body that comes to rest
+    # on the wall would sink into it.
+    beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
+    back = -(1.0 - f) * min(beyond, 0.0)
+    place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
+    host, _, failed, _ = walk(flow, p.host[k], x, place)
+    if failed != -2:
+        p.host[k] = host
+        store3(block, AT_X, i, place)
+        after, _, _ = gap(flow, host, place, F, R)
     return after, 1.0
 
 

@@ -211,7 +211,6 @@ def test_time_that_was_not_written_and_nobody_in_the_flow(duct: Path, tmp_path: 
     assert (tmp_path / "out.png").is_file()
 
 
-@pytest.mark.skipif(not (PIPE / "constant" / "polyMesh").is_dir(), reason="cases/pipe holds no mesh")
 def test_pipe_of_the_cases(tmp_path: Path) -> None:
     case = tmp_path / "pipe"
     shutil.copytree(PIPE, case, ignore=shutil.ignore_patterns("postProcessing"))
