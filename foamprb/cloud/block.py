@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from foamprb.body.ellipsoid import Integrals, integrals
+from foamprb.body.material import metric_at_rest
 from foamprb.body.tensor import Tensor, Vector, principal_frame
 from foamprb.cloud.state import Particles
 
@@ -21,15 +22,23 @@ AT_U, AT_L, AT_STRESS, AT_PREDICTOR = 46, 49, 58, 67
 AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
 AT_NEW_X, AT_K = 104, 107
-ROWS = 108
+AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
+ROWS = 122
 
 
 class Medium(NamedTuple):
-    """The fluid around the particles, and gravity."""
+    """The fluid around the particles, and the forces by which it acts on a barycentre beside drag."""
 
     mu: float
+    """Pa s."""
     rho: float
+    """kg/m³."""
     gravity: Vector
+    """m/s²."""
+    pressure_gradient: float = 0.0
+    """1 with the force of the undisturbed flow's pressure gradient, else 0."""
+    virtual_mass: float = 0.0
+    """Coefficient of the virtual mass force; ½ for a sphere."""
 
 
 def load3(block: Any, row: int, i: int) -> Vector:
@@ -104,6 +113,14 @@ def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
     block[AT_MU * LANES + i] = p.mu[k]
     block[AT_LAME * LANES + i] = p.lame[k]
     block[AT_K * LANES + i] = p.k[k]
+    block[AT_ETA * LANES + i] = p.eta[k]
+    block[AT_TENSION * LANES + i] = p.gamma[k] / p.R[k]
+    F0 = (
+        p.F0[k, 0], p.F0[k, 1], p.F0[k, 2],
+        p.F0[k, 3], p.F0[k, 4], p.F0[k, 5],
+        p.F0[k, 6], p.F0[k, 7], p.F0[k, 8],
+    )  # fmt: skip
+    store9(block, AT_M, i, metric_at_rest(F0))
 
 
 def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
@@ -127,6 +144,9 @@ def idle(block: Any, i: int, dt: float) -> None:
         AT_NEW_F,
         AT_NEW_F + 4,
         AT_NEW_F + 8,
+        AT_M,
+        AT_M + 4,
+        AT_M + 8,
         AT_R,
         AT_RHO,
         AT_MU,

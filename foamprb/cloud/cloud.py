@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.drag import DRAGS
+from foamprb.body.interface import laplace_stress
 from foamprb.body.material import MATERIALS
+from foamprb.body.material import finger as finger_of_ellipsoid
 from foamprb.body.tensor import principal_frame
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
@@ -133,6 +135,12 @@ class Cloud:
         bindings["derivatives"] = material.derivatives
         if material.dilation is not None:
             bindings["dilation"] = material.dilation
+        p = self.particles
+        if (np.eye(3).ravel() != p.F0).any():
+            bindings["finger"] = finger_of_ellipsoid
+        if (p.gamma != 0.0).any():
+            _refuse_tension(self.models)
+            bindings["interface"] = laplace_stress
         loop = LOOPS[self.models.integrator]
         bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
@@ -198,6 +206,11 @@ def _check(models: Models) -> None:
         raise InputError(f"the integrator stokes takes no {models.material}: it has no incompressible form")
     if models.integrator == "paper" and material.dilation is None:
         raise InputError(f"the integrator paper takes no {models.material}: choose rosenbrock or stokes")
+
+
+def _refuse_tension(models: Models) -> None:
+    if models.integrator == "paper":
+        raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:
