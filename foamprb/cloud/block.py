@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from foamprb.body.ellipsoid import Integrals, integrals
-from foamprb.body.tensor import Tensor, Vector, principal_frame
+from foamprb.body.tensor import Tensor, Vector, dot_vector, principal_frame
 from foamprb.cloud.state import Particles
 
 LANES = 32
@@ -21,7 +21,8 @@ AT_U, AT_L, AT_STRESS, AT_PREDICTOR = 46, 49, 58, 67
 AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
 AT_NEW_X, AT_K = 104, 107
-ROWS = 108
+AT_DUDT = 108
+ROWS = 111
 
 
 class Medium(NamedTuple):
@@ -60,6 +61,14 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
     block[k], block[k + LANES], block[k + 2 * LANES] = T[0], T[1], T[2]
     block[k + 3 * LANES], block[k + 4 * LANES], block[k + 5 * LANES] = T[3], T[4], T[5]
     block[k + 6 * LANES], block[k + 7 * LANES], block[k + 8 * LANES] = T[6], T[7], T[8]
+
+
+def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
+    """Put the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u into lane i."""
+    store3(block, AT_U, i, u)
+    store9(block, AT_L, i, l_f)
+    c = dot_vector(l_f, u)
+    store3(block, AT_DUDT, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
 
 
 def load_integrals(block: Any, i: int) -> Integrals:
