@@ -81,6 +81,7 @@ from foamprb.cloud.block import (
     save_particle,
     store3,
     store9,
+    store_fluid,
 )
 from foamprb.cloud.block import ROWS as FIRST_ROW
 from foamprb.cloud.motion import (
@@ -448,6 +449,7 @@ def track_adaptive(
     step: int,
     steps: int,
     dt: float,
+    start: float,
     block: NDArray[np.float64],
     clearance: NDArray[np.float64],
     tolerance: float,
@@ -483,7 +485,7 @@ def track_adaptive(
         for i in range(len(members)):
             k = members[i]
             while p.status[k] == PENDING and current[i] < last:
-                if p.t0[k] < (current[i] + 1) * dt - SHORTEST_STEP * dt:
+                if p.t0[k] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
                     clearance[i] = release(flow, patches, p, k, block, i)
                     p.h[k] = dt
                 else:
@@ -491,13 +493,12 @@ def track_adaptive(
             if p.status[k] != ACTIVE or current[i] >= last:
                 continue
             moving += 1
-            rest = (current[i] + 1) * dt - p.t[k]
-            # A little more than one step left is two equal ones, not one and a sliver.
-            h = rest if p.h[k] >= rest else min(p.h[k], 0.5 * rest)
+            rest = start + (current[i] + 1) * dt - p.t[k]
+            # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
+            h = rest if p.h[k] >= rest - SHORTEST_STEP * dt else min(p.h[k], 0.5 * rest)
             _begin(block, i, h)
-            u, l_f = sample(flow, p.host[k], load3(block, AT_X, i))
-            store3(block, AT_U, i, u)
-            store9(block, AT_L, i, l_f)
+            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            store_fluid(block, i, u, l_f, u_t)
         if moving == 0:
             break
 
@@ -508,9 +509,9 @@ def track_adaptive(
             k = members[i]
             if p.status[k] == ACTIVE and current[i] < last:
                 hosts[i] = _predicted_host(flow, p.host[k], block, i)
-                u, l_f = sample(flow, hosts[i], load3(block, AT_NEW_X, i))
-                store3(block, AT_U, i, u)
-                store9(block, AT_L, i, l_f)
+                t_new = p.t[k] + block[AT_H * LANES + i]
+                u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
+                store_fluid(block, i, u, l_f, u_t)
         frame_stage(block)
         integrals_stage(block)
         second_slope(block, medium)
@@ -520,7 +521,7 @@ def track_adaptive(
             if p.status[k] != ACTIVE or current[i] >= last:
                 continue
             h = block[AT_H * LANES + i]
-            t_end = (current[i] + 1) * dt
+            t_end = start + (current[i] + 1) * dt
             error = block[AT_ERROR * LANES + i]
             size = _next_size(h, error, tolerance)
             if not error <= tolerance:

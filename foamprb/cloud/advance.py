@@ -60,6 +60,7 @@ from foamprb.cloud.block import (
     save_particle,
     store3,
     store9,
+    store_fluid,
 )
 from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, accept_shape, reach_end, release
 from foamprb.cloud.state import Particles
@@ -196,6 +197,7 @@ def track_block(
     step: int,
     steps: int,
     dt: float,
+    start: float,
     block: NDArray[np.float64],
     clearance: NDArray[np.float64],
 ) -> int:
@@ -210,7 +212,7 @@ def track_block(
     members
         Rows of particles, pending or active.
     step
-        Number of the first step: it goes from t = step Δt to (step + 1) Δt.
+        Number of the first step: it goes from t = start + step Δt to start + (step + 1) Δt.
     block, clearance
         Scratch of ROWS × LANES and LANES numbers.
 
@@ -231,7 +233,7 @@ def track_block(
     integrals_stage(block)
 
     for n in range(step, step + steps):
-        t_end = (n + 1) * dt
+        t_end = start + (n + 1) * dt
         moving = 0
         for i in range(len(members)):
             k = members[i]
@@ -240,10 +242,9 @@ def track_block(
                 clearance[i] = release(flow, patches, p, k, block, i)
             if p.status[k] == ACTIVE:
                 moving += 1
-                block[AT_DT * LANES + i] = t_end - max(n * dt, p.t0[k])
-                u, l_f = sample(flow, p.host[k], load3(block, AT_X, i))
-                store3(block, AT_U, i, u)
-                store9(block, AT_L, i, l_f)
+                block[AT_DT * LANES + i] = t_end - max(start + n * dt, p.t0[k])
+                u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), t_end)
+                store_fluid(block, i, u, l_f, u_t)
             elif p.status[k] == PENDING:
                 moving += 1
         if moving == 0:

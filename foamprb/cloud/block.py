@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from foamprb.body.ellipsoid import Integrals, integrals
 from foamprb.body.material import metric_at_rest
-from foamprb.body.tensor import Tensor, Vector, principal_frame
+from foamprb.body.tensor import Tensor, Vector, dot_vector, principal_frame
 from foamprb.cloud.state import Particles
 
 LANES = 32
@@ -69,6 +69,14 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
     block[k], block[k + LANES], block[k + 2 * LANES] = T[0], T[1], T[2]
     block[k + 3 * LANES], block[k + 4 * LANES], block[k + 5 * LANES] = T[3], T[4], T[5]
     block[k + 6 * LANES], block[k + 7 * LANES], block[k + 8 * LANES] = T[6], T[7], T[8]
+
+
+def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
+    """Put the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u into lane i."""
+    store3(block, AT_U, i, u)
+    store9(block, AT_L, i, l_f)
+    c = dot_vector(l_f, u)
+    store3(block, AT_DUDT, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
 
 
 def load_integrals(block: Any, i: int) -> Integrals:

@@ -95,13 +95,15 @@ class Cloud:
     interactions
         What each of the flow's patches does, in their order.
     dt
-        Tracking step Δt, s. Step n goes from n Δt to (n + 1) Δt.
+        Tracking step Δt, s. Step n goes from start + n Δt to start + (n + 1) Δt.
     models
         Names of traction, drag, material and wall test.
     threads
         Number of threads; the answer does not depend on it.
     step
         Number of steps done.
+    start
+        Time at step 0, on the axis of the flow's and the injections' times, s.
 
     Raises
     ------
@@ -120,6 +122,7 @@ class Cloud:
     threads: int = field(default_factory=available_threads)
     step: int = 0
     recovered: int = 0
+    start: float = 0.0
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -155,7 +158,7 @@ class Cloud:
     @property
     def time(self) -> float:
         """Time to which the cloud has come, s."""
-        return self.step * self.dt
+        return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
@@ -172,7 +175,7 @@ class Cloud:
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, block, clearance, *self._options,
+                    self.step, steps, self.dt, self.start, block, clearance, *self._options,
                 )
                 for members in share
             )  # fmt: skip
