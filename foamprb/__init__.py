@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from foamprb.flow import analytic
     from foamprb.flow.meshfile import read_mesh_file
     from foamprb.flow.openfoam import read_case
+    from foamprb.flow.series import read_series
     from foamprb.run import execute, prepare
 
 __version__ = version("foamprb")
@@ -37,6 +38,7 @@ _HOMES = {
     "prepare": "foamprb.run",
     "read_case": "foamprb.flow.openfoam",
     "read_mesh_file": "foamprb.flow.meshfile",
+    "read_series": "foamprb.flow.series",
     "spheres": "foamprb.cloud.state",
 }
 
@@ -57,6 +59,7 @@ __all__ = [
     "prepare",
     "read_case",
     "read_mesh_file",
+    "read_series",
     "spheres",
 ]
 

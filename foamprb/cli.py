@@ -49,8 +49,10 @@ def _parser() -> argparse.ArgumentParser:
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
     when = run.add_mutually_exclusive_group()
-    when.add_argument("--time", metavar="TIME", help="time of the flow")
-    when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
+    when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
+    when.add_argument(
+        "--latestTime", action="store_true", help="the latest time of the flow (the default of a steady one)"
+    )
     run.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
     run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
@@ -70,10 +72,11 @@ def _run(arguments: argparse.Namespace) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads)
+    time = "latestTime" if arguments.latestTime else arguments.time
+    job = prepare(arguments.case, time, arguments.dict, arguments.threads)
     describe(job)
     if arguments.dry_run:
-        steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)
+        steps = job.steps
         logging.getLogger("foamprb").info(
             "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
         )

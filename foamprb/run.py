@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import math
+import re
 import time as clock
 import zlib
 from collections.abc import Callable, Iterator
@@ -26,15 +28,18 @@ from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
+from foamprb.flow.series import read_series
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series, Snapshot
 from foamprb.positions import read_positions
-from foamprb.settings import InjectionSettings, Settings, match_patches, read_settings
+from foamprb.settings import InjectionSettings, Settings, Solution, match_patches, read_settings
 
 log = logging.getLogger("foamprb")
 
 _CHUNK_OF_WORK = 1_000_000
 _MAX_LISTED_FAILURES = 10
+TIME_TOLERANCE = 1e-9
+"""Relative error of a time that has been written and read."""
 
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
@@ -52,6 +57,11 @@ class Job:
         return self.settings.case / "postProcessing" / self.settings.name
 
     @property
+    def steps(self) -> int:
+        """Number of steps from the start to the end of the run."""
+        return _steps(self.settings.solution, self.cloud.start)
+
+    @property
     def patch_names(self) -> tuple[str, ...]:
         """Names of the flow's patches, in the order of the codes in ``Particles.patch``."""
         return tuple(patch.name for patch in self.cloud.flow.patches)
@@ -59,7 +69,7 @@ class Job:
 
 def prepare(
     case: Path | str,
-    time: float | str = "latestTime",
+    time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
 ) -> Job:
@@ -70,7 +80,8 @@ def prepare(
     case
         An OpenFOAM case folder.
     time
-        Time of the flow: a value, or ``"latestTime"``.
+        Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
+        :func:`foamprb.flow.series.select_times` has them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads
@@ -84,10 +95,22 @@ def prepare(
     case = Path(case)
     settings = read_settings(case, dictionary)
     log.info("Reading flow of case %s", case)
-    flow = read_case(case, time)
+    flow = _read_flow(settings, time)
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)
+
+
+def _read_flow(settings: Settings, time: float | str | None) -> Flow:
+    case, solution = settings.case, settings.solution
+    if solution.transient:
+        return read_series(case, None if time is None else str(time), solution.period)
+    if isinstance(time, str) and re.search(r"[:,\s]", time):
+        raise InputError(
+            f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
+            "transient yes, or select one time."
+        )
+    return read_case(case, "latestTime" if time is None else time)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
@@ -100,6 +123,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
     medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
+    start = _start(settings, flow)
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -108,7 +132,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
-        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, 0.0))
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, start))
     models = Models(
         settings.traction,
         settings.drag,
@@ -119,11 +143,47 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     )
     try:
         cloud = Cloud(
-            particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
+            particles,
+            flow,
+            medium,
+            interactions,
+            solution.deltaT,
+            models,
+            threads or available_threads(),
+            start=start,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
     return Job(settings, cloud)
+
+
+def _start(settings: Settings, flow: Flow) -> float:
+    """The first time of the flow, s, if it has one; raise InputError if the run goes beyond the flow."""
+    solution, (first, last) = settings.solution, flow.span
+    start = first if math.isfinite(first) else 0.0
+    if solution.endTime <= start:
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}. Allowed: after {start:g}, the first "
+            "time of the flow."
+        )
+    end = start + _steps(solution, start) * solution.deltaT
+    if end > last + TIME_TOLERANCE * abs(last):
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
+            f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."
+        )
+    for injection in settings.injections:
+        if injection.model.SOI < start:  # noqa: SIM300
+            raise InputError(
+                f"{settings.file}: injection model {injection.name}: SOI is {injection.model.SOI:g}. "
+                f"Allowed: from {start:g} on, the first time of the flow."
+            )
+    return start
+
+
+def _steps(solution: Solution, start: float) -> int:
+    """Number of steps from the start to the end of the run."""
+    return max(1, round((solution.endTime - start) / solution.deltaT))
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -206,13 +266,13 @@ def execute(job: Job) -> dict[Status, int]:
         If results cannot be written.
     """
     solution, cloud = job.settings.solution, job.cloud
-    last = max(1, round(solution.endTime / solution.deltaT))
+    last = job.steps
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
     series = Series(job.folder, job.settings.name)
     started, cpu = clock.perf_counter(), clock.process_time()
     reported = np.empty(0, dtype=np.int64)
     log.info("\nStarting time loop\n")
-    with _progress(solution.endTime) as show:
+    with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last:
             target = min(last, (cloud.step // per_write + 1) * per_write)
             _advance_to(cloud, target, show)
@@ -248,17 +308,17 @@ def _advance_to(cloud: Cloud, target: int, show: Callable[[float], None]) -> Non
 
 
 @contextmanager
-def _progress(end: float) -> Iterator[Callable[[float], None]]:
+def _progress(start: float, end: float) -> Iterator[Callable[[float], None]]:
     """A progress bar on a terminal, nothing elsewhere."""
     console = Console(stderr=True)
     columns = (
-        TextColumn("Time = {task.completed:g} of {task.total:g}"),
+        TextColumn("{task.completed:g} of {task.total:g} s"),
         BarColumn(None),
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("", total=end)
-        yield lambda t: progress.update(task, completed=min(t, end))
+        task = progress.add_task("", total=end - start)
+        yield lambda t: progress.update(task, completed=min(t, end) - start)
 
 
 def snapshot(job: Job) -> Snapshot:

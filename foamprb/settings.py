@@ -55,13 +55,17 @@ MULTIPLE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance."""
+    """Time stepping: step, end and write interval, s; the flow in time; the integrator and its tolerance."""
 
     deltaT: float
     endTime: float
     writeInterval: float
     shape: str
     tolerance: float
+    transient: bool = False
+    """Whether the flow changes in time; its time is then that of the run."""
+    period: float | None = None
+    """Time after which a transient flow repeats itself, s."""
 
 
 @dataclass(frozen=True)
@@ -173,12 +177,16 @@ def _solution(entries: _Solution, root: Dictionary) -> Solution:
             raise root.at("solution/writeInterval").mistake(
                 f"is {interval:g}. Allowed: a multiple of deltaT = {entries.deltaT:g}."
             )
+    if entries.period is not None and not entries.transient:
+        raise root.at("solution/period").mistake("needs a flow that changes in time: transient yes.")
     return Solution(
         deltaT=entries.deltaT,
         endTime=entries.endTime,
         writeInterval=entries.endTime if interval is None else interval,
         shape=entries.integrationSchemes.shape,
         tolerance=entries.integrationSchemes.tolerance,
+        transient=entries.transient,
+        period=entries.period,
     )
 
 
@@ -390,7 +398,8 @@ class _Solution:
     writeInterval: Annotated[float, Positive] | None = None
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
-    transient: Annotated[bool, Only(False, "particles are tracked through steady flows only")] = False
+    transient: bool = False
+    period: Annotated[float, Positive] | None = None
     cellValueSourceCorrection: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
     interpolationSchemes: _InterpolationSchemes = _InterpolationSchemes()
     integrationSchemes: _IntegrationSchemes = _IntegrationSchemes()

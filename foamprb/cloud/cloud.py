@@ -39,6 +39,8 @@ from foamprb.flow.base import Flow
 __all__ = ["Cloud", "Models", "available_threads"]
 
 _REACH_MARGIN = 2.0
+_ROUND_OFF = 1e-6
+"""Share of a step by which it may end after the time until which the flow is ready."""
 
 
 def available_threads() -> int:
@@ -128,6 +130,7 @@ class Cloud:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         _check(self.models)
+        _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
@@ -153,7 +156,6 @@ class Cloud:
         self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
         self._reach = 0.0
-        self._arrays: Any = None
 
     @property
     def time(self) -> float:
@@ -161,7 +163,21 @@ class Cloud:
         return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
-        """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
+        """Take ``steps`` time steps, with all threads, whatever becomes of single particles.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
+        """
+        last = self.step + steps
+        while self.step < last:
+            until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+            ready = (until - self.time) / self.dt + _ROUND_OFF
+            self._advance(last - self.step if ready > last - self.step else max(1, int(ready)))
+
+    def _advance(self, steps: int) -> None:
+        """Take steps for which the flow is ready."""
         p = self.particles
         rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
@@ -191,13 +207,10 @@ class Cloud:
     def _flow_arrays(self) -> Any:
         """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
         longest = _longest_semi_axis(self.particles)
-        if self._arrays is None or longest * _REACH_MARGIN > self._reach:
+        if longest * _REACH_MARGIN > self._reach:
             self._reach = 2.0 * _REACH_MARGIN * longest
-            touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
-            if self.models.touching == "centre":
-                touchable = []
-            self._arrays = self.flow.arrays(self._reach, touchable)
-        return self._arrays
+        touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+        return self.flow.arrays(self._reach, [] if self.models.touching == "centre" else touchable)
 
 
 def _check(models: Models) -> None:
@@ -214,6 +227,15 @@ def _check(models: Models) -> None:
 def _refuse_tension(models: Models) -> None:
     if models.integrator == "paper":
         raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
+
+
+def _refuse_early(p: Particles, start: float) -> None:
+    early = np.flatnonzero((p.status == Status.PENDING) & (p.t0 < start))
+    if len(early):
+        raise InputError(
+            f"{len(early)} of {p.size} particles would appear before the start of the run at {start:g} s, "
+            f"the first at {p.t0[early].min():g} s"
+        )
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:

@@ -112,7 +112,7 @@ class PatchInjection:
                 f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
                 f"duration {self.duration:g} s gives no particle."
             )
-        faces = flow.patch_faces(self.patch)
+        faces = flow.patch_faces(self.patch, self.SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
         if not flux.sum() > 0.0:
@@ -168,7 +168,7 @@ def release(
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
     p.R[:] = 0.5 * size.sample(n, random)
-    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if model.U0 is None else model.U0
+    p.v[:] = np.nan if model.U0 is None else model.U0
     return p
 
 

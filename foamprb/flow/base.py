@@ -24,7 +24,7 @@ class PatchFaces(NamedTuple):
     normals: Floats
     """(n, 3), unit, into the fluid."""
     velocity: Floats
-    """(n, 3, 3): triangle, vertex, component; m/s."""
+    """(n, 3, 3): triangle, vertex, component; m/s, at the time that was asked for."""
     hosts: Ints
     """(n,) the host behind each triangle."""
 
@@ -45,9 +45,23 @@ class Flow(Protocol):
     * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
     """
 
+    span: tuple[float, float]
+    """First and last time of the flow, s; from −∞ to ∞ when it is steady or in closed form."""
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
     notes: tuple[str, ...]
+
+    def load(self, start: float, end: float) -> float:
+        """Make the flow ready from time ``start`` to ``end`` (s), at least; return until when it then is.
+
+        The end of a tracking step may lie beyond that by a millionth of the step. The arrays that were given
+        before know nothing of it: ask for :meth:`arrays` afterwards.
+
+        Raises
+        ------
+        InputError
+            If the flow does not reach so far, or cannot be read.
+        """
 
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
         """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
@@ -61,5 +75,5 @@ class Flow(Protocol):
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""
 
-    def patch_faces(self, name: str) -> PatchFaces:
-        """Triangles of a patch; InputError when there is no such patch, or it has none."""
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """Triangles of a patch at time t, s; InputError when there is no such patch, or it has none."""
