@@ -367,7 +367,7 @@ def test_shapes(read: Reader) -> None:
         read(("patch inlet;", f"patch inlet; {own.replace('(2 1 1)', '(2 0 1)')}"))
     with pytest.raises(InputError, match="inlet/shape gives no orientation: e1 and e2 are parallel"):
         read(("patch inlet;", f"patch inlet; {own.replace('(1 0 1)', '(0 0 -1)')}"))
-    with pytest.raises(InputError, match="Did you mean ellipsoid"):
+    with pytest.raises(InputError, match="Did you mean 'ellipsoid'"):
         read(("patch inlet;", f"patch inlet; {own.replace('type ellipsoid', 'type elipsoid')}"))
 
 
