@@ -48,6 +48,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+        command.add_argument("--decomposed", action="store_true", help="read the processor folders")
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -73,7 +74,7 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     time = "latestTime" if arguments.latestTime else arguments.time
-    job = prepare(arguments.case, time, arguments.dict, arguments.threads)
+    job = prepare(arguments.case, time, arguments.dict, arguments.threads, arguments.decomposed)
     describe(job)
     if arguments.dry_run:
         steps = job.steps
@@ -86,9 +87,12 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _info(arguments: argparse.Namespace) -> int:
+    from foamprb.flow.decomposed import describe_decomposed, is_only_decomposed
     from foamprb.flow.openfoam import describe
 
-    print("\n".join(describe(arguments.case).lines()))
+    decomposed = arguments.decomposed or is_only_decomposed(arguments.case)
+    info = (describe_decomposed if decomposed else describe)(arguments.case)
+    print("\n".join(info.lines()))
     return 0
 
 

@@ -27,6 +27,7 @@ from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
+from foamprb.flow.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
 from foamprb.flow.openfoam import read_case
 from foamprb.flow.series import read_series
 from foamprb.output.tables import Column, write_table
@@ -72,6 +73,7 @@ def prepare(
     time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
+    decomposed: bool = False,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -86,6 +88,8 @@ def prepare(
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
+    decomposed
+        Read the flow from the processor folders even if there is one beside them.
 
     Raises
     ------
@@ -95,22 +99,25 @@ def prepare(
     case = Path(case)
     settings = read_settings(case, dictionary)
     log.info("Reading flow of case %s", case)
-    flow = _read_flow(settings, time)
+    flow = _read_flow(settings, time, decomposed or is_only_decomposed(case))
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)
 
 
-def _read_flow(settings: Settings, time: float | str | None) -> Flow:
+def _read_flow(settings: Settings, time: float | str | None, decomposed: bool) -> Flow:
     case, solution = settings.case, settings.solution
     if solution.transient:
-        return read_series(case, None if time is None else str(time), solution.period)
+        times = None if time is None else str(time)
+        read = read_decomposed_series if decomposed else read_series
+        return read(case, times, solution.period)
     if isinstance(time, str) and re.search(r"[:,\s]", time):
         raise InputError(
             f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
             "transient yes, or select one time."
         )
-    return read_case(case, "latestTime" if time is None else time)
+    read_one = read_decomposed_case if decomposed else read_case
+    return read_one(case, "latestTime" if time is None else time)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:

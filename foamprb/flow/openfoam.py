@@ -7,9 +7,7 @@ what it passes over is checked.
 
 from __future__ import annotations
 
-import gzip
 import re
-import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -22,6 +20,9 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.errors import InputError
+from foamprb.flow.foamfile import existing as _existing
+from foamprb.flow.foamfile import header as _header
+from foamprb.flow.foamfile import read_bytes as _read_bytes
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
@@ -42,7 +43,6 @@ __all__ = [
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _PATCH = re.compile(r'("[^"]*"|[^\s(){};"]+)\s*\{([^{}]*)\}')
-_HEADER_BYTES = 4096
 _SPOKEN = re.compile(r"^(ERROR|Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE)
 _MOST_SPOKEN = 100
 PRECISION_NOTE = (
@@ -456,32 +456,8 @@ def _noted_counts(folder: Path) -> dict[str, int]:
     return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
 
 
-def _header(path: Path) -> dict[str, str]:
-    """Entries of the FoamFile header; empty when there is none."""
-    text = _read_bytes(path, _HEADER_BYTES).decode("latin-1")
-    match = re.search(r"FoamFile\s*\{(.*?)\}", _COMMENT.sub(" ", text), re.DOTALL)
-    if match is None:
-        return {}
-    entries = re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match[1])
-    return {key: value.strip().strip('"') for key, value in entries}
-
-
-def _existing(path: Path) -> Path | None:
-    """The file itself, or its compressed form."""
-    zipped = path.with_name(path.name + ".gz")
-    return path if path.is_file() else zipped if zipped.is_file() else None
-
-
 def _shown(path: Path) -> Path:
     return _existing(path) or path
-
-
-def _read_bytes(path: Path, limit: int = -1) -> bytes:
-    try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
-            return stream.read(limit)
-    except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"{path}: cannot be read: {error}.") from None
 
 
 def _list(names: Any) -> str:

@@ -369,7 +369,11 @@ def _bound(case: Path, word: str, text: str, default: float) -> float:
 
 
 def read_series(
-    case: Path | str, times: str | None = None, period: float | None = None, velocity: str = "U"
+    case: Path | str,
+    times: str | None = None,
+    period: float | None = None,
+    velocity: str = "U",
+    prepare: Callable[[str], None] | None = None,
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
 
@@ -383,6 +387,8 @@ def read_series(
         Duration after which the flow repeats itself, s.
     velocity
         Name of the velocity field, a ``volVectorField`` in m/s.
+    prepare
+        Called with the name of a time directory before it is read.
 
     Raises
     ------
@@ -392,6 +398,8 @@ def read_series(
     """
     case = Path(case)
     names = select_times(case, times)
+    if prepare is not None:
+        prepare(names[0])
     if len(names) == 1:
         return read_case(case, names[0], velocity)
     _refuse_moving(case, names)
@@ -400,6 +408,8 @@ def read_series(
     reader = VelocityReader(case, names[0], velocity)
 
     def read(index: int) -> tuple[Floats, Floats]:
+        if prepare is not None:
+            prepare(names[index])
         return reconstruct(*reader(names[index]))
 
     values = [float(name) for name in names]
