@@ -211,7 +211,8 @@ MISTAKES = {
     "no velocity": (lose(FIELD), r"processor1/1e1/U: no such file"),
     "no points": (lose(f"{POLY}/points"), r"processor1/constant/polyMesh/points: no such file"),
     "cut short": (
-        replace(FIELD, r"(?s)\)\s*;\s*// of the part.*", ""), r"processor1/1e1/U: line \d+: .* expected; the file is broken or cut",
+        replace(FIELD, r"(?s)\)\s*;\s*// of the part.*", ""),
+        r"processor1/1e1/U: line \d+: .* expected; the file is broken or cut short",
     ),
     "half of the field": (
         replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
