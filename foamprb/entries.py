@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NewType, TypeAlias
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,15 @@ class Only:
 
 Rule: TypeAlias = Bounds | Choice | Only
 Vector3: TypeAlias = tuple[float, float, float]
+Constant = NewType("Constant", float)
+"""A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""
+Words: TypeAlias = tuple[str, ...]
+Pairs: TypeAlias = tuple[tuple[float, float], ...]
+Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
+"""Positions, each with the direction of an axis."""
 
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
+Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")

@@ -17,9 +17,11 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
+from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
@@ -135,14 +137,15 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float) -> float:
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
-    # The name seeds the numbers, so that another injection model does not change where these start.
-    random = np.random.default_rng(zlib.crc32(injection.name.encode()))
     try:
-        p = release(injection.model, flow, injection.size, random, read_positions)
+        p = release(injection.model, flow, _random(injection.name), read_positions)
     except InputError as error:
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
-    p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
+    p.R[:] = 0.5 * draw(injection.size, p.size, _random(injection.name, "size"))
+    p.rho[:] = draw(injection.rho, p.size, _random(injection.name, "rho"))
+    p.mu[:] = draw(solid.shear_modulus, p.size, _random(injection.name, "stiffness"))
+    p.lame[:] = lame_parameter(p.mu, solid.poissons_ratio)
     p.k[:] = solid.parameter
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
@@ -150,6 +153,11 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         rate = shear_rate_at(flow, p)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
+
+
+def _random(*names: str) -> np.random.Generator:
+    """Random numbers of an injection model, or of one of its quantities: no other changes what it draws."""
+    return np.random.default_rng([zlib.crc32(name.encode()) for name in names])
 
 
 def describe(job: Job) -> list[str]:

@@ -23,11 +23,12 @@ from typing import (
 
 from foamprb.body.drag import DRAGS
 from foamprb.body.imex import INTEGRATORS
-from foamprb.body.material import MATERIALS, lame_parameter
+from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.injection import INJECTIONS, SIZE_DISTRIBUTIONS, FixedValue, Injection
+from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
+from foamprb.cloud.injection import INJECTIONS, Injection
 from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
-from foamprb.dictionary import Dictionary, DictionaryList, Entry, read_dictionary, unquoted
+from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
 from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
 from foamprb.records import (
@@ -79,11 +80,11 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: its name, μ_s and λ_s, Pa, the shear rate of its Ca, 1/s, and its parameter."""
+    """A particle's material: its name, μ_s, Pa, and ν_s, the shear rate of its Ca, 1/s, and its parameter."""
 
     type: str
-    shear_modulus: float
-    lame: float
+    shear_modulus: float | Distribution
+    poissons_ratio: float
     reference_shear_rate: float | None = None
     parameter: float = 0.0
 
@@ -94,9 +95,9 @@ class InjectionSettings:
 
     name: str
     model: Injection
-    rho: float
+    rho: float | Distribution
     solid: Solid
-    size: FixedValue
+    size: Distribution
 
 
 @dataclass(frozen=True)
@@ -200,19 +201,29 @@ def _injection(
     return InjectionSettings(
         name=dictionary.key,
         model=read_entries(model, dictionary, also=names_of(_InjectionModel)),
-        rho=constant.rho0 if common.rho0 is None else common.rho0,
+        rho=_quantity(constant.rho0 if common.rho0 is None else common.rho0),
         solid=_solid(solids, fluid, where=solids[-1] if solids else root.at("constantProperties")),
-        size=_size_distribution(common.sizeDistribution),
+        size=_distribution(common.sizeDistribution),
     )
 
 
-def _size_distribution(dictionary: Dictionary) -> FixedValue:
-    """Read ``sizeDistribution { type name; nameDistribution { … } }``."""
-    distribution = selected(SIZE_DISTRIBUTIONS, dictionary)
+def _quantity(found: float | Dictionary) -> float | Distribution:
+    """A positive number, or a distribution of such numbers."""
+    return _distribution(found) if isinstance(found, Dictionary) else found
+
+
+def _distribution(dictionary: Dictionary) -> Distribution:
+    """Read ``{ type name; nameDistribution { … } }``, a distribution of positive numbers."""
+    kind = selected(DISTRIBUTIONS, dictionary)
     coefficients = f"{read_entry(dictionary, 'type', str)}Distribution"
     refuse_unknown(dictionary, ("type", coefficients))
-    size: FixedValue = read_entry(dictionary, coefficients, distribution)
-    return size
+    if coefficients not in dictionary.entries:
+        raise dictionary.missing(coefficients, f"Allowed: {DICTIONARY_TEXT}.")
+    entries = dictionary.entries[coefficients].dictionary()
+    distribution: Distribution = read_entries(kind, entries)
+    if not distribution.limits[0] > 0.0:
+        raise entries.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
+    return distribution
 
 
 def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> Solid:
@@ -260,19 +271,24 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
     return Solid(
         type=entries["type"],
         shear_modulus=mu,
-        lame=lame_parameter(mu, entries["poissonsRatio"]),
+        poissons_ratio=entries["poissonsRatio"],
         reference_shear_rate=entries.get("referenceShearRate"),
         parameter=entries[parameter.entry] if parameter else 0.0,
     )
 
 
-def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float:
+def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float | Distribution:
     """μ_s, Pa, of a solid that gives one of ``_STIFFNESS``; Ca = μ_f γ̇/μ_s."""
     if "Ca" in solid:
-        return float(fluid.mu * solid["referenceShearRate"] / solid["Ca"])
+        return _scaled(_quantity(solid["Ca"]), fluid.mu * solid["referenceShearRate"], power=-1)
     if "youngsModulus" in solid:
-        return float(solid["youngsModulus"] / (2.0 * (1.0 + solid["poissonsRatio"])))
-    return float(solid["shearModulus"])
+        return _scaled(_quantity(solid["youngsModulus"]), 0.5 / (1.0 + solid["poissonsRatio"]))
+    return _quantity(solid["shearModulus"])
+
+
+def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
+    """``factor`` times a power of a quantity, distributed or not."""
+    return factor * quantity**power if isinstance(quantity, float) else Scaled(quantity, factor, power)
 
 
 def _patch_rule(dictionary: Dictionary) -> PatchRule:
@@ -400,9 +416,9 @@ class _Solution:
 class _Solid:
     type: Annotated[str, Choice(MATERIALS)] | None = None
     poissonsRatio: Annotated[float, PoissonsRatio] | None = None
-    shearModulus: Annotated[float, Positive] | None = None
-    youngsModulus: Annotated[float, Positive] | None = None
-    Ca: Annotated[float, Positive] | None = None
+    shearModulus: Annotated[float, Positive] | Dictionary | None = None
+    youngsModulus: Annotated[float, Positive] | Dictionary | None = None
+    Ca: Annotated[float, Positive] | Dictionary | None = None
     referenceShearRate: Annotated[float, Positive] | None = None
 
 
@@ -422,7 +438,7 @@ _PARAMETERS: dict[str, Any] = {
 
 @dataclass(frozen=True, kw_only=True)
 class _ConstantProperties:
-    rho0: Annotated[float, Positive]
+    rho0: Annotated[float, Positive] | Dictionary
     rhoInf: Annotated[float, Positive]
     solid: Dictionary | None = None
 
@@ -449,7 +465,7 @@ class _InjectionModel:
 
     type: Annotated[str, Choice(INJECTIONS)]
     sizeDistribution: Dictionary
-    rho0: Annotated[float, Positive] | None = None
+    rho0: Annotated[float, Positive] | Dictionary | None = None
     solid: Dictionary | None = None
     parcelBasisType: Annotated[str, Only("fixed", _PARCELS)] = "fixed"
     nParticle: Annotated[float, Only(1.0, _PARCELS)] = 1.0
