@@ -36,7 +36,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     """Dimensionless groups of the particles that one injection model releases."""
     p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
     medium = cloud.medium
-    gamma = shear_rate_at(cloud.flow, p)
+    gamma = shear_rate_at(cloud.flow, p, cloud.time)
     tau = relaxation_time(p.rho, p.R, medium.mu)
     return Groups(
         p.size,

@@ -110,7 +110,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
-        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu))
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, 0.0))
     models = Models(
         settings.traction,
         settings.drag,
@@ -128,11 +128,11 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     return Job(settings, cloud)
 
 
-def _shape_stokes_number(p: Particles, flow: Flow, mu: float) -> float:
-    """The largest γ̇ τ_s of the particles where they start."""
+def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
+    """The largest γ̇ τ_s of the particles where they start, at ``time`` (s)."""
     if p.size == 0:
         return 0.0
-    rate = shear_rate_at(flow, p)
+    rate = shear_rate_at(flow, p, time)
     return float((rate * relaxation_time(p.rho, p.R, mu)).max())
 
 
@@ -150,7 +150,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
-        rate = shear_rate_at(flow, p)
+        rate = shear_rate_at(flow, p, injection.model.SOI)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
 
@@ -169,7 +169,7 @@ def describe(job: Job) -> list[str]:
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
     if settings.solution.shape == "auto":
-        number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu)
+        number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
     log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)

@@ -257,7 +257,7 @@ def release(
     p.x[:] = p.x0[:] = places.x
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
-    p.v[:] = flow.sample(places.x, places.hosts)[0] if places.v is None else places.v
+    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if places.v is None else places.v
     return p
 
 

@@ -65,9 +65,9 @@ def shear_rate(l_f: Tensor) -> Any:
     return np.sqrt(2.0 * ddot(d, d))
 
 
-def shear_rate_at(flow: Flow, p: Particles) -> Floats:
-    """Shear rate γ̇ of the flow where the particles are, (n,), 1/s."""
-    l_f: Tensor = tuple(flow.sample(p.x, p.host)[1].reshape(-1, 9).T)  # type: ignore[assignment]
+def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
+    """Shear rate γ̇ of the flow where the particles are, at ``time`` (s), (n,), 1/s."""
+    l_f: Tensor = tuple(flow.sample(p.x, p.host, time)[1].reshape(-1, 9).T)  # type: ignore[assignment]
     return np.asarray(shear_rate(l_f))
 
 
@@ -124,7 +124,7 @@ def context(particles: Particles, flow: Flow, mu: float, time: float) -> Context
     gradient = np.full((len(rows), 9), np.nan)
     known = (p.host >= 0) & np.isfinite(p.x).all(axis=1)
     if known.any():
-        gradient[known] = flow.sample(p.x[known], p.host[known])[1].reshape(-1, 9)
+        gradient[known] = flow.sample(p.x[known], p.host[known], time)[1].reshape(-1, 9)
     l_f: Tensor = tuple(gradient.T)  # type: ignore[assignment]
     return Context(p, F, frame, stretches, l_f, rows, time, mu)
 
