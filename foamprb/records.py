@@ -151,7 +151,7 @@ def allowed(hint: Any, found: str = "") -> str:
         case Only(value, why):
             return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
         case Bounds():
-            return f"Allowed: {rule.text}."
+            return f"Allowed: {rule.text}{', constant in time' if kind is Constant else ''}."
     return f"Allowed: {_READERS[kind if kind in _READERS else Dictionary].text}."
 
 
@@ -254,7 +254,7 @@ _READERS: dict[Any, _Reader] = {
     Viscosity: _Reader(_viscosity_value, "a number, with the dimensions [0 2 -1 0 0 0 0] or none"),
     Path: _Reader(_file, "the name of an existing file, in constant/ or absolute"),
     Vector3: _Reader(_vector, "a vector (x y z)"),
-    Constant: _Reader(_constant, "a number, or constant and a number: no profile in time"),
+    Constant: _Reader(_constant, "a number, constant in time"),
     Words: _Reader(_words, "a list of words ( word word … )"),
     Pairs: _Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),
     Axes: _Reader(_axes, "a list of positions with an axis ( ((x y z) (x y z)) … )"),

@@ -172,7 +172,8 @@ def describe(job: Job) -> list[str]:
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
-    log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)
+    log.info("Selecting patchInteractionModel %s, touching by the %s",
+             settings.interaction, settings.touching)  # fmt: skip
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
     warnings = []

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import (
-    TYPE_CHECKING,
     Annotated,
     Any,
     Literal,
@@ -27,7 +26,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
 from foamprb.cloud.injection import INJECTIONS, Injection
-from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
+from foamprb.cloud.patches import INTERACTIONS, Escape, Interaction, Rebound
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
 from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
@@ -41,9 +40,6 @@ from foamprb.records import (
     refuse_unknown,
     selected,
 )
-
-if TYPE_CHECKING:
-    pass
 
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
 DICTIONARY = Path("constant/softCloudProperties")
@@ -114,6 +110,17 @@ class PatchRule:
 
 
 @dataclass(frozen=True)
+class KindRule:
+    """What all patches of a kind do: the walls, the open ones (neither walls nor constrained), or any."""
+
+    kind: Literal["wall", "open", "any"]
+    interaction: Interaction
+
+
+Rule: TypeAlias = PatchRule | KindRule
+
+
+@dataclass(frozen=True)
 class Settings:
     """All that a user asks for; gravity in m/s2."""
 
@@ -125,9 +132,10 @@ class Settings:
     gravity: Vector3
     traction: str
     drag: str
-    touching: Touching
     injections: tuple[InjectionSettings, ...]
-    patches: tuple[PatchRule, ...]
+    interaction: str
+    touching: Touching
+    patches: tuple[Rule, ...]
 
 
 def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
@@ -151,6 +159,7 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
     cloud = read_entries(_CloudProperties, root)
     fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case))
     models = cloud.subModels
+    patches, touching = _patch_interaction(models.patchInteractionModel, root.at("subModels").dictionary())
     return Settings(
         case=case,
         file=file,
@@ -160,9 +169,10 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         gravity=_gravity(case) if models.particleForces.gravity else (0.0, 0.0, 0.0),
         traction=models.tractionModel,
         drag=models.particleForces.ellipsoidDrag.type,
-        touching=models.localInteractionCoeffs.touching,
         injections=_injections(models.injectionModels, cloud.constantProperties, root, fluid),
-        patches=tuple(_patch_rule(entry) for entry in models.localInteractionCoeffs.patches.items),
+        interaction=models.patchInteractionModel,
+        touching=touching,
+        patches=patches,
     )
 
 
@@ -291,6 +301,41 @@ def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> fl
     return factor * quantity**power if isinstance(quantity, float) else Scaled(quantity, factor, power)
 
 
+def _patch_interaction(model: str, models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
+    """Read the coefficients of a patch interaction model: rules for the patches, and what touches."""
+    coefficients: Dictionary = read_entry(models, f"{model}Coeffs", Dictionary)
+    touching: Touching = "ellipsoid"
+    if "touching" in coefficients.entries:
+        touching = read_entry(coefficients, "touching", Touching)
+    return INTERACTION_MODELS[model](coefficients), touching
+
+
+def _local_interaction(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """Rules patch by patch."""
+    entries = read_entries(_LocalInteraction, dictionary, also=("touching",))
+    return tuple(_patch_rule(entry) for entry in entries.patches.items)
+
+
+def _standard_wall_interaction(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """One rule for all walls; particles leave through what is open."""
+    walls = read_entries(selected(INTERACTIONS, dictionary), dictionary, also=("type", "touching"))
+    return KindRule("wall", walls), KindRule("open", Escape())
+
+
+def _rebound(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """Particles bounce off every patch; twice UFactor of the normal velocity is taken away."""
+    entries = read_entries(_Rebound, dictionary, also=("touching",))
+    return (KindRule("any", Rebound(e=2.0 * entries.UFactor - 1.0)),)
+
+
+INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
+    "localInteraction": _local_interaction,
+    "rebound": _rebound,
+    "standardWallInteraction": _standard_wall_interaction,
+}
+"""Patch interaction models: what their coefficients mean for the patches."""
+
+
 def _patch_rule(dictionary: Dictionary) -> PatchRule:
     pattern, regex = unquoted(dictionary.key), dictionary.key.startswith('"')
     if regex:
@@ -335,9 +380,9 @@ _COUPLED = ("cyclic", "processor")
 
 
 def match_patches(
-    rules: Sequence[PatchRule], patches: Sequence[Patch], file: Path | str = DICTIONARY
+    rules: Sequence[Rule], patches: Sequence[Patch], file: Path | str = DICTIONARY
 ) -> list[Interaction]:
-    """Find what each patch does to a particle, as OpenFOAM's ``localInteraction`` does.
+    """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
     of that name, as does a patch of a constraint type). Without a rule, symmetry planes, wedges and empty
@@ -357,25 +402,29 @@ def match_patches(
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     for rule in rules:
-        if not any(_applies(rule, patch) for patch in patches):
+        if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
             names = [patch.name for patch in patches]
             raise InputError(f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}")
-    return [_interaction(rules, patch, where) for patch in patches]
+    return [_interaction(rules, patch, file, where) for patch in patches]
 
 
-def _interaction(rules: Sequence[PatchRule], patch: Patch, where: str) -> Interaction:
+def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
     if patch.type in _MIRRORS:
         return Rebound(e=1.0, mu=0.0)
     if patch.type.startswith(_COUPLED):
-        raise InputError(f"{where}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
+        raise InputError(f"{file}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 
 
-def _applies(rule: PatchRule, patch: Patch) -> bool:
-    is_group = patch.type == "wall" or patch.type in _MIRRORS or patch.type.startswith(_COUPLED)
+def _applies(rule: Rule, patch: Patch) -> bool:
+    constrained = patch.type in _MIRRORS or patch.type.startswith(_COUPLED)
+    if isinstance(rule, KindRule):
+        kind = "wall" if patch.type == "wall" else "constrained" if constrained else "open"
+        return rule.kind in (kind, "any")
+    is_group = patch.type == "wall" or constrained
     return rule.matches(patch.name) or (is_group and rule.matches(patch.type))
 
 
@@ -478,15 +527,21 @@ class _InjectionModel:
 @dataclass(frozen=True, kw_only=True)
 class _LocalInteraction:
     patches: DictionaryList
-    touching: Touching = "ellipsoid"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Rebound:
+    UFactor: Annotated[float, Bounds(0.5, 1.0, False, False, "a number from 0.5 to 1")]
 
 
 @dataclass(frozen=True, kw_only=True)
 class _SubModels:
     particleForces: _ParticleForces
     injectionModels: Dictionary
-    patchInteractionModel: Literal["localInteraction"]
-    localInteractionCoeffs: _LocalInteraction
+    patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
+    localInteractionCoeffs: Dictionary | None = None
+    standardWallInteractionCoeffs: Dictionary | None = None
+    reboundCoeffs: Dictionary | None = None
     tractionModel: Annotated[str, Choice(TRACTIONS)] = "roscoe"
     dispersionModel: Literal["none"] = "none"
     heatTransferModel: Literal["none"] = "none"

@@ -16,7 +16,8 @@ from foamlib import FoamFile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.cloud.injection import ManualInjection, PatchInjection
+from foamprb.cloud.distribution import General, Normal, RosinRammler, Scaled, Uniform
+from foamprb.cloud.injection import CellZoneInjection, ConeInjection, ManualInjection, PatchInjection
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.dictionary import Dictionary, Stream, read_dictionary
 from foamprb.errors import InputError
@@ -254,7 +255,7 @@ MISTAKES = [
     (
         "localInteraction;",
         "standardWallInteraction;",
-        "patchInteractionModel is 'standardWallInteraction'. Did",
+        "subModels/standardWallInteractionCoeffs is missing. Allowed: a dictionary",
     ),
     ("type escape", "type escpae", "patches/(inlet|outlet)/type is 'escpae'. Did you mean 'escape'?"),
     ("type stick", "type rebound; e 2", "patches/wall/e is '2'. Allowed: a number from 0 to 1."),
@@ -345,6 +346,120 @@ def test_an_injection_models_solid_replaces_entries_of_the_clouds(read: Reader) 
         solid("poissonsRatio 0.4; shearModulus 5;", "Ca 2;")
     with pytest.raises(InputError, match="injectionModels/inlet/solid gives shearModulus and youngsModulus"):
         solid(common + "Ca 1;", "youngsModulus 1; shearModulus 7;")
+
+
+# Populations
+
+NORMAL = "type normal; normalDistribution { expectation 1000; variance 200; minValue 300; maxValue 3000; }"
+EXPECTED = Normal(minValue=300.0, maxValue=3000.0, expectation=1000.0, variance=200.0)
+
+
+def test_stiffness_and_density_may_be_distributed(read: Reader) -> None:
+    fixed = "type fixedValue;"
+    (inlet,) = read(("shearModulus 1000;", f"shearModulus {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == EXPECTED
+    (inlet,) = read(("shearModulus 1000;", f"youngsModulus {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == Scaled(EXPECTED, pytest.approx(1.0 / 2.8))
+    (inlet,) = read(("shearModulus 1000;", f"referenceShearRate 50; Ca {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == Scaled(EXPECTED, pytest.approx(50.0 * 1.208 * 1.5e-5), -1)
+    (inlet,) = read(("rho0            2560;", f"rho0 {{ {NORMAL} }}")).injections
+    assert inlet.rho == EXPECTED
+    (inlet,) = read(("patch inlet;", f"patch inlet; rho0 {{ {NORMAL} }}")).injections
+    assert inlet.rho == EXPECTED
+    (inlet,) = read((f"{fixed} fixedValueDistribution {{ value 5e-6; }}", NORMAL)).injections
+    assert inlet.size == EXPECTED
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"),
+    [
+        ("type uniform; uniformDistribution { minValue 1; maxValue 2; }", Uniform(1.0, 2.0)),
+        (
+            "type RosinRammler; RosinRammlerDistribution { minValue 1; maxValue 2; d 3; n 0.5; }",
+            RosinRammler(1.0, 2.0, 3.0, 0.5),
+        ),
+        (
+            "type general; generalDistribution { distribution ( (1 0.5) (2 3) ); }",
+            General(((1.0, 0.5), (2.0, 3.0))),
+        ),
+        (
+            "type general; generalDistribution { distribution 2((1 0.5)(2 3)); }",
+            General(((1.0, 0.5), (2.0, 3.0))),
+        ),
+    ],
+)
+def test_distributions(read: Reader, size: str, expected: object) -> None:
+    old = "type fixedValue; fixedValueDistribution { value 5e-6; }"
+    assert read((old, size)).injections[0].size == expected
+
+
+@pytest.mark.parametrize(
+    ("size", "message"),
+    [
+        ("type uniform; uniformDistribution { minValue 2; maxValue 1; }", "minValue 2, which is not below"),
+        (
+            "type uniform; uniformDistribution { minValue 0; maxValue 1; }",
+            "begins at 0. Allowed: values > 0.",
+        ),
+        ("type fixedValue; fixedValueDistribution { value -1; }", "begins at -1. Allowed: values > 0."),
+        ("type uniform; uniformDistribution { minValue 2; }", "uniformDistribution/maxValue is missing"),
+        ("type uniform;", "sizeDistribution/uniformDistribution is missing. Allowed: a dictionary"),
+        (
+            "type normal; normalDistribution { minValue 1; maxValue 2; expectation 1; variance 0; }",
+            "variance is '0'. Allowed: a number > 0.",
+        ),
+        (
+            "type general; generalDistribution { distribution ((1 2 3)); }",
+            "distribution is '((1 2 3))'. Allowed: a list of pairs",
+        ),
+        ("type general; generalDistribution { distribution ((1 2)); }", "needs two pairs"),
+        ("type general; generalDistribution { distribution 3; }", "Allowed: a list of pairs"),
+        ("type general; generalDistribution { distribution ((1 2)) (; }", "no closing )"),
+    ],
+)
+def test_a_wrong_distribution_has_its_message(read: Reader, size: str, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read(("type fixedValue; fixedValueDistribution { value 5e-6; }", size))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+# Injection models
+
+PATCH_INJECTION = "patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;"
+CONE = (
+    "coneInjection; SOI 0.5; duration 2; parcelsPerInjector 20; flowRateProfile constant 1; "
+    "positionAxis ( ((0.3 0.35 1.45) (0 0 -1)) ((0.6 0.35 1.45) (0 1 0)) ); "
+    "Umag constant 3.0; thetaInner 0; thetaOuter constant 45;"
+)
+
+
+def test_cell_zone_injection(read: Reader) -> None:
+    zone = "cellZoneInjection; cellZone drop; numberDensity 1e9; U0 (0 0 1); SOI 0.25;"
+    model = read((PATCH_INJECTION, zone)).injections[0].model
+    assert model == CellZoneInjection("drop", 1e9, U0=(0.0, 0.0, 1.0), SOI=0.25)
+
+
+def test_cone_injection(read: Reader) -> None:
+    axes = (((0.3, 0.35, 1.45), (0.0, 0.0, -1.0)), ((0.6, 0.35, 1.45), (0.0, 1.0, 0.0)))
+    model = read((PATCH_INJECTION, CONE)).injections[0].model
+    assert model == ConeInjection(axes, 2.0, 20.0, 3.0, 0.0, 45.0, SOI=0.5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("Umag constant 3.0", "Umag table ((0 1) (1 2))", "Allowed: a number >= 0, constant in time."),
+        ("thetaInner 0", "thetaInner -1", "an angle from 0 to 180 degrees"),
+        ("(0 1 0)) )", "(0 1)) )", "a list of positions with an axis"),
+        ("(0 1 0)) )", "(0 0 0)) )", "inlet has an axis (0 0 0) in positionAxis."),
+        ("flowRateProfile constant 1", "flowRateProfile constant 2", "Allowed: constant 1 ("),
+        ("SOI 0.5", "SOI -1", "inlet/SOI is '-1'. Allowed: a number >= 0"),
+    ],
+)
+def test_a_wrong_cone_has_its_message(read: Reader, old: str, new: str, message: str) -> None:
+    assert CONE.count(old) == 1
+    with pytest.raises(InputError, match=re.escape(message)):
+        read((PATCH_INJECTION, CONE.replace(old, new)))
 
 
 # Fluid
@@ -595,6 +710,38 @@ def test_patches_of_a_constraint_type() -> None:
     with pytest.raises(InputError, match="cannot yet pass through 'left', a cyclic patch"):
         match_patches([], [Patch("left", "cyclic")])
     assert match_patches([PatchRule("left", Escape())], [Patch("left", "cyclicAMI")]) == [Escape()]
+
+
+def test_standard_wall_interaction(read: Reader) -> None:
+    """Walls do what the entries say, open patches let through, constraint types keep their meaning."""
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read(
+        (
+            text,
+            "patchInteractionModel standardWallInteraction; localInteractionCoeffs { } "
+            "standardWallInteractionCoeffs { type rebound; e 0.97; mu 0.09; touching centre; }",
+        )
+    )
+    assert (settings.interaction, settings.touching) == ("standardWallInteraction", "centre")
+    patches = [
+        Patch("wall"),
+        Patch("side", "wall"),
+        Patch("mid", "symmetryPlane"),
+        Patch("out", "mappedPatch"),
+    ]
+    bounce = Rebound(e=0.97, mu=0.09)
+    assert match_patches(settings.patches, patches) == [Escape(), bounce, Rebound(), Escape()]
+    with pytest.raises(InputError, match="cannot yet pass through"):
+        match_patches(settings.patches, [Patch("left", "cyclic")])
+
+
+def test_rebound_from_every_patch(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.8; }"))
+    patches = [Patch("in"), Patch("side", "wall"), Patch("mid", "symmetryPlane")]
+    assert match_patches(settings.patches, patches) == [Rebound(e=pytest.approx(0.6))] * 3
+    with pytest.raises(InputError, match=r"UFactor is '0\.4'\. Allowed: a number from 0\.5 to 1"):
+        read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.4; }"))
 
 
 @pytest.mark.parametrize(
