@@ -63,6 +63,7 @@ Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
 
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
+AtLeastOne = Bounds(1.0, math.inf, False, True, "a whole number >= 1")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")

@@ -25,6 +25,7 @@ from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
+from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
@@ -38,8 +39,6 @@ log = logging.getLogger("foamprb")
 _CHUNK_OF_WORK = 1_000_000
 _MAX_LISTED_FAILURES = 10
 
-STATUS_NAMES = tuple(status.name.lower() for status in Status)
-
 
 @dataclass(frozen=True)
 class Job:
@@ -47,6 +46,7 @@ class Job:
 
     settings: Settings
     cloud: Cloud
+    functions: Functions
 
     @property
     def folder(self) -> Path:
@@ -125,7 +125,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
-    return Job(settings, cloud)
+    look = Look(cloud, tuple(i.name for i in settings.injections), tuple(p.name for p in flow.patches))
+    try:
+        functions = Functions(settings.functions, look)
+    except InputError as error:
+        raise InputError(f"{settings.file}: {error}") from error
+    return Job(settings, cloud, functions)
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -182,6 +187,8 @@ def describe(job: Job) -> list[str]:
         log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
         _log_groups(g)
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
+    for name, function in settings.functions.items():
+        log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
     for warning in warnings:
         log.warning("%s", warning)
     return warnings
@@ -224,8 +231,9 @@ def execute(job: Job) -> dict[Status, int]:
     with _progress(solution.endTime) as show:
         while cloud.step < last:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            _advance_to(cloud, target, show)
+            _advance_to(job, target, show)
             series.append(snapshot(job))
+            job.functions.write(job.folder)
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
             reported = _log_failures(cloud.particles, reported)
             if not _moving(cloud):
@@ -247,11 +255,15 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(cloud: Cloud, target: int, show: Callable[[float], None]) -> None:
+def _advance_to(job: Job, target: int, show: Callable[[float], None]) -> None:
+    cloud = job.cloud
     while cloud.step < target and _moving(cloud):
         counts = cloud.particles.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
-        cloud.advance(min(target - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        until = job.functions.next_look(target)
+        cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        if cloud.step == until:
+            job.functions.see()
         show(cloud.time)
     cloud.step = target
 

@@ -27,6 +27,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
 from foamprb.cloud.injection import INJECTIONS, Injection
 from foamprb.cloud.patches import INTERACTIONS, Escape, Interaction, Rebound
+from foamprb.cloudfunctions import FUNCTIONS, CloudFunction
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
 from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
@@ -136,6 +137,7 @@ class Settings:
     interaction: str
     touching: Touching
     patches: tuple[Rule, ...]
+    functions: Mapping[str, CloudFunction]
 
 
 def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
@@ -173,6 +175,7 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         interaction=models.patchInteractionModel,
         touching=touching,
         patches=patches,
+        functions=_functions(cloud.cloudFunctions),
     )
 
 
@@ -299,6 +302,17 @@ def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float | Distributi
 def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
     """``factor`` times a power of a quantity, distributed or not."""
     return factor * quantity**power if isinstance(quantity, float) else Scaled(quantity, factor, power)
+
+
+def _functions(dictionary: Dictionary | None) -> dict[str, CloudFunction]:
+    """Read ``cloudFunctions { name { type …; … } … }``."""
+    functions: dict[str, CloudFunction] = {}
+    for entry in dictionary.entries.values() if dictionary else ():
+        name, own = unquoted(entry.key), entry.dictionary()
+        if Path(name).name != name:
+            raise entry.mistake("is no name of a folder, which the results need.")
+        functions[name] = read_entries(selected(FUNCTIONS, own), own, also=("type",))
+    return functions
 
 
 def _patch_interaction(model: str, models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
@@ -551,13 +565,8 @@ class _SubModels:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _CloudFunctions:
-    pass
-
-
-@dataclass(frozen=True, kw_only=True)
 class _CloudProperties:
     solution: _Solution
     constantProperties: _ConstantProperties
     subModels: _SubModels
-    cloudFunctions: _CloudFunctions = _CloudFunctions()
+    cloudFunctions: Dictionary | None = None

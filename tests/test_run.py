@@ -15,8 +15,8 @@ import pyvista
 from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
+from foamprb.cloudfunctions import STATUS_NAMES
 from foamprb.output.vtk import read_pvd
-from foamprb.run import STATUS_NAMES
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"

@@ -265,7 +265,7 @@ MISTAKES = [
     (
         "FoamFile",
         "cloudFunctions { facePostProcessing { } } FoamFile",
-        "cloudFunctions/facePostProcessing is not k",
+        "cloudFunctions/facePostProcessing/type is missing. Allowed: particleCollector, ",
     ),
     ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
     ("solution\n{", "solution 3; other {", "line 3: other is not known"),
