@@ -52,7 +52,23 @@ class Only:
         return value == self.value
 
 
-Rule: TypeAlias = Bounds | Choice | Only
+@dataclass(frozen=True)
+class Each:
+    """What every component of a vector must keep."""
+
+    bounds: Bounds
+
+    @property
+    def text(self) -> str:
+        """How a message names it."""
+        return f"a vector (x y z), each {self.bounds.text}"
+
+    def admits(self, value: tuple[float, ...]) -> bool:
+        """Whether all components are admitted."""
+        return all(self.bounds.admits(component) for component in value)
+
+
+Rule: TypeAlias = Bounds | Choice | Only | Each
 Vector3: TypeAlias = tuple[float, float, float]
 Constant = NewType("Constant", float)
 """A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""
@@ -67,3 +83,4 @@ AtLeastOne = Bounds(1.0, math.inf, False, True, "a whole number >= 1")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")
+Positive3 = Each(Positive)

@@ -101,7 +101,13 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         If a patch has no interaction or particles would start outside the flow.
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
-    medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
+    medium = Medium(
+        settings.fluid.mu,
+        settings.fluid.rho,
+        settings.gravity,
+        float(settings.pressure_gradient),
+        settings.virtual_mass,
+    )
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -138,7 +144,7 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> fl
     if p.size == 0:
         return 0.0
     rate = shear_rate_at(flow, p, time)
-    return float((rate * relaxation_time(p.rho, p.R, mu)).max())
+    return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
@@ -150,8 +156,10 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.R[:] = 0.5 * draw(injection.size, p.size, _random(injection.name, "size"))
     p.rho[:] = draw(injection.rho, p.size, _random(injection.name, "rho"))
     p.mu[:] = draw(solid.shear_modulus, p.size, _random(injection.name, "stiffness"))
-    p.lame[:] = lame_parameter(p.mu, solid.poissons_ratio)
-    p.k[:] = solid.parameter
+    p.eta[:] = draw(solid.viscosity, p.size, _random(injection.name, "viscosity"))
+    p.gamma[:] = draw(solid.surface_tension, p.size, _random(injection.name, "surfaceTension"))
+    p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
+    injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
@@ -169,7 +177,10 @@ def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
     log.info("Selecting tractionModel %s", settings.traction)
-    log.info("Selecting ellipsoidDrag %s", settings.drag)
+    log.info("Selecting particleForces ellipsoidDrag %s%s%s%s", settings.drag,
+             ", gravity" if any(settings.gravity) else "",
+             ", pressureGradient" if settings.pressure_gradient else "",
+             f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
