@@ -6,7 +6,7 @@ import contextlib
 import re
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,15 +16,29 @@ from foamlib import FoamFile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.cloud.distribution import General, Normal, RosinRammler, Scaled, Uniform
-from foamprb.cloud.injection import CellZoneInjection, ConeInjection, ManualInjection, PatchInjection
-from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.shapes import Ellipsoid, Sphere
+from foamprb import settings as settings_module
+from foamprb.cloud.distribution import DISTRIBUTIONS, General, Normal, RosinRammler, Scaled, Uniform
+from foamprb.cloud.injection import (
+    INJECTIONS,
+    CellZoneInjection,
+    ConeInjection,
+    ManualInjection,
+    PatchInjection,
+)
+from foamprb.cloud.patches import INTERACTIONS, Escape, Rebound, Stick
+from foamprb.cloud.shapes import SHAPES, Ellipsoid, Sphere
+from foamprb.cloudfunctions import (
+    FUNCTIONS,
+    ParticleCollector,
+    ParticleHistogram,
+    ParticleTracks,
+    PatchPostProcessing,
+)
 from foamprb.dictionary import Dictionary, Stream, read_dictionary
 from foamprb.errors import InputError
 from foamprb.positions import read_positions
 from foamprb.records import read_entries
-from foamprb.settings import Fluid, PatchRule, Settings, match_patches, read_settings
+from foamprb.settings import INTERACTION_MODELS, Fluid, PatchRule, Settings, match_patches, read_settings
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 
@@ -367,6 +381,8 @@ def test_stiffness_and_density_may_be_distributed(read: Reader) -> None:
     assert inlet.rho == EXPECTED
     (inlet,) = read(("patch inlet;", f"patch inlet; rho0 {{ {NORMAL} }}")).injections
     assert inlet.rho == EXPECTED
+    (inlet,) = read(("poissonsRatio", f"viscosity {{ {NORMAL} }} surfaceTension 3; poissonsRatio")).injections
+    assert (inlet.solid.viscosity, inlet.solid.surface_tension) == (EXPECTED, 3.0)
     (inlet,) = read((f"{fixed} fixedValueDistribution {{ value 5e-6; }}", NORMAL)).injections
     assert inlet.size == EXPECTED
 
@@ -931,3 +947,82 @@ def test_a_wrong_third_parameter_has_its_message(read: Reader, solid: str, messa
     with pytest.raises(InputError) as caught:
         read(("type neoHooke;", solid))
     assert message in str(caught.value)
+
+
+# Cloud functions
+
+
+def test_cloud_functions(read: Reader) -> None:
+    assert read().functions == {}
+    block = """
+    cloudFunctions
+    {
+        paths { type particleTracks; trackInterval 5; maxSamples 100; maxTracks 7; }
+        hits { type patchPostProcessing; patches (wall "out let"); maxStoredParcels 20; }
+        gate { type particleCollector; mode plane; origin (1 2 3); normal (0 0 1); resetOnWrite yes; }
+        spread { type particleHistogram; fields (shearExposure); nBins 7; }
+    }
+    solution"""
+    assert read(("solution", block)).functions == {
+        "paths": ParticleTracks(trackInterval=5, maxSamples=100, maxTracks=7),
+        "hits": PatchPostProcessing(patches=("wall", "out let"), maxStoredParcels=20),
+        "gate": ParticleCollector("plane", (1.0, 2.0, 3.0), (0.0, 0.0, 1.0), resetOnWrite=True),
+        "spread": ParticleHistogram(fields=("shearExposure",), nBins=7, sampleInterval=10),
+    }
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        ("f { type particleTrack; }", "f/type is 'particleTrack'. Did you mean 'particleTracks'?"),
+        (
+            "f { type particleTracks; maxSamples 5; }",
+            "f/trackInterval is missing. Allowed: a whole number >= 1.",
+        ),
+        (
+            "f { type particleTracks; trackInterval 0; maxSamples 5; }",
+            "is '0'. Allowed: a whole number >= 1.",
+        ),
+        ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: a whole number"),
+        ("f { type patchPostProcessing; patches wall; }", "patches is 'wall'. Allowed: a list of words"),
+        (
+            "f { type particleCollector; mode polygon; origin (0 0 0); normal (1 0 0); }",
+            "mode is 'polygon'. Allowed: plane.",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (1 0 0); removeCollected yes; }",
+            "removeCollected is 'yes'. Allowed: false (the particles go on).",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (0 0 0); }",
+            "has a normal (0 0 0).",
+        ),
+        (
+            "f { type particleHistogram; fields (age); }",
+            "cloudFunctions/f has the field age. Allowed: maxDef",
+        ),
+        ('"a/b" { type particleHistogram; }', "cloudFunctions/a/b is no name of a folder"),
+        ("f;", "cloudFunctions/f/type is missing"),
+    ],
+)
+def test_a_wrong_cloud_function_has_its_message(read: Reader, function: str, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read(("solution", f"cloudFunctions {{ {function} }} solution"))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+def test_the_documentation_names_every_entry() -> None:
+    text = (PIPE.parents[1] / "docs/settings.md").read_text()
+    code = re.findall(r"`([^`]+)`", text.replace("```", "`"))
+    words = set(re.findall(r"[A-Za-z]\w*", " ".join(code)))
+    private = [r for name, r in vars(settings_module).items() if name.startswith("_")]
+    records = [r for r in private if isinstance(r, type) and is_dataclass(r)]
+    registries = (DISTRIBUTIONS, FUNCTIONS, INJECTIONS, INTERACTIONS, SHAPES)
+    for registry in registries:
+        records += registry.values()
+    entries = {field.name for record in records for field in fields(record)}
+    entries |= {name for registry in (*registries, INTERACTION_MODELS) for name in registry}
+    # The coefficients of the patch interaction models stand under one name.
+    missing = {name for name in entries - words if not name.endswith("Coeffs")}
+    assert missing == set()
+    assert len(entries) > 90
