@@ -17,12 +17,15 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
+from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
+from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
@@ -36,8 +39,6 @@ log = logging.getLogger("foamprb")
 _CHUNK_OF_WORK = 1_000_000
 _MAX_LISTED_FAILURES = 10
 
-STATUS_NAMES = tuple(status.name.lower() for status in Status)
-
 
 @dataclass(frozen=True)
 class Job:
@@ -45,6 +46,7 @@ class Job:
 
     settings: Settings
     cloud: Cloud
+    functions: Functions
 
     @property
     def folder(self) -> Path:
@@ -129,7 +131,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
-    return Job(settings, cloud)
+    look = Look(cloud, tuple(i.name for i in settings.injections), tuple(p.name for p in flow.patches))
+    try:
+        functions = Functions(settings.functions, look)
+    except InputError as error:
+        raise InputError(f"{settings.file}: {error}") from error
+    return Job(settings, cloud, functions)
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -141,22 +148,29 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> fl
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
-    # The name seeds the numbers, so that another injection model does not change where these start.
-    random = np.random.default_rng(zlib.crc32(injection.name.encode()))
     try:
-        p = release(injection.model, flow, injection.size, random, read_positions)
+        p = release(injection.model, flow, _random(injection.name), read_positions)
     except InputError as error:
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
-    p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
-    p.k[:], p.eta[:], p.gamma[:] = solid.parameter, solid.viscosity, solid.surface_tension
-    injection.shape.form(p, random)
+    p.R[:] = 0.5 * draw(injection.size, p.size, _random(injection.name, "size"))
+    p.rho[:] = draw(injection.rho, p.size, _random(injection.name, "rho"))
+    p.mu[:] = draw(solid.shear_modulus, p.size, _random(injection.name, "stiffness"))
+    p.eta[:] = draw(solid.viscosity, p.size, _random(injection.name, "viscosity"))
+    p.gamma[:] = draw(solid.surface_tension, p.size, _random(injection.name, "surfaceTension"))
+    p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
+    injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
         rate = shear_rate_at(flow, p, injection.model.SOI)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
+
+
+def _random(*names: str) -> np.random.Generator:
+    """Random numbers of an injection model, or of one of its quantities: no other changes what it draws."""
+    return np.random.default_rng([zlib.crc32(name.encode()) for name in names])
 
 
 def describe(job: Job) -> list[str]:
@@ -174,7 +188,8 @@ def describe(job: Job) -> list[str]:
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
-    log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)
+    log.info("Selecting patchInteractionModel %s, touching by the %s",
+             settings.interaction, settings.touching)  # fmt: skip
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
     warnings = []
@@ -183,6 +198,8 @@ def describe(job: Job) -> list[str]:
         log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
         _log_groups(g)
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
+    for name, function in settings.functions.items():
+        log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
     for warning in warnings:
         log.warning("%s", warning)
     return warnings
@@ -225,8 +242,9 @@ def execute(job: Job) -> dict[Status, int]:
     with _progress(solution.endTime) as show:
         while cloud.step < last:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            _advance_to(cloud, target, show)
+            _advance_to(job, target, show)
             series.append(snapshot(job))
+            job.functions.write(job.folder)
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
             reported = _log_failures(cloud.particles, reported)
             if not _moving(cloud):
@@ -248,11 +266,15 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(cloud: Cloud, target: int, show: Callable[[float], None]) -> None:
+def _advance_to(job: Job, target: int, show: Callable[[float], None]) -> None:
+    cloud = job.cloud
     while cloud.step < target and _moving(cloud):
         counts = cloud.particles.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
-        cloud.advance(min(target - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        until = job.functions.next_look(target)
+        cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        if cloud.step == until:
+            job.functions.see()
         show(cloud.time)
     cloud.step = target
 

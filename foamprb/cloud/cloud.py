@@ -28,6 +28,7 @@ from foamprb.cloud.adaptive import (
 )
 from foamprb.cloud.advance import STAGES, track_block
 from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
@@ -187,6 +188,15 @@ class Cloud:
             with ThreadPoolExecutor(self.threads) as pool:
                 self.recovered += sum(pool.map(work, shares))
         self.step += steps
+
+    def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
+        bindings = dict(self.flow.kernels)
+        if self.models.touching == "centre":
+            bindings["gap"] = gap_free
+        normals = np.empty((len(rows), 3))
+        link(contact_normals, bindings)(self._flow_arrays(), self.particles, rows, normals)
+        return normals
 
     def _flow_arrays(self) -> Any:
         """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""

@@ -81,8 +81,13 @@ def write_snapshot(path: Path, snapshot: Snapshot) -> None:
     OSError
         If the file cannot be written.
     """
+    _write(path, _poly_data(snapshot))
+
+
+def _write(path: Path, data: vtkPolyData) -> None:
+    """Write PolyData in one step."""
     writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(_poly_data(snapshot))
+    writer.SetInputData(data)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     # Mantissas of doubles hardly compress: zlib would gain 8 % in size for 25 times the time.
@@ -95,6 +100,56 @@ def write_snapshot(path: Path, snapshot: Snapshot) -> None:
         if writer.Write() != 1 or writer.GetErrorCode():
             reason = vtkErrorCode.GetStringFromErrorCode(writer.GetErrorCode())
             raise OSError(f"{path}: VTK could not write this file ({reason}).")
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Paths of m particles, one after the other.
+
+    Parameters
+    ----------
+    points
+        Positions, shape (n, 3), m, path after path.
+    start
+        Where each path begins among the points, and n, shape (m + 1,).
+    values
+        Arrays by name, (n,) or (n, k): at the points.
+    tracks
+        Arrays by name, (m,): of the paths.
+    units, names
+        As of a :class:`Snapshot`.
+    """
+
+    points: NDArray[np.float64]
+    start: NDArray[np.int64]
+    values: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    tracks: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+
+def write_tracks(path: Path, tracks: Tracks) -> None:
+    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(_vtk_array("Points", np.asarray(tracks.points, dtype=np.float64)))
+    data.SetPoints(points)
+    lines = vtkCellArray()
+    order = np.arange(len(tracks.points), dtype=np.int64)
+    lines.SetData(_vtk_array("offsets", tracks.start), _vtk_array("connectivity", order))
+    data.SetLines(lines)
+    for name, array in tracks.values.items():
+        data.GetPointData().AddArray(_vtk_array(name, array))
+    for name, array in tracks.tracks.items():
+        data.GetCellData().AddArray(_vtk_array(name, array))
+    _add_texts(data, tracks.units, tracks.names)
+    _write(path, data)
 
 
 class Entry(NamedTuple):
@@ -239,11 +294,17 @@ def _poly_data(snapshot: Snapshot) -> vtkPolyData:
         data.GetPointData().AddArray(_vtk_array(name, array))
     fields = data.GetFieldData()
     fields.AddArray(_vtk_array("TimeValue", np.array([snapshot.time], dtype=np.float64)))
-    if snapshot.units:
-        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in snapshot.units.items()]))
-    for name, meanings in snapshot.names.items():
-        fields.AddArray(_text_array(f"{name}Names", meanings))
+    _add_texts(data, snapshot.units, snapshot.names)
     return data
+
+
+def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
+    """Add the units of the arrays, and what codes mean."""
+    fields = data.GetFieldData()
+    if units:
+        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in units.items()]))
+    for name, meanings in names.items():
+        fields.AddArray(_text_array(f"{name}Names", meanings))
 
 
 def _vertices(n: int) -> vtkCellArray:
