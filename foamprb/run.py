@@ -237,7 +237,7 @@ def execute(
         with only_writer(job.folder):
             return _execute(job, start_from or job.settings.solution.startFrom, stop)
     except OSError as error:
-        raise RunStopped(f"{error}. {_HOW_TO_GO_ON}") from error
+        raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
 
 
 def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:

@@ -1,7 +1,3 @@
-import resource
-import signal
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +6,7 @@ import pytest
 import pyvista
 from hypothesis import given
 from hypothesis import strategies as st
+from limits import limit_of_file_size
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
@@ -186,16 +183,3 @@ def test_times_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, time
 
 def fail(*_: object, **__: object) -> None:
     raise OSError("no space")
-
-
-@contextmanager
-def limit_of_file_size(size: int) -> Iterator[None]:
-    """No file of this process may grow beyond so many bytes."""
-    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        signal.signal(signal.SIGXFSZ, handler)

@@ -79,7 +79,10 @@ class TimeTable:
     def __init__(self, path: Path, names: Sequence[str], *, after: float = -math.inf) -> None:
         self.path = path
         first = ",".join(map(_cell, ("time", *names))) + "\n"
-        lines = path.read_text("utf-8").splitlines(True) if after >= 0.0 and path.exists() else [first]
+        lines = [first]
+        if after > -math.inf and path.exists():
+            with path.open(encoding="utf-8", newline="\n") as file:
+                lines = list(file)
         if lines[:1] != [first]:
             raise InputError(f"{path}: its first line must be {first.strip()} for a run to go on with it.")
         try:
