@@ -26,18 +26,27 @@ from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
-from foamprb.errors import InputError
+from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
+from foamprb.output.atomic import only_writer, remove_unfinished
+from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series, Snapshot
 from foamprb.positions import read_positions
-from foamprb.settings import InjectionSettings, Settings, match_patches, read_settings
+from foamprb.restart import Fingerprint, fingerprint, restore, save
+from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patches, read_settings
 
 log = logging.getLogger("foamprb")
 
 _CHUNK_OF_WORK = 1_000_000
 _MAX_LISTED_FAILURES = 10
+_HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
+
+FATES = "fates.csv"
+FAILURES = "failed.csv"
+CHECKPOINTS = "checkpoint"
+"""Files and the folder in a run's folder, besides its series."""
 
 
 @dataclass(frozen=True)
@@ -220,8 +229,24 @@ def _log_groups(g: Groups) -> None:
         log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 
-def execute(job: Job) -> dict[Status, int]:
+def execute(
+    job: Job, start_from: StartFrom | None = None, stop: Callable[[], bool] = lambda: False
+) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
+
+    A checkpoint is written with the results of every write time. Whatever ends a run, another one started
+    from ``latestTime`` ends with the same state and the same files, bit for bit, as a run never interrupted.
+
+    Parameters
+    ----------
+    job
+        A cloud that has not been advanced.
+    start_from
+        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to go on from the last
+        checkpoint, if there is one. By default what the settings say. If they say nothing, a run begins anew,
+        but not in place of an unfinished one.
+    stop
+        Asked every second or so: true to write a checkpoint and end the run.
 
     Returns
     -------
@@ -229,26 +254,42 @@ def execute(job: Job) -> dict[Status, int]:
 
     Raises
     ------
-    OSError
-        If results cannot be written.
+    InputError
+        If the run cannot go on from its checkpoints, or the user must say whether it shall; if another run is
+        writing to the same folder.
+    RunStopped
+        If ``stop`` said so, too many particles failed, or results could not be written.
     """
+    try:
+        with only_writer(job.folder):
+            return _execute(job, start_from or job.settings.solution.startFrom, stop)
+    except OSError as error:
+        raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
+
+
+def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
     last = max(1, round(solution.endTime / solution.deltaT))
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
-    series = Series(job.folder, job.settings.name)
+    marks = fingerprint(job.settings, cloud)
+    checkpoints = Checkpoints(job.folder / CHECKPOINTS)
+    series = _begin(job, marks, checkpoints, start_from)
     started, cpu = clock.perf_counter(), clock.process_time()
-    reported = np.empty(0, dtype=np.int64)
+    reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
+    failing = _failing(job)
     log.info("\nStarting time loop\n")
     with _progress(solution.endTime) as show:
-        while cloud.step < last:
+        while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            _advance_to(job, target, show)
+            if not _advance_to(job, target, show, stop):
+                checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
+                raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
             series.append(snapshot(job))
             job.functions.write(job.folder)
+            checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
             reported = _log_failures(cloud.particles, reported)
-            if not _moving(cloud):
-                break
+            failing = _failing(job)
     write_fates(job)
     log_fates(job)
     log.info("\nResults in %s", job.folder)
@@ -257,8 +298,49 @@ def execute(job: Job) -> dict[Status, int]:
         clock.process_time() - cpu,
         clock.perf_counter() - started,
     )
+    if failing:
+        raise RunStopped(f"{failing} The results until then are in {job.folder}.")
     log.info("End")
     return cloud.particles.counts()
+
+
+def _begin(job: Job, marks: Fingerprint, checkpoints: Checkpoints, start_from: StartFrom | None) -> Series:
+    """Put the cloud at the time from which the run goes on, and drop what an old run wrote after it."""
+    fates, failed = job.folder / FATES, job.folder / FAILURES
+    if start_from is None and checkpoints.files() and not fates.exists():
+        raise InputError(
+            f"{job.folder}: an unfinished run has come to t = {max(checkpoints.files()):g} s. To go on with "
+            "it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
+            "startTime."
+        )
+    checkpoint = checkpoints.latest() if start_from == "latestTime" else None
+    if checkpoint is None:
+        if start_from == "latestTime":
+            log.info("No checkpoint in %s: beginning at the start time", checkpoints.folder)
+        # First: with them an interrupted removal could be taken for the run itself.
+        checkpoints.truncate(after=-np.inf)
+        after = -np.inf
+    else:
+        restore(job.cloud, job.functions, checkpoint, marks, job.folder / f"{job.settings.name}.pvd")
+        log.info("Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, checkpoints.folder)
+        after = checkpoint.time
+    remove_unfinished(job.folder)
+    for table in (fates, failed):
+        table.unlink(missing_ok=True)
+    return Series(job.folder, job.settings.name, after=after)
+
+
+def _failing(job: Job) -> str:
+    """Say that too many particles have failed; nothing if not."""
+    p, most = job.cloud.particles, job.settings.solution.maxFailedFraction
+    counts = p.counts()
+    injected = p.size - counts[Status.PENDING]
+    if counts[Status.FAILED] <= most * injected:
+        return ""
+    return (
+        f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
+        f"than maxFailedFraction {most:g} allows; {job.folder / FAILURES} says why."
+    )
 
 
 def _moving(cloud: Cloud) -> bool:
@@ -266,9 +348,12 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(job: Job, target: int, show: Callable[[float], None]) -> None:
+def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Callable[[], bool]) -> bool:
+    """Advance to a step; whether it was reached before ``stop`` said so."""
     cloud = job.cloud
     while cloud.step < target and _moving(cloud):
+        if stop():
+            return False
         counts = cloud.particles.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
         until = job.functions.next_look(target)
@@ -277,6 +362,7 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None]) -> None:
             job.functions.see()
         show(cloud.time)
     cloud.step = target
+    return True
 
 
 @contextmanager
@@ -341,7 +427,7 @@ def write_fates(job: Job) -> None:
     values = measure(context(everyone, cloud.flow, cloud.medium.mu, cloud.time))
     axes = values["semiAxes"]
     write_table(
-        job.folder / "fates.csv",
+        job.folder / FATES,
         {
             "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
@@ -351,7 +437,7 @@ def write_fates(job: Job) -> None:
         },
     )  # fmt: skip
     failed = np.flatnonzero(p.status == Status.FAILED)
-    table = job.folder / "failed.csv"
+    table = job.folder / FAILURES
     if len(failed):
         reasons = [REASONS[Reason(r)] for r in p.reason[failed]]
         x = p.x[failed]
@@ -385,4 +471,4 @@ def log_fates(job: Job) -> None:
     if job.cloud.recovered:
         log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
     if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
-        log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / "failed.csv")
+        log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / FAILURES)

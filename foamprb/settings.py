@@ -30,7 +30,7 @@ from foamprb.cloud.patches import INTERACTIONS, Escape, Interaction, Rebound
 from foamprb.cloud.shapes import SHAPES, Ellipsoid, Shape, Sphere
 from foamprb.cloudfunctions import FUNCTIONS, CloudFunction
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
-from foamprb.entries import Bounds, Choice, NonNegative, Only, PoissonsRatio, Positive, Vector3
+from foamprb.entries import Bounds, Choice, Fraction, NonNegative, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
 from foamprb.libs import load_libs
 from foamprb.records import (
@@ -46,6 +46,7 @@ from foamprb.records import (
 )
 
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
+StartFrom: TypeAlias = Literal["startTime", "latestTime"]
 DICTIONARY = Path("constant/softCloudProperties")
 MULTIPLE_TOLERANCE = 1e-6
 
@@ -56,13 +57,19 @@ MULTIPLE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance."""
+    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance.
+
+    A run begins at time 0 or goes on from its last checkpoint, as ``startFrom`` says, None if the user does
+    not; it stops when more than ``maxFailedFraction`` of the injected particles have failed.
+    """
 
     deltaT: float
     endTime: float
     writeInterval: float
     shape: str
     tolerance: float
+    startFrom: StartFrom | None = None
+    maxFailedFraction: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -205,6 +212,8 @@ def _solution(entries: _Solution, root: Dictionary) -> Solution:
         writeInterval=entries.endTime if interval is None else interval,
         shape=entries.integrationSchemes.shape,
         tolerance=entries.integrationSchemes.tolerance,
+        startFrom=entries.startFrom,
+        maxFailedFraction=entries.maxFailedFraction,
     )
 
 
@@ -496,6 +505,9 @@ class _Solution:
     deltaT: Annotated[float, Positive]
     endTime: Annotated[float, Positive]
     writeInterval: Annotated[float, Positive] | None = None
+    startFrom: StartFrom | None = None
+    startTime: Annotated[float, Only(0.0, "a cloud begins at time 0")] = 0.0
+    maxFailedFraction: Annotated[float, Fraction] = 1.0
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
     transient: Annotated[bool, Only(False, "particles are tracked through steady flows only")] = False

@@ -105,6 +105,11 @@ class Cloud:
         Number of steps done.
     start
         Time at step 0, on the axis of the flow's and the injections' times, s.
+    recovered
+        Number of walks so far that failed and were mended by the tree.
+    reach
+        Distance, m, to which walls are listed: it grows with the longest particle so far, and is a part of
+        the state, as a step that ends on a wall may depend on whether the wall was listed before.
 
     Raises
     ------
@@ -124,6 +129,7 @@ class Cloud:
     step: int = 0
     recovered: int = 0
     start: float = 0.0
+    reach: float = 0.0
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -153,8 +159,7 @@ class Cloud:
         self._rows = loop.rows
         self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
-        self._reach = 0.0
-        self._arrays: Any = None
+        self._arrays: tuple[float, Any] = (-1.0, None)
 
     @property
     def time(self) -> float:
@@ -201,13 +206,14 @@ class Cloud:
     def _flow_arrays(self) -> Any:
         """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
         longest = _longest_semi_axis(self.particles)
-        if self._arrays is None or longest * _REACH_MARGIN > self._reach:
-            self._reach = 2.0 * _REACH_MARGIN * longest
+        if longest * _REACH_MARGIN > self.reach:
+            self.reach = 2.0 * _REACH_MARGIN * longest
+        if self._arrays[0] != self.reach:
             touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
             if self.models.touching == "centre":
                 touchable = []
-            self._arrays = self.flow.arrays(self._reach, touchable)
-        return self._arrays
+            self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
+        return self._arrays[1]
 
 
 def _check(models: Models) -> None:

@@ -170,27 +170,30 @@ class Series:
         Where the files are; made when the first is written.
     name
         The cloud's name.
-    resume
-        False to begin a new run: the files of an old run, as its ``.pvd`` names them, are removed. True to
-        go on with the run that is there, if any.
+    after
+        Time, s, from which the run goes on: what was written for a later time is dropped, as it will be
+        written anew. By default everything: the run is a new one. Files named like those of the series that
+        its ``.pvd`` does not list, left behind by killed runs, are removed as well.
 
     Raises
     ------
     InputError
         If there is a ``.pvd`` that cannot be read.
     OSError
-        If old files cannot be removed.
+        If the list cannot be rewritten, or old files not removed.
     """
 
-    def __init__(self, folder: Path, name: str, *, resume: bool = False) -> None:
+    def __init__(self, folder: Path, name: str, *, after: float = -np.inf) -> None:
         self.folder = folder
         self.name = name
         self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
-        if not resume:
-            self.truncate(after=-np.inf)
-        remove_unfinished(self.pvd)
-        # The file that a killed process was writing has the next index.
-        remove_unfinished(self._next_file())
+        kept = tuple(entry for entry in self.entries if entry.time <= after)
+        if not kept:
+            self.pvd.unlink(missing_ok=True)
+            self.entries = ()
+        elif len(kept) < len(self.entries):
+            self._list(kept)
+        self._remove_unlisted()
 
     @property
     def pvd(self) -> Path:
@@ -219,25 +222,14 @@ class Series:
         self._list((*self.entries, Entry(time, file.name)))
         return file
 
-    def truncate(self, after: float) -> None:
-        """Drop the entries at or after a time, s, and their files: a resumed run writes them anew.
-
-        Raises
-        ------
-        OSError
-            If the files cannot be rewritten or removed.
-        """
-        kept = tuple(entry for entry in self.entries if entry.time < after)
-        dropped = self.entries[len(kept) :]
-        if not dropped:
-            return
-        if kept:
-            self._list(kept)
-        else:
-            self.pvd.unlink(missing_ok=True)
-            self.entries = ()
-        for entry in dropped:
-            (self.folder / entry.file).unlink(missing_ok=True)
+    def _remove_unlisted(self) -> None:
+        """Remove the files that the list does not name, and those that killed processes were writing."""
+        listed = {entry.file for entry in self.entries}
+        own = re.compile(re.escape(self.name) + r"_\d{6,}\.vtp")
+        for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
+            if own.fullmatch(file.name) and file.name not in listed:
+                file.unlink(missing_ok=True)
+        remove_unfinished(self.folder)
 
     def _next_file(self) -> Path:
         last = re.search(r"_(\d+)\.vtp$", self.entries[-1].file) if self.entries else None
