@@ -300,7 +300,8 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     Returns
     -------
     stretches, skewness
-        λ_a = |Fᵀ·n_a|, and the largest of |b_ac|/(λ_a λ_c) in the frame, squared.
+        λ_a = |Fᵀ·n_a|, to round-off times the ratio of the largest to the smallest; and the largest of
+        |b_ac|/(λ_a λ_c) in the frame, squared.
     """
     G = dot(Q, F)
     x = G[0] * G[0] + G[1] * G[1] + G[2] * G[2]
@@ -313,18 +314,12 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     return (np.sqrt(x), np.sqrt(y), np.sqrt(z)), largest / (x * y * z)
 
 
-def refined_frame(F: Tensor, Q: Tensor) -> tuple[Tensor, Vector, Scalar]:
-    """Principal frame and stretches of F from a frame that is nearly principal.
+def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
+    """Principal frame of F from a frame Q that is nearly principal.
 
     Three sweeps of Jacobi's method on b = F Fᵀ in the frame Q. Their convergence is quadratic: they reach
-    round-off where the frame has turned by up to 0.1 since; where the last value returned says that they have
-    not, the caller repeats them. Directions are as accurate as those of :func:`principal_frame`, stretches to
-    round-off times the ratio of the largest to the smallest.
-
-    Returns
-    -------
-    Q, stretches, skewness
-        As :func:`principal_frame`, and the last as :func:`stretches_in_frame`.
+    round-off where the frame has turned by up to 0.1 since. Where :func:`stretches_in_frame` says that they
+    have not, the caller repeats them.
     """
     G = dot(Q, F)
     b = (
@@ -341,9 +336,7 @@ def refined_frame(F: Tensor, Q: Tensor) -> tuple[Tensor, Vector, Scalar]:
     b, off, turned = _diagonalise(b, off, Q)
     b, off, turned = _diagonalise(b, off, turned)
     b, off, turned = _diagonalise(b, off, turned)
-    turned = _orthonormal(turned)
-    stretches, skewness = stretches_in_frame(F, turned)
-    return turned, stretches, skewness
+    return _orthonormal(turned)
 
 
 def principal_frame(F: Tensor) -> tuple[Tensor, Vector]:

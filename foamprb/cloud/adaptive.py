@@ -82,11 +82,13 @@ from foamprb.cloud.block import (
     load9,
     load_integrals,
     load_particle,
+    new_frames,
     save_particle,
     store3,
     store9,
     store_fluid,
-    straighten,
+    straighten_lane,
+    stretch_stage,
 )
 from foamprb.cloud.block import ROWS as FIRST_ROW
 from foamprb.cloud.motion import (
@@ -508,8 +510,7 @@ def track_adaptive(
         if moving == 0:
             break
 
-        frame_stage(block)
-        straighten(block)
+        new_frames(block)
         integrals_stage(block)
         first_slope(block, medium)
         for i in range(len(members)):
@@ -519,8 +520,7 @@ def track_adaptive(
                 t_new = p.t[k] + block[AT_H * LANES + i]
                 u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
                 store_fluid(block, i, u, l_f, u_t)
-        frame_stage(block)
-        straighten(block)
+        new_frames(block)
         integrals_stage(block)
         second_slope(block, medium)
         accept_stage(block, tolerance)
@@ -555,7 +555,8 @@ def track_adaptive(
 
 ADAPTIVE_STAGES = (
     frame_stage,
-    straighten,
+    stretch_stage,
+    straighten_lane,
     integrals_stage,
     accept_stage,
     first_inertial,

@@ -59,12 +59,14 @@ from foamprb.cloud.block import (
     load9,
     load_integrals,
     load_particle,
+    new_frames,
     resume_frames,
     save_particle,
     store3,
     store9,
     store_fluid,
-    straighten,
+    straighten_lane,
+    stretch_stage,
 )
 from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, is_sound, reach_end, release
 from foamprb.cloud.state import Particles
@@ -261,8 +263,7 @@ def track_block(
         for i in range(len(members)):
             if p.status[members[i]] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
                 dense_newton(block, i)
-        frame_stage(block)
-        straighten(block)
+        new_frames(block)
         integrals_stage(block)
         barycentre_stage(block, medium)
         accept_stage(block, RELATIVE_TOLERANCE)
@@ -281,9 +282,9 @@ def track_block(
 
 
 STAGES = (
-    resume_frames,
     frame_stage,
-    straighten,
+    stretch_stage,
+    straighten_lane,
     integrals_stage,
     traction_stage,
     newton_stage,

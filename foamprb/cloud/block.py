@@ -106,42 +106,57 @@ def load_integrals(block: Any, i: int) -> Integrals:
     )
 
 
-def frame_stage(block: Any) -> None:
+def new_frames(block: Any) -> None:
     """Particle frame and stretches of the new deformation gradient, from the frame of the last one."""
-    for i in range(LANES):
-        Q, stretches, skewness = refined_frame(load9(block, AT_NEW_F, i), load9(block, AT_FRAME, i))
-        store9(block, AT_Q, i, Q)
-        store3(block, AT_STRETCH, i, stretches)
-        block[AT_SKEWNESS * LANES + i] = skewness
-
-
-def straighten(block: Any) -> None:
-    """Refine the frames further that have turned too far for :func:`frame_stage`."""
-    for i in range(LANES):
-        if block[AT_SKEWNESS * LANES + i] > _SKEWNESS:
-            _straighten_lane(block, i)
-
-
-def _straighten_lane(block: Any, i: int) -> None:
-    F, Q = load9(block, AT_NEW_F, i), load9(block, AT_Q, i)
-    for _ in range(_MOST_REPEATS):
-        Q, stretches, skewness = refined_frame(F, Q)
-        store3(block, AT_STRETCH, i, stretches)
-        if not skewness > _SKEWNESS:
-            break
-    store9(block, AT_Q, i, Q)
+    frame_stage(block)
+    stretch_stage(block)
+    straighten(block, _SKEWNESS)
 
 
 def resume_frames(block: Any) -> None:
     """Particle frames and stretches as they were when the block's particles were last saved."""
     for i in range(LANES):
-        Q = load9(block, AT_FRAME, i)
-        stretches, skewness = stretches_in_frame(load9(block, AT_NEW_F, i), Q)
-        store9(block, AT_Q, i, Q)
+        store9(block, AT_Q, i, load9(block, AT_FRAME, i))
+    # One compiled stage serves both: elsewhere the compiler may contract sums in another way.
+    stretch_stage(block)
+    # For a particle that never moved, or whose F somebody set.
+    straighten(block, _STORED_SKEWNESS)
+
+
+def frame_stage(block: Any) -> None:
+    """Particle frame of the new deformation gradient, from the frame of the last one."""
+    for i in range(LANES):
+        store9(block, AT_Q, i, refined_frame(load9(block, AT_NEW_F, i), load9(block, AT_FRAME, i)))
+
+
+def stretch_stage(block: Any) -> None:
+    """Stretches of the new deformation gradient along its frame, and how skew that still is."""
+    for i in range(LANES):
+        stretches, skewness = stretches_in_frame(load9(block, AT_NEW_F, i), load9(block, AT_Q, i))
         store3(block, AT_STRETCH, i, stretches)
-        # A particle that never moved, or whose F somebody set.
-        if skewness > _STORED_SKEWNESS:
-            _straighten_lane(block, i)
+        block[AT_SKEWNESS * LANES + i] = skewness
+
+
+def straighten(block: Any, allowed: float) -> None:
+    """Refine the frames further that have turned too far for one pass."""
+    found = 0
+    for i in range(LANES):
+        if block[AT_SKEWNESS * LANES + i] > allowed:
+            found += 1
+            straighten_lane(block, i)
+    if found:
+        stretch_stage(block)
+
+
+def straighten_lane(block: Any, i: int) -> None:
+    """Refine the frame of lane i until it is principal to round-off."""
+    F, Q = load9(block, AT_NEW_F, i), load9(block, AT_Q, i)
+    for _ in range(_MOST_REPEATS):
+        Q = refined_frame(F, Q)
+        _, skewness = stretches_in_frame(F, Q)
+        if not skewness > _SKEWNESS:
+            break
+    store9(block, AT_Q, i, Q)
 
 
 def accept_stage(block: Any, tolerance: float) -> None:
