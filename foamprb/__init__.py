@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, spheres
-    from foamprb.errors import InputError
+    from foamprb.errors import InputError, RunStopped
     from foamprb.flow import analytic
     from foamprb.flow.meshfile import read_mesh_file
     from foamprb.flow.openfoam import read_case
@@ -28,6 +28,7 @@ _HOMES = {
     "Models": "foamprb.cloud.cloud",
     "Particles": "foamprb.cloud.state",
     "Rebound": "foamprb.cloud.patches",
+    "RunStopped": "foamprb.errors",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
     "analytic": "foamprb.flow",
@@ -48,6 +49,7 @@ __all__ = [
     "Models",
     "Particles",
     "Rebound",
+    "RunStopped",
     "Status",
     "Stick",
     "analytic",
