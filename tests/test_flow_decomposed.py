@@ -167,6 +167,22 @@ def test_parts_alone_are_found_and_described(case, capsys):
     assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
 
 
+def test_zones_of_cells_are_put_together(case):
+    for part in range(3):
+        n = len(read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing"))
+        zone = f"first {{ type cellZone; cellLabels List<label> 2 (0 {n - 1}); }}"
+        none = "none { type cellZone; cellLabels List<label> 0 (); }"
+        (case / f"processor{part}/constant/polyMesh/cellZones").write_text(
+            header("regIOobject", "cellZones") + f"2 ( {zone} {none} )"
+        )
+    flow = read_decomposed_case(case)
+    found = np.unique(flow.cell_of(flow.cell_zone("first").hosts))
+    expected = [read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing")[[0, -1]]
+                for part in range(3)]  # fmt: skip
+    np.testing.assert_array_equal(found, np.unique(expected))
+    assert len(flow.cell_zone("none").hosts) == 0
+
+
 def lose(path):
     return lambda case: (case / path).unlink()
 

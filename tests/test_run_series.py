@@ -138,6 +138,26 @@ def test_a_period_repeats_the_flow(case):
     assert "repeats itself every 2 s" in flow.notes[1]
 
 
+def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):
+    whole = tmp_path / "whole"
+    shutil.copytree(case, whole)
+    run(whole)
+    edit(case, "endTime 1.2", "endTime 0.8")
+    run(case)
+    edit(case, "endTime 0.8", "endTime 1.2")
+    folder = run(case, "-resume")
+    again = whole / "postProcessing/softCloud"
+    assert (folder / "fates.csv").read_bytes() == (again / "fates.csv").read_bytes()
+    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.4, 0.8, 1.2])
+
+
+def test_a_run_does_not_go_on_in_another_flow(case, capsys):
+    edit(case, "endTime 1.2", "endTime 0.8")
+    run(case)
+    edit(case, "endTime 0.8", "endTime 1.2; period 2")
+    assert "flow/period" in message(case, capsys, "-resume")
+
+
 def test_a_single_time_is_a_steady_flow(case):
     assert isinstance(prepare(case).cloud.flow, SeriesFlow)
     for options in ("0.5", "latestTime"):

@@ -142,7 +142,7 @@ def main() -> None:
     moved = np.abs(cloud.particles.x - cloud.particles.x0).max()
     for case in cases:
         for stride in STRIDES:
-            error = distances(track(in_files(case, stride)), exact) / [[0.01 * moved], [1.0]]
+            error = distances(track(in_files(case, stride)), exact) / [[moved], [1.0]]
             n = (len(select_times(case, "3:4")) - 1) // stride
             print(f"| {case.name} | {n} | {100 * error[0, 0]:.2f} | {100 * error[0, 1]:.2f} |"
                   f" {error[1, 0]:.4f} | {error[1, 1]:.4f} |")  # fmt: skip

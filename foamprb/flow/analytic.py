@@ -8,7 +8,7 @@ A flow gives the particle loop a tuple of numbers (:meth:`arrays`) and plain fun
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces
+from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.patch import Patch
 
 _FREE = -1
@@ -194,6 +194,11 @@ class AnalyticFlow:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """The parameters, by name."""
+        names: Mapping[str, ArrayLike] = self._parameters._asdict()
+        return names
+
     def locate(self, points: Floats) -> Ints:
         """0 for each point of shape (n, 3) in the flow, −1 for one outside."""
         inside = self._inside(points)
@@ -217,6 +222,16 @@ class AnalyticFlow:
             Always.
         """
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Refuse: a flow in closed form has no cells.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError(f"cellZone {name}: a flow in closed form has no cells to inject into.")
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Infinite: there are no cells."""

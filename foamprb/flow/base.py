@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.flow.patch import Patch
 
@@ -27,6 +27,17 @@ class PatchFaces(NamedTuple):
     """(n, 3, 3): triangle, vertex, component; m/s, at the time that was asked for."""
     hosts: Ints
     """(n,) the host behind each triangle."""
+
+
+class Tetrahedra(NamedTuple):
+    """The tetrahedra of a zone of cells, for placing particles in it."""
+
+    vertices: Floats
+    """(n, 4, 3): tetrahedron, vertex, coordinate; m."""
+    volumes: Floats
+    """(n,), m³; negative for a tetrahedron turned inside out."""
+    hosts: Ints
+    """(n,) the host that each is."""
 
 
 class Flow(Protocol):
@@ -77,3 +88,9 @@ class Flow(Protocol):
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Triangles of a patch at time t, s; InputError when there is no such patch, or it has none."""
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """What tells the flow from another, by name: to know it again when a run is taken up."""

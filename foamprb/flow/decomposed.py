@@ -28,6 +28,7 @@ from foamprb.flow.foamfile import (
     existing,
     header,
     read_boundary,
+    read_bytes,
     read_faces,
     read_field,
     read_labels,
@@ -36,6 +37,7 @@ from foamprb.flow.foamfile import (
 from foamprb.flow.openfoam import CaseInfo, TimeInfo, available_times, describe, read_case, select_time
 from foamprb.flow.series import SeriesFlow, read_series
 from foamprb.flow.walk import MeshFlow
+from foamprb.flow.zones import parse_cell_zones
 
 __all__ = [
     "Rebuilt",
@@ -149,6 +151,7 @@ class Rebuilt:
             _HEADER.format(kind="dictionary", note="", name="controlDict")
         )
         _write_mesh(self.folder / "constant/polyMesh", case, self._parts, self._patches, self._ranges)
+        _write_zones(self.folder / "constant/polyMesh/cellZones", self._parts)
         # The fields need the addresses alone.
         nothing = np.empty(0, dtype=np.int64)
         self._parts = [
@@ -360,6 +363,25 @@ def _write_mesh(
         _HEADER.format(kind="polyBoundaryMesh", note="", name="boundary").replace("binary", "ascii")
         + f"{len(patches)}\n(\n{text})\n"
     )
+
+
+def _write_zones(path: Path, parts: Sequence[_Part]) -> None:
+    """Put the zones of cells together, if there are any; each in the order of its cells."""
+    zones: dict[str, list[Labels]] = {}
+    for part in parts:
+        found = existing(part.folder / "constant/polyMesh/cellZones")
+        for name, cells in {} if found is None else parse_cell_zones(read_bytes(found), found).items():
+            if len(cells) and not 0 <= cells.min() <= cells.max() < len(part.cell_at):
+                raise InputError(f"{found}: zone {name} names a cell that is not there.")
+            zones.setdefault(name, []).append(part.cell_at[cells])
+    text = ""
+    for name, lists in zones.items():
+        labels = np.sort(np.concatenate(lists))
+        text += f"{name}\n{{\n    type cellZone;\n    cellLabels List<label> {len(labels)} "
+        text += f"({' '.join(map(str, labels))});\n}}\n"
+    if zones:
+        head = _HEADER.format(kind="regIOobject", note="", name="cellZones").replace("binary", "ascii")
+        path.write_text(f"{head}{len(zones)}\n(\n{text})\n")
 
 
 def _entries(patch: Patch, start: int) -> dict[str, str]:

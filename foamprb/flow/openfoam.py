@@ -8,7 +8,7 @@ what it passes over is checked.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pyvista
+from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
@@ -26,6 +27,7 @@ from foamprb.flow.foamfile import read_bytes as _read_bytes
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
+from foamprb.flow.zones import parse_cell_zones
 
 __all__ = [
     "PRECISION_NOTE",
@@ -177,12 +179,13 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    mesh, cells, boundary, name = read_fields(Path(case), time, velocity)
+    case = Path(case)
+    mesh, cells, boundary, name = read_fields(case, time, velocity)
     u, l = Reconstruction(mesh)(cells, boundary)
     notes = [PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    return MeshFlow(mesh, u, l, notes)
+    return MeshFlow(mesh, u, l, notes, zones=lambda: _read_cell_zones(_mesh_folder(case, name)))
 
 
 def read_fields(
@@ -243,7 +246,8 @@ class VelocityReader:
 
     def __init__(self, case: Path, time: str, velocity: str) -> None:
         self._case, self._velocity = case, velocity
-        self._patches = _read_boundary(_mesh_folder(case, time))
+        self._folder = _mesh_folder(case, time)
+        self._patches = _read_boundary(self._folder)
         with spoken():
             self._reader = _open(case, velocity, patches=True)
 
@@ -260,6 +264,10 @@ class VelocityReader:
             blocks = _update(self._reader, time)
         _raise_spoken(self._case, said)
         return _velocities(blocks, self._patches, self._velocity, path)
+
+    def zones(self) -> Mapping[str, NDArray[np.int64]]:
+        """The cells of each zone, by name; InputError if they cannot be read."""
+        return _read_cell_zones(self._folder)
 
 
 def _velocities(
@@ -445,6 +453,11 @@ def _read_boundary(folder: Path) -> tuple[PatchInfo, ...]:
             f"{path}: {len(patches)} patches could be read, not {count[0] if count else '(no number)'}."
         )
     return tuple(patches)
+
+
+def _read_cell_zones(folder: Path) -> Mapping[str, NDArray[np.int64]]:
+    path = _existing(folder / "cellZones")
+    return {} if path is None else parse_cell_zones(_read_bytes(path), path)
 
 
 def _noted_counts(folder: Path) -> dict[str, int]:

@@ -9,18 +9,18 @@ from __future__ import annotations
 import math
 import re
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.compile import link
 from foamprb.errors import InputError
-from foamprb.flow.base import PatchFaces
+from foamprb.flow.base import PatchFaces, Tetrahedra
 from foamprb.flow.locator import MeshArrays, locate
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.openfoam import (
@@ -122,6 +122,8 @@ class SeriesFlow:
         What the user should know about the flow, sentence by sentence.
     keep
         Number of times to keep in memory, if more than a step needs.
+    zones
+        Gives the cells of each zone, by name; it is called when a zone is asked for.
 
     Raises
     ------
@@ -145,6 +147,7 @@ class SeriesFlow:
         period: float | None = None,
         notes: Iterable[str] = (),
         keep: int = 0,
+        zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -152,7 +155,7 @@ class SeriesFlow:
         self.period = period
         self.mesh = mesh
         nodes = mesh.n_points + mesh.n_cells
-        self._still = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes)
+        self._still = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
         self.patches, self.notes, self.bounds = self._still.patches, self._still.notes, self._still.bounds
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
@@ -180,10 +183,8 @@ class SeriesFlow:
             )
         first, last = self._level_before(start), self._level_after(end)
         if last == first:
-            # At one of the times, either interval will do: the one that is there, or the one to come.
-            known = self._is_level(first - 1) and self._index(first - 1) in self._held
-            back = known or not self._is_level(last + 1)
-            first, last = (first - 1, last) if back else (first, last + 1)
+            # At one of the times either interval would do, but to the last bit it must always be the same.
+            first, last = (first - 1, last) if self._is_level(first - 1) else (first, last + 1)
         levels = range(first, last + 1)
         wanted = [self._index(level) for level in levels]
         self._make_room(wanted)
@@ -207,6 +208,12 @@ class SeriesFlow:
             self._slack,
         )
 
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """Mesh, times, and velocities at the first of them, by name."""
+        self.load(self.times[0], self.times[0])
+        first = self._fields[self._held[0]]
+        return {**self._still.traits(), "times": self.times, "period": self.period or 0.0, "fields": first}
+
     def locate(self, points: Floats) -> Ints:
         """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
         return self._still.locate(points)
@@ -229,6 +236,10 @@ class SeriesFlow:
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of the hosts' cells, (n,), m."""
         return self._still.cell_size(hosts)
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+        return self._still.cell_zone(name)
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Triangles of the patch ``name`` at time t, s.
@@ -418,7 +429,7 @@ def read_series(
     a_time = 96 * (mesh.n_points + mesh.n_cells)
     keep = _MOST_KEPT // a_time if period is not None else 0
     try:
-        return SeriesFlow(mesh, values, read, period, [PRECISION_NOTE, note], keep)
+        return SeriesFlow(mesh, values, read, period, [PRECISION_NOTE, note], keep, reader.zones)
     except InputError as error:
         raise InputError(f"{case}: {error}") from None
 
