@@ -20,6 +20,8 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
     ADAPTIVE_STAGES,
+    end_inertial,
+    end_inertialess,
     first_inertial,
     first_inertialess,
     second_inertial,
@@ -62,8 +64,14 @@ _SECOND_ORDER = (track_adaptive, ADAPTIVE_STAGES, ADAPTIVE_ROWS, True)
 
 LOOPS: dict[str, Loop] = {
     "paper": Loop(track_block, STAGES, ROWS, False, {}),
-    "rosenbrock": Loop(*_SECOND_ORDER, {"first_slope": first_inertial, "second_slope": second_inertial}),
-    "stokes": Loop(*_SECOND_ORDER, {"first_slope": first_inertialess, "second_slope": second_inertialess}),
+    "rosenbrock": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertial, "second_slope": second_inertial, "end_slope": end_inertial},
+    ),
+    "stokes": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertialess, "second_slope": second_inertialess, "end_slope": end_inertialess},
+    ),
 }
 """The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
 
