@@ -102,7 +102,7 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
 def test_the_flow_of_a_case(case, random):
     flow = read_case(case, 0.5)
     points = random.random((200, 3))
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=2e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=2e-4)
     assert "single precision" in flow.notes[0]
@@ -252,7 +252,7 @@ def test_the_pipe(random):
     hosts = flow.locate(points)
     inside = hosts >= 0
     assert np.count_nonzero(~inside) < 100
-    u, l = flow.sample(points[inside], hosts[inside])
+    u, l = flow.sample(points[inside], hosts[inside], 0.0)
     off = np.abs(u[:, 0] - 2.0 * mean * (1.0 - (r[inside] / radius) ** 2))
     assert np.sqrt(np.mean(off**2)) < 0.005 * mean
     shear = np.hypot(l[:, 0, 1], l[:, 0, 2]) - 4.0 * mean * r[inside] / radius**2
@@ -283,7 +283,7 @@ def test_mesh_files(suffix, where, tmp_path, random):
     flow = read_mesh_file(path)
     assert flow.patches == (Patch("boundary", "wall"),)
     points = random.random((100, 3))
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
 

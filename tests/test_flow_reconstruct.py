@@ -115,7 +115,7 @@ def pipe_errors():
         flow = MeshFlow(mesh, *Reconstruction(mesh)(poiseuille(mesh.centres)[0], boundary))
         hosts = flow.locate(points)
         inside, core = hosts >= 0, r < 0.9
-        u, l = flow.sample(points[inside], hosts[inside])
+        u, l = flow.sample(points[inside], hosts[inside], 0.0)
         exact_u, exact_l = poiseuille(points[inside])
         off_u = np.linalg.norm(u - exact_u, axis=1)
         off_l = np.linalg.norm(l - exact_l, axis=(1, 2)) / 4.0
