@@ -101,9 +101,8 @@ def main(arguments: list[str] | None = None) -> int:
             note = Row(part, "machine", machine() + (", quick" if parsed.quick else ""), 0.0, busy, "load")
             kept[part] = [note, *as_rows(child.result)]
             for row in kept[part]:
-                print(
-                    f"    {row.quantity:28s} {row.subject:28.60s} {row.size or '':<10} {row.value:12.5g} {row.unit}"
-                )
+                size = f"{row.size:g}" if row.size else ""
+                print(f"    {row.quantity:30s} {row.subject:32.60s} {size:8s} {row.value:11.5g} {row.unit}")
             print(f"    {child.wall:.0f} s", flush=True)
             rows = [row for p in PARTS for row in kept[p]]
             columns = {name: [getattr(row, name) for row in rows] for name in Row._fields}

@@ -199,9 +199,9 @@ def write_control(folder: Path, dt: float, end: float) -> None:
     """Write OpenFOAM's ``controlDict`` of a run that writes nothing."""
     _dictionary(
         folder / "system" / "controlDict",
-        f"application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime; "
-        f"endTime {end:.9g}; deltaT {dt:g}; writeControl timeStep; writeInterval 1000000; writeFormat binary; "
-        "timeFormat general; timePrecision 9; runTimeModifiable false;",
+        "application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime; "
+        f"endTime {end:.9g}; deltaT {dt:g}; writeControl timeStep; writeInterval 1000000; "
+        "writeFormat binary; timeFormat general; timePrecision 9; runTimeModifiable false;",
     )
 
 
@@ -222,8 +222,8 @@ def write_parcels(folder: Path, x: Floats) -> None:
         f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
         "dispersionModel none; patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
         'wall { type stick; } "(inlet|outlet)" { type escape; } ); }\n'
-        "heatTransferModel none; surfaceFilmModel none; collisionModel none; stochasticCollisionModel none; }\n"
-        "cloudFunctions {}",
+        "heatTransferModel none; surfaceFilmModel none; collisionModel none; "
+        "stochasticCollisionModel none; }\ncloudFunctions {}",
     )
 
 
@@ -237,7 +237,8 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int) -
         f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; "
         "solid { type neoHooke; poissonsRatio 0.499; shearModulus 0.05; } }\n"
         "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { inlet { "
-        f"type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; duration {0.9 * end:.9g}; "
+        f"type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; "
+        f"duration {0.9 * end:.9g}; "
         f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
         "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
         'wall { type stick; } "(inlet|outlet)" { type escape; } ); } }',

@@ -163,7 +163,7 @@ class Child(NamedTuple):
 def isolated(
     function: Callable[..., Any], *arguments: Any, environment: Mapping[str, str] | None = None
 ) -> Child:
-    """Call a function of one of these modules in a fresh process, with arguments and a result that JSON knows.
+    """Call a function of one of these modules in a fresh process; arguments and result are as JSON has them.
 
     Raises
     ------

@@ -18,17 +18,8 @@ def _timed(cloud, steps: int) -> float:
 
 def _shuffled(cloud, order, threads: int):
     """The same particles in another order."""
-    other = foamprb.Cloud(
-        cloud.particles.take(order),
-        cloud.flow,
-        cloud.medium,
-        cloud.interactions,
-        cloud.dt,
-        cloud.models,
-        threads,
-    )
-    other.step = cloud.step
-    return other
+    rest = (cloud.flow, cloud.medium, cloud.interactions, cloud.dt, cloud.models, threads)
+    return foamprb.Cloud(cloud.particles.take(order), *rest)
 
 
 def _same(a, b) -> bool:
@@ -48,10 +39,9 @@ def measure(options: Options) -> list[Row]:
     times = interleaved({str(k): lambda c=c: _timed(c, steps) for k, c in clouds.items()}, repeats)
     found = []
     for count in counts:
-        found += rows(
-            "threads", "wall time by threads", {"foamprb paper": times[str(count)]}, "us/particle-step", count
-        )
-        found += rows("threads", "speed-up", {"foamprb paper": times["1"] / times[str(count)]}, "", count)
+        spent = times[str(count)]
+        found += rows("threads", "wall time by threads", {"foamprb paper": spent}, "us/particle-step", count)
+        found += rows("threads", "speed-up", {"foamprb paper": times["1"] / spent}, "", count)
 
     order = np.random.default_rng(1).permutation(n)
     for integrator in ("paper", "stokes"):
