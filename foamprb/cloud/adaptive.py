@@ -41,6 +41,7 @@ from foamprb.body.tensor import (
     inverse,
     reciprocals,
     scale,
+    select,
     to_frame,
     transpose,
     vector_dot,
@@ -74,7 +75,9 @@ from foamprb.cloud.block import (
     LANES,
     NOT_CONVERGED,
     Medium,
+    Scratch,
     accept_stage,
+    choose,
     frame_stage,
     idle,
     integrals_stage,
@@ -423,7 +426,30 @@ def _balance(
     return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
 
 
-first_slope, second_slope = first_inertial, second_inertial
+def end_inertial(block: Any, medium: Medium) -> None:
+    """A and v at the end belong to the state, which the stages have left in the block."""
+
+
+def end_inertialess(block: Any, medium: Medium) -> None:
+    """A and v of the balance at the end; the stages leave those of the state that the last step predicted."""
+    for i in range(LANES):
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F = load9(block, AT_F, i)
+        m = mobility(stretches, g, block[AT_ETA * LANES + i] / medium.mu)
+        b_e = finger(dot(Q, F), load9(block, AT_M, i))
+        l_s, v = _balance(block, i, medium, Q, stretches, g, m, b_e)
+        moving = block[AT_MOVING * LANES + i] > 0.0
+        A, w = load9(block, AT_A, i), load3(block, AT_V, i)
+        store9(block, AT_A, i, choose(moving, dot(from_frame(Q, l_s), F), A))
+        store3(
+            block,
+            AT_V,
+            i,
+            (select(moving, v[0], w[0]), select(moving, v[1], w[1]), select(moving, v[2], w[2])),
+        )
+
+
+first_slope, second_slope, end_slope = first_inertial, second_inertial, end_inertial
 
 
 def _begin(block: Any, i: int, h: float) -> None:
@@ -456,15 +482,14 @@ def track_adaptive(
     steps: int,
     dt: float,
     start: float,
-    block: NDArray[np.float64],
-    clearance: NDArray[np.float64],
+    scratch: Scratch,
     tolerance: float,
 ) -> int:
     """Carry up to LANES particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
 
     Parameters
     ----------
-    As :func:`foamprb.cloud.advance.track_block`, with a block of ADAPTIVE_ROWS × LANES, and
+    As :func:`foamprb.cloud.advance.track_block`, with a block of ADAPTIVE_ROWS, and
     tolerance
         Largest error of a step in the deformation gradient, and in the direction of the path.
 
@@ -474,11 +499,11 @@ def track_adaptive(
     """
     recovered = 0
     last = step + steps
-    current = np.full(LANES, step)
-    hosts = np.zeros(LANES, dtype=np.int32)
+    block, clearance, current = scratch.block, scratch.clearance, scratch.step
     for i in range(LANES):
         idle(block, i, dt)
         block[AT_H * LANES + i] = dt
+        current[i] = step
     for i in range(len(members)):
         k = members[i]
         load_particle(p, k, block, i)
@@ -516,9 +541,9 @@ def track_adaptive(
         for i in range(len(members)):
             k = members[i]
             if p.status[k] == ACTIVE and current[i] < last:
-                hosts[i] = _predicted_host(flow, p.host[k], block, i)
+                host = _predicted_host(flow, p.host[k], block, i)
                 t_new = p.t[k] + block[AT_H * LANES + i]
-                u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
+                u, l_f, u_t = sample(flow, host, load3(block, AT_NEW_X, i), t_new)
                 store_fluid(block, i, u, l_f, u_t)
         new_frames(block)
         integrals_stage(block)
@@ -549,6 +574,17 @@ def track_adaptive(
             if whole:
                 current[i] += 1
     for i in range(len(members)):
+        k = members[i]
+        block[AT_MOVING * LANES + i] = 0.0
+        if p.status[k] == ACTIVE:
+            block[AT_MOVING * LANES + i] = 1.0
+            store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            store_fluid(block, i, u, l_f, u_t)
+    new_frames(block)
+    integrals_stage(block)
+    end_slope(block, medium)
+    for i in range(len(members)):
         save_particle(p, members[i], block, i)
     return recovered
 
@@ -563,5 +599,7 @@ ADAPTIVE_STAGES = (
     second_inertial,
     first_inertialess,
     second_inertialess,
+    end_inertial,
+    end_inertialess,
 )
 """Parts of the loop that do not depend on the flow, compiled once for all flows."""
