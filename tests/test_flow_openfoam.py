@@ -115,7 +115,7 @@ def test_compressed_files_are_read(case):
         (path.parent / (path.name + ".gz")).write_bytes(gzip.compress(path.read_bytes()))
         path.unlink()
     assert np.array_equal(read_fields(case)[1], before)
-    assert describe(case).patches[0] == ("floor", "wall", 4)
+    assert describe(case).patches[0][:3] == ("floor", "wall", 4)
 
 
 def test_times_keep_their_names(case):
@@ -127,7 +127,8 @@ def test_description(case):
     info = describe(case)
     assert [time.name for time in info.times] == ["0", "0.5", "1e1"]
     assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
-    assert info.patches == (("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16))
+    assert [p[:3] for p in info.patches] == [("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16)]
+    assert [p.start - info.patches[0].start for p in info.patches] == [0, 4, 8]
     assert (info.points, info.cells) == (27, {"hexahedron": 8})
     assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
 
@@ -202,6 +203,16 @@ BREAKAGES = {
         "4 of 24 boundary faces",
     ),
     "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "do not match"),
+    "gap between patches": (rewrite(POLY + "boundary", "nFaces 4", "nFaces 3"), "lid starts at face"),
+    "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
+    "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
+    "patch size no number": (
+        rewrite(POLY + "boundary", "nFaces 16", "nFaces many"),
+        "sides/nFaces is 'x'",
+    ),
+    "too few patches": (rewrite(POLY + "boundary", r"\n3\n", "\n4\n"), "'4' is not the number of entries"),
+    "boundary is no list": (rewrite(POLY + "boundary", r"\n3\n", "\nthree\n"), "where a number and a list"),
+    "words behind the boundary": (rewrite(POLY + "boundary", r"\)\n$", ")\nmore\n"), "behind the list"),
 }
 
 

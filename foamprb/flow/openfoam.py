@@ -14,17 +14,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pyvista
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
+from foamprb.dictionary import read_dictionary_list, unquoted
+from foamprb.entries import NonNegative
 from foamprb.errors import InputError
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
+from foamprb.records import read_entries
 
 __all__ = [
     "CaseInfo",
@@ -39,7 +42,6 @@ __all__ = [
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
-_PATCH = re.compile(r'("[^"]*"|[^\s(){};"]+)\s*\{([^{}]*)\}')
 _HEADER_BYTES = 4096
 _SPOKEN = re.compile(r"^(ERROR|Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE)
 _MOST_SPOKEN = 100
@@ -55,6 +57,10 @@ class PatchInfo(NamedTuple):
     name: str
     type: str
     faces: int
+    start: int
+    """Its first face."""
+    neighbour: str = ""
+    """The patch that a coupled patch leads to."""
 
 
 class TimeInfo(NamedTuple):
@@ -144,7 +150,7 @@ def describe(case: Path) -> CaseInfo:
     names = available_times(case)
     times = tuple(TimeInfo(name, _fields(case / name)) for name in names)
     folder = _mesh_folder(case, names[-1] if names else None)
-    patches = _read_boundary(folder)
+    patches = _read_boundary(case, folder)
     blocks, said = _read_blocks(case, names[-1] if names else None, None, patches=False)
     _raise_spoken(case, said)
     grid = blocks["internalMesh"]
@@ -201,7 +207,7 @@ def read_fields(
     name = select_time(case, time)
     path = _field_path(case, name, velocity)
     folder = _mesh_folder(case, name)
-    patches = _read_boundary(folder)
+    patches = _read_boundary(case, folder)
     noted = _noted_counts(folder)
     blocks, said = _read_blocks(case, name, velocity, patches=True)
     grid = blocks["internalMesh"]
@@ -371,23 +377,39 @@ def _fields(folder: Path) -> dict[str, str]:
     return found
 
 
-def _read_boundary(folder: Path) -> tuple[PatchInfo, ...]:
+@dataclass(frozen=True, kw_only=True)
+class _BoundaryEntry:
+    """What is read of a patch in ``polyMesh/boundary``."""
+
+    type: str
+    nFaces: Annotated[int, NonNegative]
+    startFace: Annotated[int, NonNegative]
+    neighbourPatch: str = ""
+
+
+def _read_boundary(case: Path, folder: Path) -> tuple[PatchInfo, ...]:
     path = _existing(folder / "boundary")
     if path is None:
         raise InputError(f"{folder / 'boundary'}: no such file.")
-    text = _COMMENT.sub(" ", _read_bytes(path).decode("utf-8", "replace"))
-    body = text[text.find("}") + 1 :]
-    count = re.search(r"\d+(?=\s*\()", body)
-    patches = []
-    for match in _PATCH.finditer(body):
-        entries = {words[0]: words[1] for line in match[2].split(";") if len(words := line.split()) > 1}
-        if "type" not in entries or not entries.get("nFaces", "").isdigit():
-            raise InputError(f"{path}: patch {match[1]} lacks its type or nFaces.")
-        patches.append(PatchInfo(match[1].strip('"'), entries["type"], int(entries["nFaces"])))
-    if count is None or int(count[0]) != len(patches):
-        raise InputError(
-            f"{path}: {len(patches)} patches could be read, not {count[0] if count else '(no number)'}."
-        )
+    try:
+        return _boundary_entries(path, case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+
+
+def _boundary_entries(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    patches: list[PatchInfo] = []
+    for dictionary in read_dictionary_list(path, case).items:
+        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
+        name = unquoted(dictionary.key)
+        if any(name == patch.name for patch in patches):
+            raise dictionary.mistake("occurs twice.")
+        if patches and read.startFace != patches[-1].start + patches[-1].faces:
+            expected = patches[-1].start + patches[-1].faces
+            raise dictionary.mistake(
+                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
+            )
+        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch))
     return tuple(patches)
 
 
