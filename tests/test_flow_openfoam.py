@@ -207,7 +207,7 @@ BREAKAGES = {
     "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
     "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
     "patch size no number": (
-        rewrite(POLY + "boundary", "nFaces 16", "nFaces many"),
+        rewrite(POLY + "boundary", "nFaces 16", "nFaces x"),
         "sides/nFaces is 'x'",
     ),
     "too few patches": (rewrite(POLY + "boundary", r"\n3\n", "\n4\n"), "'4' is not the number of entries"),
