@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.flow.coupling import Coupling, couple
 from foamprb.flow.patch import Patch
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -45,6 +46,8 @@ class PatchSurface(NamedTuple):
     name: str
     type: str
     surface: Any
+    neighbour: str = ""
+    """The patch that a cyclic patch leads to."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +101,8 @@ class Mesh:
     """(n_triangles, 3) unit normals, inward."""
     inverted: int
     """Number of tetrahedra of negative volume."""
+    couplings: tuple[Coupling, ...]
+    """Cyclic patches and wedges, each way."""
 
     @property
     def n_points(self) -> int:
@@ -152,6 +157,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     owner, neighbour = half.cell[owner_half], half.cell[neighbour_half]
 
     face_centres, areas = _face_geometry(points, face_start, face_points)
+    patches, couplings = couple(patches, patch_start, face_centres[n_internal:], areas[n_internal:], source)
     centres, volumes = _cell_geometry(face_centres, areas, owner, neighbour, half.n_cells)
     face_points, inverted = _choose_bases(points, centres, face_start, face_points, owner, neighbour)
 
@@ -186,6 +192,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         triangle_tet=_int32(triangle_tet),
         triangle_normals=_inward_normals(points, triangles, areas[n_internal:][triangle_face]),
         inverted=inverted,
+        couplings=couplings,
     )
 
 
@@ -361,7 +368,7 @@ def _assign_patches(
             f"{source}: {np.count_nonzero(times > 1)} boundary faces belong to more than one of the patches "
             f"{names}."
         )
-    patches = tuple(Patch(surface.name, surface.type) for surface in surfaces)
+    patches = tuple(Patch(surface.name, surface.type, surface.neighbour) for surface in surfaces)
     return faces, patches, _starts(np.array([len(found) for found in chosen], dtype=np.intp))
 
 

@@ -227,7 +227,7 @@ def read_fields(
                 f"{_shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
                 f"{0 if block is None else block.n_cells} could be read."
             )
-        surfaces.append(PatchSurface(patch.name, patch.type, block))
+        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
         if patch.type in VALUELESS:
             values.append(np.zeros((patch.faces, 3)))
         else:
