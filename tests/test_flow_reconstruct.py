@@ -139,8 +139,11 @@ def test_a_wedge_of_one_layer_has_the_gradient_of_the_whole(random):
     u, l = Reconstruction(mesh)(swirl_free(mesh.centres)[0], swirl_free(mesh.boundary_centres)[0])
     exact_u, exact_l = swirl_free(mesh.nodes)
     h = 1.0 / 16.0
-    assert u == pytest.approx(exact_u, abs=h**2)
-    assert l == pytest.approx(exact_l, abs=h)
+    # A corner that has but one face of the wall moves like that face.
+    corner = (mesh.nodes[:, 0] > 0.99) & (np.abs(mesh.nodes[:, 2] - 0.5) > 0.49)
+    assert u[~corner] == pytest.approx(exact_u[~corner], abs=h**2)
+    assert u[corner] == pytest.approx(exact_u[corner], abs=h)
+    assert l == pytest.approx(exact_l, abs=0.5 * h)
     axis = np.hypot(*mesh.nodes[:, :2].T) < 1e-9
     assert np.count_nonzero(axis) == 17
     assert np.all(u[axis, :2] == 0.0)
