@@ -26,7 +26,7 @@ from foamprb.body.imex import INTEGRATORS
 from foamprb.body.material import MATERIALS, lame_parameter
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection import INJECTIONS, SIZE_DISTRIBUTIONS, FixedValue, Injection
-from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
+from foamprb.cloud.patches import INTERACTIONS, Cyclic, Interaction, Mirror
 from foamprb.dictionary import Dictionary, DictionaryList, Entry, read_dictionary, unquoted
 from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
@@ -306,12 +306,14 @@ def _gravity(case: Path) -> Vector3:
 
 
 class Patch(Protocol):
-    """A boundary patch of a mesh: its name, and OpenFOAM's type (``patch``, ``wall``, ``symmetry``, …)."""
+    """A boundary patch: its name, OpenFOAM's type (``patch``, ``wall``, …), the patch it is coupled to."""
 
     @property
     def name(self) -> str: ...  # noqa: D102
     @property
     def type(self) -> str: ...  # noqa: D102
+    @property
+    def neighbour(self) -> str: ...  # noqa: D102
 
 
 _MIRRORS = frozenset({"empty", "symmetry", "symmetryPlane", "wedge"})
@@ -324,8 +326,8 @@ def match_patches(
     """Find what each patch does to a particle, as OpenFOAM's ``localInteraction`` does.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
-    of that name, as does a patch of a constraint type). Without a rule, symmetry planes, wedges and empty
-    patches mirror the particle.
+    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a cyclic
+    patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
 
     Parameters
     ----------
@@ -337,7 +339,7 @@ def match_patches(
     Raises
     ------
     InputError
-        If a rule matches no patch, or a patch that mirrors nothing is left without a rule.
+        If a rule matches no patch, or a patch of another kind is left without a rule.
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     for rule in rules:
@@ -351,10 +353,18 @@ def _interaction(rules: Sequence[PatchRule], patch: Patch, where: str) -> Intera
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
+    if patch.neighbour and patch.type in ("cyclic", "wedge"):
+        return Cyclic()
     if patch.type in _MIRRORS:
-        return Rebound(e=1.0, mu=0.0)
+        return Mirror()
+    if patch.type == "cyclic":
+        raise InputError(f"{where}: the cyclic patch '{patch.name}' names no neighbourPatch to go on from.")
     if patch.type.startswith(_COUPLED):
-        raise InputError(f"{where}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
+        raise InputError(
+            f"{where}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
+            "coupled patches only cyclic ones, whose faces fit one to one, let them through. Give it an "
+            f"entry of its own ({', '.join(INTERACTIONS)})."
+        )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 
 

@@ -17,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foamprb.cloud.injection import ManualInjection, PatchInjection
-from foamprb.cloud.patches import Escape, Rebound, Stick
+from foamprb.cloud.patches import Cyclic, Escape, Mirror, Rebound, Stick
 from foamprb.dictionary import Dictionary, Stream, read_dictionary
 from foamprb.errors import InputError
 from foamprb.positions import read_positions
@@ -558,6 +558,7 @@ def test_includes(case: Path, read: Reader) -> None:
 class Patch(NamedTuple):
     name: str
     type: str = "patch"
+    neighbour: str = ""
 
 
 @pytest.mark.parametrize(
@@ -585,10 +586,15 @@ def test_the_first_rule_that_matches_counts(rules: list[PatchRule], expected: li
 
 def test_patches_of_a_constraint_type() -> None:
     planes = [Patch(name, name) for name in ("empty", "symmetry", "symmetryPlane", "wedge")]
-    assert match_patches([], planes) == [Rebound(e=1.0, mu=0.0)] * 4
+    assert match_patches([], planes) == [Mirror()] * 4
     assert match_patches([PatchRule("symmetry", Stick())], planes)[1] == Stick()
-    with pytest.raises(InputError, match="cannot yet pass through 'left', a cyclic patch"):
+    for kind in ("cyclic", "wedge"):
+        pair = [Patch("left", kind, "right"), Patch("right", kind, "left")]
+        assert match_patches([], pair) == [Cyclic()] * 2
+    with pytest.raises(InputError, match="the cyclic patch 'left' names no neighbourPatch"):
         match_patches([], [Patch("left", "cyclic")])
+    with pytest.raises(InputError, match="cannot pass through 'left', a patch of type cyclicAMI"):
+        match_patches([], [Patch("left", "cyclicAMI", "right")])
     assert match_patches([PatchRule("left", Escape())], [Patch("left", "cyclicAMI")]) == [Escape()]
 
 
