@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from test_flow_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches, polyhedra
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh import Patch, build_mesh
+from foamprb.flow.mesh import Patch, PatchSurface, build_mesh
+from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.walk import MeshFlow
 
 
 def volumes(mesh):
@@ -122,6 +124,42 @@ def test_two_patches_on_the_same_points_are_told_apart():
     normals = mesh.triangle_normals[:, 0]
     assert np.all(normals[mesh.triangle_patch == 1] == -1.0)
     assert np.all(normals[mesh.triangle_patch == 2] == 1.0)
+
+
+@pytest.mark.parametrize(("whole", "copies"), [(True, 25), (False, 10)])
+def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
+    """Two patches on the same interior faces, across the whole box or half of it."""
+    shape = block(4, 0.0)
+    points = np.asarray(shape.points)
+    hexes = shape.cells.reshape(-1, 9)[:, 1:]
+    middle = points[hexes].mean(axis=1)
+    at = np.flatnonzero((np.abs(middle[:, 0] - 0.375) < 1e-9) & (whole | (middle[:, 1] < 0.5)))
+    front = hexes[at][:, [1, 2, 6, 5]]
+    sides = {"west": front, "east": front[:, ::-1]}
+    patches = [
+        PatchSurface(name, "wall", pyvista.PolyData(points, np.column_stack([np.full(len(f), 4), f]).ravel()))
+        for name, f in sides.items()
+    ]
+    mesh = build_mesh(shape, [*box_patches(shape), *patches])
+    assert np.diff(mesh.patch_start)[3:].tolist() == [len(at), len(at)]
+    assert mesh.n_points == 125 + copies
+    assert mesh.inverted == 0
+    normals = mesh.triangle_normals[:, 0]
+    assert np.all(normals[mesh.triangle_patch == 3] == -1.0)
+    assert np.all(normals[mesh.triangle_patch == 4] == 1.0)
+    if not whole:
+        return
+    # A flow on one side alone; the wall between is at rest.
+    cells, faces = np.zeros((mesh.n_cells, 3)), np.zeros((len(mesh.boundary_centres), 3))
+    west = mesh.centres[:, 0] < 0.5
+    cells[west, 1] = 0.5 - mesh.centres[west, 0]
+    outer = mesh.patch_start[3]
+    faces[:outer, 1] = np.maximum(0.5 - mesh.boundary_centres[:outer, 0], 0.0)
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, faces))
+    x = np.column_stack([random.choice([0.45, 0.55], 100), 0.25 * random.random(100), random.random(100)])
+    u, l = flow.sample(x, flow.locate(x))
+    assert u[:, 1] == pytest.approx(np.where(x[:, 0] < 0.5, 0.05, 0.0), abs=1e-12)
+    assert l[:, 1, 0] == pytest.approx(np.where(x[:, 0] < 0.5, -1.0, 0.0), abs=1e-11)
 
 
 def test_boundary_faces_without_patch_are_refused():

@@ -278,9 +278,12 @@ def test_mesh_files(suffix, where, tmp_path, random):
     getattr(shape, where)["U"] = places @ GRADIENT.T
     path = tmp_path / f"flow{suffix}"
     if suffix == ".vtm":
-        pyvista.MultiBlock(
-            {"internal": shape, "wall": shape.extract_surface(algorithm="dataset_surface")}
-        ).save(path)
+        patches = {}
+        for patch in box_patches(shape):
+            places = patch.surface.points if where == "point_data" else patch.surface.cell_centers().points
+            getattr(patch.surface, where)["U"] = places @ GRADIENT.T * (patch.name != "sides")
+            patches[patch.name] = patch.surface
+        pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(path)
     elif suffix == ".pvd":
         shape.save(tmp_path / "flow_1.vtu")
         path.write_text(
@@ -292,7 +295,12 @@ def test_mesh_files(suffix, where, tmp_path, random):
     else:
         shape.save(path)
     flow = read_mesh_file(path)
-    assert flow.patches == (Patch("boundary", "wall"),)
+    if suffix == ".vtm":
+        assert flow.patches == (Patch("floor", "patch"), Patch("lid", "patch"), Patch("sides", "wall"))
+        if where == "cell_data":
+            return
+    else:
+        assert flow.patches == (Patch("boundary", "wall"),)
     points = random.random((100, 3))
     u, l = flow.sample(points, flow.locate(points))
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
@@ -314,7 +322,7 @@ def test_other_names_of_the_velocity(tmp_path):
     path = tmp_path / "flow.vtu"
     shape.save(path)
     assert read_mesh_file(path, "velocity").mesh.n_cells == 8
-    with pytest.raises(InputError, match=r"no array U; the arrays are p, velocity\."):
+    with pytest.raises(InputError, match=r"no array U\. Allowed: p, velocity\."):
         read_mesh_file(path)
     with pytest.raises(InputError, match=r"array p has shape \(8,\)"):
         read_mesh_file(path, "p")

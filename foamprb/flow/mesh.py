@@ -14,6 +14,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
 
 from foamprb.errors import InputError
 from foamprb.flow.coupling import Coupling, couple
@@ -23,6 +25,7 @@ Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int32]
 _Index: TypeAlias = NDArray[np.intp]
 _Hash: TypeAlias = NDArray[np.uint64]
+_Mask: TypeAlias = NDArray[np.bool_]
 
 __all__ = ["Mesh", "Patch", "PatchSurface", "build_mesh"]
 
@@ -147,6 +150,12 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     points = np.ascontiguousarray(grid.points, dtype=np.float64)
     half = _half_faces(grid, source)
     first, second = _match_halves(half, source)
+    cell_point_start, cell_points = _cell_array(grid.GetCells())
+    apart = _baffles(points, grid.points.dtype, half, first, second, surfaces)
+    if apart.any():
+        split = np.concatenate([first[apart], second[apart]])
+        first, second = (np.concatenate([ends[~apart], split]) for ends in (first, second))
+        points, half, cell_points = _part_points(points, half, first, second, cell_point_start, cell_points)
     half, owner_half, neighbour_half = _order_faces(points, half, first, second)
     order, patches, patch_start = _assign_patches(
         points, grid.points.dtype, half, owner_half, surfaces, source
@@ -165,7 +174,6 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         half, face_start, face_points, owner_half, neighbour_half, len(points), source
     )
     triangles = tets[triangle_tet][:, 1:]
-    cell_point_start, cell_points = _cell_array(grid.GetCells())
     counts = np.diff(face_start)[n_internal:] - 2
     triangle_face = np.repeat(np.arange(len(counts)), counts)
     boundary_patch = np.repeat(np.arange(len(patches)), np.diff(patch_start))
@@ -284,6 +292,78 @@ def _match_halves(half: _Halves, source: str) -> tuple[_Index, _Index]:
     mate[first], mate[second] = second, first
     owners = np.flatnonzero(mate >= np.arange(len(mate)))
     return owners, mate[owners]
+
+
+def _baffles(
+    points: Floats,
+    dtype: Any,
+    half: _Halves,
+    first: _Index,
+    second: _Index,
+    surfaces: Sequence[PatchSurface] | None,
+) -> _Mask:
+    """Which of the matched faces belong to patches: walls without thickness, with a patch on either side."""
+    inside = first != second
+    faces = sum(surface.surface.n_cells for surface in surfaces or ())
+    none = np.zeros(len(first), dtype=bool)
+    if surfaces is None or faces <= np.count_nonzero(~inside):
+        return none
+    polygons = [_cell_array(surface.surface.GetPolys()) for surface in surfaces]
+    clouds = [np.asarray(surface.surface.points, dtype=dtype).reshape(-1, 3) for surface in surfaces]
+    coordinates = np.concatenate([points.astype(dtype), *clouds]) + 0
+    place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
+    begin, wanted = len(points), []
+    for (start, lists), cloud in zip(polygons, clouds, strict=True):
+        if len(start) > 1:
+            wanted.append(np.add.reduceat(_mix(place[begin + lists]), start[:-1]))
+        begin += len(cloud)
+    codes = np.add.reduceat(_mix(place[half.points]), half.start[:-1])
+    found: _Mask = inside & np.isin(codes[first], np.concatenate(wanted))
+    return found
+
+
+def _part_points(
+    points: Floats, half: _Halves, first: _Index, second: _Index, start: _Index, cell_points: _Index
+) -> tuple[Floats, _Halves, _Index]:
+    """Give each side of a baffle points of its own, where no way around through cells joins the sides.
+
+    Around a point, cells are joined by the faces between them that hold the point; a point whose cells fall
+    into several groups is copied for each group but one.
+    """
+    on_wall = np.zeros(len(points), dtype=bool)
+    sizes = np.diff(half.start)
+    single = first[first == second]
+    on_wall[_take_lists(half.start, half.points, single)[1]] = True
+    # Corners: a cell and one of its points on a wall.
+    cells = np.repeat(np.arange(half.n_cells), np.diff(start))
+    at = np.flatnonzero(on_wall[cell_points])
+    keys = cells[at] * len(points) + cell_points[at]
+    order = np.argsort(keys)
+    keys = keys[order]
+    inside = first != second
+    owners = np.repeat(half.cell[first[inside]], sizes[first[inside]])
+    others = np.repeat(half.cell[second[inside]], sizes[first[inside]])
+    shared = _take_lists(half.start, half.points, first[inside])[1]
+    held = on_wall[shared]
+    joined = [
+        np.searchsorted(keys, side[held] * len(points) + shared[held]).astype(np.intp)
+        for side in (owners, others)
+    ]
+    graph = sparse.coo_array((np.ones(len(joined[0]), dtype=np.int8), joined), shape=(len(keys), len(keys)))
+    groups = csgraph.connected_components(graph, directed=False)[1]
+    point = cell_points[at[order]]
+    # The first group of a point keeps it, each other group gets a copy.
+    pairs, place = np.unique(np.stack([point, groups]), axis=1, return_inverse=True)
+    copy = np.concatenate([[False], pairs[0, 1:] == pairs[0, :-1]])
+    names = np.where(copy, len(points) + np.cumsum(copy) - 1, pairs[0])
+    named = names[place.reshape(-1)]
+    moved = cell_points.copy()
+    moved[at[order]] = named
+    lists = half.points.copy()
+    on_lists = np.flatnonzero(on_wall[lists])
+    of_half = np.repeat(half.cell, sizes)[on_lists]
+    lists[on_lists] = named[np.searchsorted(keys, of_half * len(points) + lists[on_lists])]
+    return np.concatenate([points, points[pairs[0, copy]]]), half._replace(points=lists), moved
 
 
 def _order_faces(

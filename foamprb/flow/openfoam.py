@@ -10,7 +10,7 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +23,7 @@ from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.dictionary import read_dictionary_list, unquoted
 from foamprb.entries import NonNegative
-from foamprb.errors import InputError
+from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
@@ -35,7 +35,11 @@ __all__ = [
     "TimeInfo",
     "available_times",
     "describe",
+    "listed",
+    "pick_time",
     "read_case",
+    "regions",
+    "require_volumes",
     "select_time",
     "spoken",
 ]
@@ -43,7 +47,9 @@ __all__ = [
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _HEADER_BYTES = 4096
-_SPOKEN = re.compile(r"^(ERROR|Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE)
+_SPOKEN = re.compile(
+    r"^(ERROR|Warning|Generic Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE
+)
 _MOST_SPOKEN = 100
 _PRECISION_NOTE = (
     "Coordinates and velocities have passed through single precision in VTK's OpenFOAM reader: a relative "
@@ -82,12 +88,18 @@ class CaseInfo:
     """Number of cells of each kind."""
     bounds: tuple[Floats, Floats]
     """Lowest and highest coordinates, m."""
+    region: str = ""
+    """The region that this is about."""
+    regions: tuple[str, ...] = ()
+    """All regions."""
 
     def lines(self) -> list[str]:
         """The same for a person to read."""
         low, high = ("({:g} {:g} {:g})".format(*corner) for corner in self.bounds)
         return [
             f"Case    {self.case}",
+            *([f"Region  {self.region}"] if self.region else []),
+            *([f"Regions {', '.join(self.regions)}"] if self.regions else []),
             "",
             "Mesh",
             f"    {'points':20s} {self.points:10d}",
@@ -111,7 +123,12 @@ def available_times(case: Path) -> tuple[str, ...]:
     return tuple(sorted(names, key=float))
 
 
-def select_time(case: Path, time: float | str = "latestTime") -> str:
+def regions(case: Path) -> tuple[str, ...]:
+    """Names of the regions of a case whose mesh is divided into regions; none for a case of one mesh."""
+    return tuple(sorted(path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")))
+
+
+def select_time(case: Path, time: float | str = "latestTime", region: str = "") -> str:
     """Name of the time directory that ``time`` means: ``latestTime``, or a value.
 
     Raises
@@ -119,39 +136,50 @@ def select_time(case: Path, time: float | str = "latestTime") -> str:
     InputError
         The case has no such time; the message lists those that it has.
     """
-    _require_case(case)
+    _require_case(case, region)
     names = available_times(case)
     if not names:
         split = " Only decomposed times are there: run reconstructPar." if _is_decomposed(case) else ""
         raise InputError(f"{case}: no time directories; has the solver been run?{split}")
+    return names[pick_time(case, names, time)]
+
+
+def pick_time(source: Path, names: Sequence[str], time: float | str) -> int:
+    """Position of a time among the names of times, in their order.
+
+    Raises
+    ------
+    InputError
+        There is no such time; the message lists those that there are.
+    """
     if time == "latestTime":
-        return names[-1]
+        return len(names) - 1
     try:
         value = float(time)
     except ValueError:
         raise InputError(
-            f"{case}: time '{time}' is neither a number nor latestTime; the times are {_list(names)}."
+            f"{source}: time '{time}' is neither a number nor latestTime; the times are {listed(names)}."
         ) from None
-    for name in names:
+    for position, name in enumerate(names):
         if abs(float(name) - value) <= 1e-9 * max(abs(value), 1e-30):
-            return name
-    raise InputError(f"{case}: no time {time}; the times are {_list(names)}.")
+            return position
+    raise InputError(f"{source}: no time {time}; the times are {listed(names)}.")
 
 
-def describe(case: Path) -> CaseInfo:
-    """Tell what a case holds, without reading a field.
+def describe(case: Path, region: str = "") -> CaseInfo:
+    """Tell what a case, or a region of it, holds, without reading a field.
 
     Raises
     ------
     InputError
         The folder is no case, or its mesh cannot be read.
     """
-    _require_case(case)
+    _require_case(case, region)
     names = available_times(case)
-    times = tuple(TimeInfo(name, _fields(case / name)) for name in names)
-    folder = _mesh_folder(case, names[-1] if names else None)
+    times = tuple(TimeInfo(name, _fields(case / name / region)) for name in names)
+    folder = _mesh_folder(case, names[-1] if names else None, region)
     patches = _read_boundary(case, folder)
-    blocks, said = _read_blocks(case, names[-1] if names else None, None, patches=False)
+    blocks, said = _read_blocks(case, names[-1] if names else None, None, region, patches=False)
     _raise_spoken(case, said)
     grid = blocks["internalMesh"]
     kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)
@@ -161,10 +189,16 @@ def describe(case: Path) -> CaseInfo:
     }
     points = np.asarray(grid.points, dtype=np.float64)
     bounds = (points.min(axis=0), points.max(axis=0))
-    return CaseInfo(case, times, patches, len(points), cells, bounds)
+    return CaseInfo(case, times, patches, len(points), cells, bounds, region, regions(case))
 
 
-def read_case(case: Path | str, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
+def read_case(
+    case: Path | str,
+    time: float | str = "latestTime",
+    velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
+) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
     Parameters
@@ -175,22 +209,36 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
         A time's value, or ``latestTime``.
     velocity
         Name of the velocity field, a ``volVectorField`` in m/s.
+    region
+        Name of the mesh region, if the case has several.
+    gradient
+        Name of the velocity's gradient, a ``volTensorField`` in 1/s such as ``grad(U)``, to be taken for the
+        gradient at the cells; without a name it is reconstructed from the velocity.
 
     Raises
     ------
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    mesh, cells, boundary, name = read_fields(Path(case), time, velocity)
-    u, l = Reconstruction(mesh)(cells, boundary)
+    mesh, cells, boundary, name = read_fields(Path(case), time, velocity, region)
+    given = _read_gradient(Path(case), name, gradient, region) if gradient else None
+    u, l = Reconstruction(mesh)(cells, boundary, given)
     notes = [_PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     return MeshFlow(mesh, u, l, notes)
 
 
+def _read_gradient(case: Path, time: str, field: str, region: str) -> Floats:
+    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j, 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
+    path = _field_path(case / time / region, field, "volTensorField", "the gradient of a velocity")
+    blocks, said = _read_blocks(case, time, field, region, patches=False)
+    _raise_spoken(case, said)
+    return _values(blocks["internalMesh"], field, path, "the cells", 9).reshape(-1, 3, 3).transpose(0, 2, 1)
+
+
 def read_fields(
-    case: Path, time: float | str = "latestTime", velocity: str = "U"
+    case: Path, time: float | str = "latestTime", velocity: str = "U", region: str = ""
 ) -> tuple[Mesh, Floats, Floats, str]:
     """Read the mesh with the velocity at its cells (n_cells, 3) and boundary faces (n_boundary, 3), m/s.
 
@@ -204,12 +252,12 @@ def read_fields(
     InputError
         As :func:`read_case`.
     """
-    name = select_time(case, time)
-    path = _field_path(case, name, velocity)
-    folder = _mesh_folder(case, name)
+    name = select_time(case, time, region)
+    path = _field_path(case / name / region, velocity)
+    folder = _mesh_folder(case, name, region)
     patches = _read_boundary(case, folder)
     noted = _noted_counts(folder)
-    blocks, said = _read_blocks(case, name, velocity, patches=True)
+    blocks, said = _read_blocks(case, name, velocity, region, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
         if word in noted and noted[word] != found:
@@ -233,7 +281,30 @@ def read_fields(
         else:
             values.append(_values(block, velocity, path, f"patch {patch.name}"))
     mesh = build_mesh(grid, surfaces, source=str(folder))
+    require_volumes(mesh, folder)
     return mesh, cells, np.concatenate([np.zeros((0, 3)), *values]), name
+
+
+def require_volumes(mesh: Mesh, source: Path) -> None:
+    """Refuse a mesh that cannot be one.
+
+    Raises
+    ------
+    InputError
+        A point is no number, or cells have no volume or are inside out.
+    """
+    bad = np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))
+    if len(bad):
+        raise InputError(
+            f"{source}: {len(bad)} of {mesh.n_points} points are not finite numbers; the first is {bad[0]}."
+        )
+    flat = np.flatnonzero(~(mesh.volumes > 0.0))
+    if len(flat):
+        x = "({:g} {:g} {:g})".format(*mesh.centres[flat[0]])
+        raise InputError(
+            f"{source}: {len(flat)} of {mesh.n_cells} cells have no positive volume; the first is cell "
+            f"{flat[0]} at {x}. Is the mesh damaged? (checkMesh tells)"
+        )
 
 
 class Spoken(NamedTuple):
@@ -260,14 +331,16 @@ def spoken() -> Iterator[Spoken]:
             # So when a broken file's contents are quoted.
             text = text.decode("utf-8", "replace")
         for kind, message in _SPOKEN.findall(text):
-            messages = said.errors if kind == "ERROR" else said.warnings
             message = " ".join(message.split())
+            # Of a file cut short VTK's old reader only warns.
+            fatal = kind == "ERROR" or (kind == "Generic Warning" and message.startswith("Error"))
+            messages = said.errors if fatal else said.warnings
             if message not in messages and len(messages) < _MOST_SPOKEN:
                 messages.append(message)
 
 
 def _read_blocks(
-    case: Path, time: str | None, velocity: str | None, *, patches: bool
+    case: Path, time: str | None, velocity: str | None, region: str, *, patches: bool
 ) -> tuple[dict[str, Any], Spoken]:
     """The reader's blocks by name, ``internalMesh`` and the patches; and what VTK said."""
     reader = vtkOpenFOAMReader()
@@ -285,7 +358,11 @@ def _read_blocks(
             reader.SetCellArrayStatus(velocity, 1)
         for index in range(reader.GetNumberOfPatchArrays()):
             part = reader.GetPatchArrayName(index)
-            wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
+            of_region = f"/{region}/" if region else ""
+            inner = part.removeprefix(of_region)
+            wanted = part.startswith(of_region) and (
+                inner == "internalMesh" or (patches and inner.startswith("patch/"))
+            )
             reader.SetPatchArrayStatus(part, int(wanted))
         if time is None:
             reader.Update()
@@ -296,8 +373,8 @@ def _read_blocks(
     if grid is None or grid.n_cells == 0:
         _raise_spoken(case, said)
         raise InputError(
-            f"{case / 'constant' / 'polyMesh'}: no mesh could be read; a file is missing, broken or cut "
-            "short."
+            f"{case / 'constant' / region / 'polyMesh'}: no mesh could be read; a file is missing, broken or "
+            "cut short."
         )
     return blocks, said
 
@@ -316,12 +393,13 @@ def _leaves(block: Any) -> Iterator[tuple[str, Any]]:
             yield name, part
 
 
-def _values(block: Any, field: str, path: Path, where: str) -> Floats:
+def _values(block: Any, field: str, path: Path, where: str, components: int = 3) -> Floats:
     if field not in block.cell_data:
         raise InputError(f"{path}: no values could be read for {where}; the file is broken or cut short.")
     values = np.asarray(block.cell_data[field], dtype=np.float64)
-    if values.shape != (block.n_cells, 3):
-        raise InputError(f"{path}: {where} have values of shape {values.shape}, not {(block.n_cells, 3)}.")
+    shape = (block.n_cells, components)
+    if values.shape != shape:
+        raise InputError(f"{path}: {where} have values of shape {values.shape}, not {shape}.")
     bad = ~np.isfinite(values).all(axis=1)
     if bad.any():
         raise InputError(
@@ -330,14 +408,25 @@ def _values(block: Any, field: str, path: Path, where: str) -> Floats:
     return values
 
 
-def _require_case(case: Path) -> None:
+def _require_case(case: Path, region: str) -> None:
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
-    if _existing(case / "constant" / "polyMesh" / "faces") is not None:
+    names = regions(case)
+    if region and region not in names:
+        raise InputError(
+            f"{case}: no region {region}. {suggestion(region, names)}"
+            if names
+            else f"{case}: no region {region}; the case is not divided into regions."
+        )
+    if _existing(case / "constant" / region / "polyMesh" / "faces") is not None:
         return
     if _is_decomposed(case):
         raise InputError(
             f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
+        )
+    if names:
+        raise InputError(
+            f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
         )
     raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
 
@@ -346,30 +435,32 @@ def _is_decomposed(case: Path) -> bool:
     return any(case.glob("processor*/constant")) or any(case.glob("processors*/constant"))
 
 
-def _mesh_folder(case: Path, time: str | None) -> Path:
+def _mesh_folder(case: Path, time: str | None, region: str) -> Path:
     """The ``polyMesh`` folder whose topology holds at the time."""
-    folder = case / "constant" / "polyMesh"
+    folder = case / "constant" / region / "polyMesh"
     for name in available_times(case):
-        changed = case / name / "polyMesh"
+        changed = case / name / region / "polyMesh"
         if time is not None and float(name) <= float(time) and _existing(changed / "faces") is not None:
             folder = changed
     return folder
 
 
-def _field_path(case: Path, time: str, field: str) -> Path:
-    path = _existing(case / time / field)
+def _field_path(
+    folder: Path, field: str, wanted: str = "volVectorField", meaning: str = "a velocity"
+) -> Path:
+    path = _existing(folder / field)
     if path is None:
-        raise InputError(f"{case / time}: no field {field}; the fields are {_list(_fields(case / time))}.")
+        raise InputError(f"{folder}: no field {field}; the fields are {listed(_fields(folder))}.")
     kind = _header(path).get("class", "(none)")
-    if kind != "volVectorField":
-        raise InputError(f"{path}: the class is {kind}, but a velocity is a volVectorField.")
+    if kind != wanted:
+        raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
     return path
 
 
 def _fields(folder: Path) -> dict[str, str]:
     """Fields of a time directory, name → class."""
     found = {}
-    for path in sorted(folder.iterdir()):
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.is_file():
             kind = _header(path).get("class", "")
             if kind.endswith("Field"):
@@ -450,7 +541,8 @@ def _read_bytes(path: Path, limit: int = -1) -> bytes:
         raise InputError(f"{path}: cannot be read: {error}.") from None
 
 
-def _list(names: Any) -> str:
+def listed(names: Any) -> str:
+    """Names with commas between them, the middle left out where they are many."""
     names = list(names)
     if len(names) > 12:
         names = [*names[:5], "…", *names[-5:]]
