@@ -16,6 +16,7 @@ from foamprb.flow.meshfile import read_mesh_file
 from foamprb.flow.openfoam import available_times, describe, read_case, read_fields, select_time
 
 PIPE = Path(__file__).parents[1] / "cases" / "pipe"
+POLY = "constant/polyMesh/"
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
 
@@ -28,9 +29,9 @@ def rows(values):
     return "\n".join("(" + " ".join(f"{x:.9g}" for x in row) + ")" for row in values)
 
 
-def write_case(folder, kind="hexahedra", note=True):
+def write_case(folder, kind="hexahedra", note=True, perturbation=0.2):
     """A case in OpenFOAM's ascii format, its velocity linear; floor and sides are walls."""
-    shape = block(2, 0.2, kind)
+    shape = block(2, perturbation, kind)
     mesh = build_mesh(shape, box_patches(shape))
     poly = folder / "constant" / "polyMesh"
     poly.mkdir(parents=True)
@@ -133,6 +134,88 @@ def test_description(case):
     assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
 
 
+def test_regions(case):
+    whole = read_fields(case)
+    folders = [case / "constant", *(case / time for time in available_times(case))]
+    for folder in folders:
+        (folder / "air").mkdir()
+        for path in [p for p in folder.iterdir() if p.name != "air"]:
+            path.rename(folder / "air" / path.name)
+    shutil.copytree(case / "constant" / "air", case / "constant" / "iron")
+    mesh, cells, boundary, name = read_fields(case, region="air")
+    assert name == "1e1"
+    assert np.array_equal(mesh.tets, whole[0].tets)
+    assert np.array_equal(cells, whole[1])
+    assert np.array_equal(boundary, whole[2])
+    info = describe(case, "air")
+    assert (info.region, info.regions, info.points) == ("air", ("air", "iron"), 27)
+    assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
+    assert "Region  air" in info.lines()
+    with pytest.raises(
+        InputError, match=r"divided into regions; choose one with -region\. Allowed: air, iron"
+    ):
+        read_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_case(case, region="aire")
+    with pytest.raises(InputError, match=r"iron: no field U; the fields are \(none\)"):
+        read_case(case, region="iron")
+
+
+def test_a_case_of_one_mesh_has_no_regions(case):
+    with pytest.raises(InputError, match="no region air; the case is not divided into regions"):
+        read_case(case, region="air")
+
+
+def test_a_gradient_can_be_given(case, random):
+    gradients = random.random((8, 3, 3))
+    body = "\n".join("(" + " ".join(f"{x:.9g}" for x in g.T.ravel()) + ")" for g in gradients)
+    (case / "1e1" / "grad(U)").write_text(
+        header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+        f"internalField nonuniform List<tensor> 8\n(\n{body}\n);\n"
+        "boundaryField { floor { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "sides { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "lid { type calculated; value uniform (0 0 0 0 0 0 0 0 0); } }\n"
+    )
+    flow = read_case(case, gradient="grad(U)")
+    centres = flow.mesh.centres
+    u, l = flow.sample(centres, flow.locate(centres))
+    assert l == pytest.approx(gradients, abs=1e-6)
+    assert u == pytest.approx(centres @ GRADIENT.T, abs=1e-5)
+    with pytest.raises(InputError, match="U: the class is volVectorField, but the gradient of a velocity is"):
+        read_case(case, gradient="U")
+    with pytest.raises(InputError, match=r"no field grad\(V\)"):
+        read_case(case, gradient="grad(V)")
+
+
+def test_cyclic_patches_of_a_case(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / "1e1" / "U", "floor { type fixedValue", "floor { type cyclic")
+    edit(tmp_path / "1e1" / "U", "lid { type fixedValue", "lid { type cyclic")
+    flow = read_case(tmp_path)
+    assert flow.patches[:2] == (Patch("floor", "cyclic", "lid"), Patch("lid", "cyclic", "floor"))
+    assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
+    assert np.array_equal(flow.mesh.couplings[0].turn, np.eye(3))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "replacement", "message"),
+    [
+        ("neighbourPatch lid", "neighbourPatch lib", r"lib of the cyclic patch floor is not there\. Did you"),
+        ("neighbourPatch lid", "neighbourPatch floor", "floor names floor as its neighbour"),
+        ("type cyclic; neighbourPatch lid", "type wall", "lid names floor .* floor is of type wall"),
+    ],
+)
+def test_cyclic_patches_that_do_not_fit(pattern, replacement, message, tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / POLY / "boundary", pattern, replacement)
+    with pytest.raises(InputError, match=message):
+        read_case(tmp_path)
+
+
 def cut(name, share=0.5):
     def breakage(case):
         path = case / name
@@ -168,7 +251,6 @@ def only_processors(case):
     shutil.rmtree(case / "constant" / "polyMesh")
 
 
-POLY = "constant/polyMesh/"
 BREAKAGES = {
     "no case": (lambda case: shutil.rmtree(case), "no such folder"),
     "no mesh": (remove(POLY[:-1]), "polyMesh: no mesh here; is .* an OpenFOAM case"),
@@ -281,7 +363,7 @@ def test_mesh_files(suffix, where, tmp_path, random):
         patches = {}
         for patch in box_patches(shape):
             places = patch.surface.points if where == "point_data" else patch.surface.cell_centers().points
-            getattr(patch.surface, where)["U"] = places @ GRADIENT.T * (patch.name != "sides")
+            getattr(patch.surface, where)["U"] = places @ GRADIENT.T
             patches[patch.name] = patch.surface
         pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(path)
     elif suffix == ".pvd":
@@ -295,12 +377,9 @@ def test_mesh_files(suffix, where, tmp_path, random):
     else:
         shape.save(path)
     flow = read_mesh_file(path)
-    if suffix == ".vtm":
-        assert flow.patches == (Patch("floor", "patch"), Patch("lid", "patch"), Patch("sides", "wall"))
-        if where == "cell_data":
-            return
-    else:
-        assert flow.patches == (Patch("boundary", "wall"),)
+    names = [patch.name for patch in box_patches(shape)]
+    several = tuple(Patch(name, "patch") for name in names)
+    assert flow.patches == (several if suffix == ".vtm" else (Patch("boundary", "wall"),))
     points = random.random((100, 3))
     u, l = flow.sample(points, flow.locate(points))
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)

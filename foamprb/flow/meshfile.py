@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,8 @@ __all__ = ["VTK_SUFFIXES", "Division", "read_mesh_file"]
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 BOUNDARY = "boundary"
 _MOST_PATCHES = 1000
+_HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
+_DATA = ("CELL_DATA", "POINT_DATA")
 
 
 @dataclass(frozen=True)
@@ -129,10 +132,56 @@ def _read_vtk(path: Path, time: float | str) -> Any:
             raise InputError(f"{path}: VTK cannot read it: {error or type(error).__name__}") from None
     if said.errors:
         raise InputError(f"{path}: VTK says: {said.errors[0]}")
+    if path.suffix == ".vtk":
+        _require_whole(path)
     if path.suffix == ".pvtu":
-        # The pieces have points of their own where they meet.
-        found = found.remove_ghost_cells().clean(tolerance=0.0)
+        # Cells that a piece has for its neighbours' sake come first; then points where the pieces meet.
+        ghosts = found.cell_data.get("vtkGhostType")
+        found = found if ghosts is None else found.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
+        found = found.clean(tolerance=0.0)
     return found
+
+
+def _require_whole(path: Path) -> None:
+    """Refuse a legacy file in text form that ends within its last array, which VTK reads without a word."""
+    data = path.read_bytes()
+    if data.split(b"\n", 3)[2:3] != [b"ASCII"]:
+        return
+    lines = data.decode("latin-1").splitlines()[3:]
+    heads = [k for k, line in enumerate(lines) if _HEAD.match(line)]
+    counts = {words[0]: words[1:] for words in (lines[k].split() for k in heads)}
+    if not heads:
+        return
+    words = lines[heads[-1]].split()
+    in_data = next((w[1] for k in reversed(heads) if (w := lines[k].split())[0] in _DATA and len(w) > 1), "0")
+    try:
+        match words:
+            case ["POINTS", n, *_]:
+                expected = 3 * int(n)
+            case ["CELL_TYPES", n, *_]:
+                expected = int(n)
+            case ["CELLS", _, n, *_]:
+                expected = int(n)
+            case ["OFFSETS" | "CONNECTIVITY", *_]:
+                expected = int(counts["CELLS"][words[0] == "CONNECTIVITY"])
+            case ["VECTORS" | "NORMALS", *_]:
+                expected = 3 * int(in_data)
+            case ["TENSORS", *_]:
+                expected = 9 * int(in_data)
+            case ["SCALARS" | "LOOKUP_TABLE", *_]:
+                scalars = counts.get("SCALARS", [])
+                expected = int(in_data) * (int(scalars[2]) if len(scalars) > 2 else 1)
+            case [_, components, tuples, _]:
+                expected = int(components) * int(tuples)
+            case _:
+                return
+    except (ValueError, LookupError):
+        return
+    found = sum(len(line.split()) for line in lines[heads[-1] + 1 :])
+    if found < expected:
+        raise InputError(
+            f"{path}: {words[0]} has {found} values, not {expected}; the file is broken or cut short."
+        )
 
 
 def _of_series(path: Path, time: float | str) -> Path:
