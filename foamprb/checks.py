@@ -36,8 +36,8 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     """Dimensionless groups of the particles that one injection model releases."""
     p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
     medium = cloud.medium
-    gamma = shear_rate_at(cloud.flow, p)
-    tau = relaxation_time(p.rho, p.R, medium.mu)
+    gamma = shear_rate_at(cloud.flow, p, cloud.time)
+    tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)
     return Groups(
         p.size,
         _range(gamma),

@@ -99,7 +99,13 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         If a patch has no interaction or particles would start outside the flow.
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
-    medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
+    medium = Medium(
+        settings.fluid.mu,
+        settings.fluid.rho,
+        settings.gravity,
+        float(settings.pressure_gradient),
+        settings.virtual_mass,
+    )
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -108,7 +114,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
-        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu))
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, 0.0))
     models = Models(
         settings.traction,
         settings.drag,
@@ -126,12 +132,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     return Job(settings, cloud)
 
 
-def _shape_stokes_number(p: Particles, flow: Flow, mu: float) -> float:
-    """The largest γ̇ τ_s of the particles where they start."""
+def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
+    """The largest γ̇ τ_s of the particles where they start, at ``time`` (s)."""
     if p.size == 0:
         return 0.0
-    rate = shear_rate_at(flow, p)
-    return float((rate * relaxation_time(p.rho, p.R, mu)).max())
+    rate = shear_rate_at(flow, p, time)
+    return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
@@ -143,11 +149,12 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
     p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
-    p.k[:] = solid.parameter
+    p.k[:], p.eta[:], p.gamma[:] = solid.parameter, solid.viscosity, solid.surface_tension
+    injection.shape.form(p, random)
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
-        rate = shear_rate_at(flow, p)
+        rate = shear_rate_at(flow, p, injection.model.SOI)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
 
@@ -156,12 +163,15 @@ def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
     log.info("Selecting tractionModel %s", settings.traction)
-    log.info("Selecting ellipsoidDrag %s", settings.drag)
+    log.info("Selecting particleForces ellipsoidDrag %s%s%s%s", settings.drag,
+             ", gravity" if any(settings.gravity) else "",
+             ", pressureGradient" if settings.pressure_gradient else "",
+             f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
     if settings.solution.shape == "auto":
-        number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu)
+        number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
     log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)

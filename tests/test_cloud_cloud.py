@@ -165,7 +165,9 @@ class TestBookkeeping:
         block, clearance = np.empty(ROWS * LANES), np.empty(LANES)
         with np.errstate(all="ignore"):
             flow = plain.flow.arrays(0.0, ())
-            track_block(flow, table, AIR, plain.particles, np.arange(2), 0, 5, plain.dt, block, clearance)
+            track_block(
+                flow, table, AIR, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, block, clearance
+            )
         for name in ("x", "v", "F"):
             a, b = getattr(compiled.particles, name), getattr(plain.particles, name)
             np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-14)

@@ -15,12 +15,14 @@ from foamprb.flow.walk import MeshFlow, gap
 AIR = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0))
 F0 = np.array([[1.1, 0.2, 0.1], [0.0, 0.9, 0.3], [0.05, 0.0, 1.0]])
 F0 /= np.cbrt(np.linalg.det(F0))
+REST = np.diag([1.25, 0.8, 1.0]) @ np.array([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]])
 
 
 def moving(x, v, rho=1000.0):
     p = spheres(x, d=2e-3, rho=rho, mu=1e-3)
     p.v[:] = v
     p.F[:] = F0.ravel()
+    p.F0[:] = REST.ravel()
     return p
 
 

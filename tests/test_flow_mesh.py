@@ -157,7 +157,7 @@ def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
     faces[:outer, 1] = np.maximum(0.5 - mesh.boundary_centres[:outer, 0], 0.0)
     flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, faces))
     x = np.column_stack([random.choice([0.45, 0.55], 100), 0.25 * random.random(100), random.random(100)])
-    u, l = flow.sample(x, flow.locate(x))
+    u, l = flow.sample(x, flow.locate(x), 0.0)
     assert u[:, 1] == pytest.approx(np.where(x[:, 0] < 0.5, 0.05, 0.0), abs=1e-12)
     assert l[:, 1, 0] == pytest.approx(np.where(x[:, 0] < 0.5, -1.0, 0.0), abs=1e-11)
 

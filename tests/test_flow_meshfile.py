@@ -46,10 +46,10 @@ def test_a_series_of_foam_to_vtk(tmp_path):
     )  # fmt: skip
     x = np.array([[0.4, 0.5, 0.6]])
     flow = read_mesh_file(tmp_path / "case_1.vtm")
-    first, _ = flow.sample(x, flow.locate(x))
+    first, _ = flow.sample(x, flow.locate(x), 0.0)
     for time, factor in (("latestTime", 2.0), (0.5, 1.0), ("10", 2.0)):
         flow = read_mesh_file(path, time=time)
-        u, _ = flow.sample(x, flow.locate(x))
+        u, _ = flow.sample(x, flow.locate(x), 0.0)
         # The sides are at rest, which the middle feels.
         assert u == pytest.approx(factor * first, rel=1e-6)
     with pytest.raises(InputError, match=r"no time 3; the times are 0\.5, 10"):
@@ -127,7 +127,7 @@ def test_a_given_gradient_is_taken(tmp_path, random):
     shape.save(tmp_path / "flow.vtu")
     flow = read_mesh_file(tmp_path / "flow.vtu", gradient="grad(U)")
     centres = flow.mesh.centres
-    assert flow.sample(centres, flow.locate(centres))[1] == pytest.approx(gradients, abs=1e-12)
+    assert flow.sample(centres, flow.locate(centres), 0.0)[1] == pytest.approx(gradients, abs=1e-12)
     with pytest.raises(InputError, match=r"no cell array grad\(V\)"):
         read_mesh_file(tmp_path / "flow.vtu", gradient="grad(V)")
     with pytest.raises(InputError, match="a gradient has 9 components"):
@@ -142,7 +142,7 @@ def test_kinds_of_cells_in_vtk_files(suffix, kind, tmp_path, random):
     flowing(kind).save(tmp_path / f"flow{suffix}")
     flow = read_mesh_file(tmp_path / f"flow{suffix}")
     x = random.random((100, 3))
-    u, l = flow.sample(x, flow.locate(x))
+    u, l = flow.sample(x, flow.locate(x), 0.0)
     assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
 

@@ -103,7 +103,7 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
 def test_the_flow_of_a_case(case, random):
     flow = read_case(case, 0.5)
     points = random.random((200, 3))
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=2e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=2e-4)
     assert "single precision" in flow.notes[0]
@@ -178,7 +178,7 @@ def test_a_gradient_can_be_given(case, random):
     )
     flow = read_case(case, gradient="grad(U)")
     centres = flow.mesh.centres
-    u, l = flow.sample(centres, flow.locate(centres))
+    u, l = flow.sample(centres, flow.locate(centres), 0.0)
     assert l == pytest.approx(gradients, abs=1e-6)
     assert u == pytest.approx(centres @ GRADIENT.T, abs=1e-5)
     with pytest.raises(InputError, match="U: the class is volVectorField, but the gradient of a velocity is"):
@@ -345,7 +345,7 @@ def test_the_pipe(random):
     hosts = flow.locate(points)
     inside = hosts >= 0
     assert np.count_nonzero(~inside) < 100
-    u, l = flow.sample(points[inside], hosts[inside])
+    u, l = flow.sample(points[inside], hosts[inside], 0.0)
     off = np.abs(u[:, 0] - 2.0 * mean * (1.0 - (r[inside] / radius) ** 2))
     assert np.sqrt(np.mean(off**2)) < 0.005 * mean
     shear = np.hypot(l[:, 0, 1], l[:, 0, 2]) - 4.0 * mean * r[inside] / radius**2
@@ -381,7 +381,7 @@ def test_mesh_files(suffix, where, tmp_path, random):
     several = tuple(Patch(name, "patch") for name in names)
     assert flow.patches == (several if suffix == ".vtm" else (Patch("boundary", "wall"),))
     points = random.random((100, 3))
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
 

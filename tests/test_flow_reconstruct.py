@@ -151,7 +151,7 @@ def test_a_wedge_of_one_layer_has_the_gradient_of_the_whole(random):
     assert l[axis, 0, 1] == pytest.approx(-l[axis, 1, 0], abs=1e-14)
     flow = MeshFlow(mesh, u, l)
     points = np.column_stack([random.uniform(0.02, 0.98, 500), np.zeros(500), random.uniform(0.0, 1.0, 500)])
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(swirl_free(points)[0], abs=h**2)
     assert l == pytest.approx(swirl_free(points)[1], abs=h)
 
@@ -236,7 +236,7 @@ def pipe_errors():
         flow = MeshFlow(mesh, *Reconstruction(mesh)(poiseuille(mesh.centres)[0], boundary))
         hosts = flow.locate(points)
         inside, core = hosts >= 0, r < 0.9
-        u, l = flow.sample(points[inside], hosts[inside])
+        u, l = flow.sample(points[inside], hosts[inside], 0.0)
         exact_u, exact_l = poiseuille(points[inside])
         off_u = np.linalg.norm(u - exact_u, axis=1)
         off_l = np.linalg.norm(l - exact_l, axis=(1, 2)) / 4.0

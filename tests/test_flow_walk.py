@@ -94,7 +94,7 @@ def test_tree_holds_every_box_once(n, random):
 def test_linear_flow_is_sampled_exactly(kind, random):
     flow = flow_on(kind)
     points = random.random((2000, 3))
-    u, l = flow.sample(points, flow.locate(points))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-13)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-12)
 

@@ -50,7 +50,7 @@ class Pipe(NamedTuple):
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
     """Nodal u and ∇u of foamprb."""
     flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, boundary))
-    return lambda x: flow.sample(x, flow.locate(x))
+    return lambda x: flow.sample(x, flow.locate(x), 0.0)
 
 
 def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
@@ -70,7 +70,7 @@ def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
         tets = mesh.tets[hosts]
         edges = nodes[tets[:, 1:]] - nodes[tets[:, :1]]
         differences = values[tets[:, 1:]] - values[tets[:, :1]]
-        return flow.sample(x, hosts)[0], np.linalg.solve(edges, differences).transpose(0, 2, 1)
+        return flow.sample(x, hosts, 0.0)[0], np.linalg.solve(edges, differences).transpose(0, 2, 1)
 
     return sample
 

@@ -46,7 +46,7 @@ def run(pipe: Pipe, integrator: str, steps: int) -> np.ndarray:
     mu = pipe.mu * pipe.wall_rate / pipe.capillary
     particles = foamprb.spheres([[0.0, -1.65e-3, 0.0]], d=D, rho=pipe.rho_s, mu=mu, poissons_ratio=0.4999)
     # Released with the flow: a start from rest decays within the drag's relaxation time, all the same.
-    particles.v[:] = flow.sample(particles.x, np.zeros(1, dtype=np.int32))[0]
+    particles.v[:] = flow.sample(particles.x, np.zeros(1, dtype=np.int32), 0.0)[0]
     walls = (foamprb.Stick(), foamprb.Escape(), foamprb.Escape())
     models = foamprb.Models(integrator=integrator, tolerance=np.inf)
     cloud = foamprb.Cloud(particles, flow, medium, walls, pipe.time / steps, models)

@@ -61,7 +61,7 @@ def axis(job: Job, points: int = 2000) -> Axis:
     x = np.linspace(start, outlet - 1e-3 * (outlet - start), points)
     places = np.zeros((points, 3))
     places[:, 0] = x
-    u, gradient = flow.sample(places, flow.locate(places))
+    u, gradient = flow.sample(places, flow.locate(places), 0.0)
     return Axis(x, u[:, 0], gradient[:, 0, 0])
 
 

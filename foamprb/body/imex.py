@@ -5,11 +5,12 @@ The traction's stress σ̃* is taken at the old shape; the new deformation gradi
     R(F) = F − Fⁿ − Δt Aⁿ − κ [J σ̃* F⁻ᵀ − P(F)] = 0,   κ = Δt² vol₀/Θ = 5 Δt²/(ρ_s R²)
 
 by Newton's method, in the particle frame of the old shape: G = Q·F, where G Gᵀ and σ̃* are nearly diagonal.
-With H = X G and P = φ F + ψ F⁻ᵀ, Newton's equation times Gᵀ is
+With H = X G and P = φ F M + ψ F⁻ᵀ, Newton's equation times Gᵀ is
 
-    a X b + κ S Xᵀ − κ tr(X) D = r,   r = a b − G* Gᵀ − κ S,
+    X B + κ S Xᵀ − κ tr(X) D = r,   r = B − G* Gᵀ − κ S,
 
-where b = G Gᵀ, G* = Q·(Fⁿ + Δt Aⁿ), a = 1 + κφ, S = Jσ̃* − ψ I and D = Jσ̃* − (J dψ/dJ) I: this is (50).
+where B = G Gᵀ + κφ b_e with the elastic b_e = G M Gᵀ, G* = Q·(Fⁿ + Δt Aⁿ), S = Jσ̃* − ψ I and
+D = Jσ̃* − (J dψ/dJ) I: this is (50), in which M = I and b_e = G Gᵀ.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.body.material import finger_of_sphere as finger
 from foamprb.body.material import neo_hooke_derivatives as derivatives
 from foamprb.body.material import neo_hooke_dilation as dilation
 from foamprb.body.tensor import (
@@ -56,11 +58,10 @@ def automatic(stokes_number: float) -> str:
 
 
 class Newton(NamedTuple):
-    """Newton's equation of one iterate: a X b + κ S Xᵀ − κ tr(X) D = r."""
+    """Newton's equation of one iterate: X B + κ S Xᵀ − κ tr(X) D = r."""
 
-    a: Scalar
     kappa: Scalar
-    b: Tensor
+    B: Tensor
     S: Tensor
     D: Tensor
     r: Tensor
@@ -71,16 +72,21 @@ def inertia_factor(dt: Scalar, rho: Scalar, R: Scalar) -> Scalar:
     return 5.0 * dt * dt / (rho * R * R)
 
 
-def relaxation_time(rho: Scalar, R: Scalar, mu_f: Scalar) -> Scalar:
-    """Inertial relaxation time of a sphere's shape, τ_s = ρ_s R²/(15 μ_f), s."""
-    return rho * R * R / (15.0 * mu_f)
+def relaxation_time(rho: Scalar, R: Scalar, mu_f: Scalar, eta: Scalar = 0.0) -> Scalar:
+    """Inertial relaxation time of a sphere's shape, τ_s = ρ_s R²/(5 (3 μ_f + 2 η_s)), s.
+
+    ``eta`` is the viscosity of the solid, Pa s.
+    """
+    return rho * R * R / (15.0 * mu_f + 10.0 * eta)
 
 
 STABLE_STEPS = 1.5
 """The step is stable for Δt below about this many τ_s for a sphere, less for an elongated body."""
 
 
-def equation(G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar) -> Newton:
+def equation(
+    G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
+) -> Newton:
     """Newton's equation (49), (50) at the iterate G.
 
     Parameters
@@ -93,6 +99,8 @@ def equation(G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Sc
         :func:`inertia_factor`, 1/Pa.
     mu, lame
         Lamé parameters of the solid, Pa.
+    M
+        Shape at rest, as :func:`foamprb.body.material.finger` takes it.
     """
     J = det(G)
     b = dot(G, transpose(G))
@@ -102,39 +110,39 @@ def equation(G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Sc
     traction = scale(J, stress)
     S = add_identity(traction, -psi)
     D = add_identity(traction, -bulk)
-    a = 1.0 + kappa * phi
-    r = add(add(scale(a, b), scale(-kappa, S)), scale(-1.0, dot(predictor, transpose(G))))
-    return Newton(a, kappa, b, S, D, r)
+    B = add(b, scale(kappa * phi, finger(G, M)))
+    r = add(add(B, scale(-kappa, S)), scale(-1.0, dot(predictor, transpose(G))))
+    return Newton(kappa, B, S, D, r)
 
 
 def tangent(n: Newton, X: Tensor) -> Tensor:
-    """The left side a X b + κ S Xᵀ − κ tr(X) D for the increment H = X G (50)."""
-    T = add(scale(n.a, dot(X, n.b)), scale(n.kappa, dot(n.S, transpose(X))))
+    """The left side X B + κ S Xᵀ − κ tr(X) D for the increment H = X G (50)."""
+    T = add(dot(X, n.B), scale(n.kappa, dot(n.S, transpose(X))))
     return add(T, scale(-n.kappa * trace(X), n.D))
 
 
 def _pair(
-    a: Scalar, kappa: Scalar, bi: Scalar, bj: Scalar, Si: Scalar, Sj: Scalar, rij: Scalar, rji: Scalar
+    kappa: Scalar, Bi: Scalar, Bj: Scalar, Si: Scalar, Sj: Scalar, rij: Scalar, rji: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """X_ij and X_ji from a b_j X_ij + κ S_i X_ji = r_ij and a b_i X_ji + κ S_j X_ij = r_ji."""
-    p, q, s, t = a * bj, kappa * Si, kappa * Sj, a * bi
-    d = 1.0 / (p * t - q * s)
-    return d * (t * rij - q * rji), d * (p * rji - s * rij)
+    """X_ij and X_ji from B_j X_ij + κ S_i X_ji = r_ij and B_i X_ji + κ S_j X_ij = r_ji."""
+    q, s = kappa * Si, kappa * Sj
+    d = 1.0 / (Bj * Bi - q * s)
+    return d * (Bi * rij - q * rji), d * (Bj * rji - s * rij)
 
 
 def solve_diagonal(n: Newton, r: Tensor) -> Tensor:
-    """X for the right side r with the off-diagonal components of b, S and D left out, in closed form."""
-    b1, b2, b3 = n.b[0], n.b[4], n.b[8]
+    """X for the right side r with the off-diagonal components of B, S and D left out, in closed form."""
+    B1, B2, B3 = n.B[0], n.B[4], n.B[8]
     S1, S2, S3 = n.S[0], n.S[4], n.S[8]
-    e1 = 1.0 / (n.a * b1 + n.kappa * S1)
-    e2 = 1.0 / (n.a * b2 + n.kappa * S2)
-    e3 = 1.0 / (n.a * b3 + n.kappa * S3)
+    e1 = 1.0 / (B1 + n.kappa * S1)
+    e2 = 1.0 / (B2 + n.kappa * S2)
+    e3 = 1.0 / (B3 + n.kappa * S3)
     D1, D2, D3 = n.kappa * n.D[0] * e1, n.kappa * n.D[4] * e2, n.kappa * n.D[8] * e3
     x1, x2, x3 = r[0] * e1, r[4] * e2, r[8] * e3
     tr = (x1 + x2 + x3) / (1.0 - D1 - D2 - D3)
-    X12, X21 = _pair(n.a, n.kappa, b1, b2, S1, S2, r[1], r[3])
-    X13, X31 = _pair(n.a, n.kappa, b1, b3, S1, S3, r[2], r[6])
-    X23, X32 = _pair(n.a, n.kappa, b2, b3, S2, S3, r[5], r[7])
+    X12, X21 = _pair(n.kappa, B1, B2, S1, S2, r[1], r[3])
+    X13, X31 = _pair(n.kappa, B1, B3, S1, S3, r[2], r[6])
+    X23, X32 = _pair(n.kappa, B2, B3, S2, S3, r[5], r[7])
     return (x1 + D1 * tr, X12, X13, X21, x2 + D2 * tr, X23, X31, X32, x3 + D3 * tr)
 
 
@@ -145,7 +153,7 @@ def solve(n: Newton) -> Tensor:
 
 
 def improve(
-    G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar
+    G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
 ) -> tuple[Tensor, Scalar]:
     """One iteration from G: the next iterate, and the size |X| of the relative correction.
 
@@ -153,12 +161,12 @@ def improve(
     ----------
     As :func:`equation`.
     """
-    X = solve(equation(G, predictor, stress, kappa, mu, lame))
+    X = solve(equation(G, predictor, stress, kappa, mu, lame, M))
     return add(G, scale(-1.0, dot(X, G))), np.sqrt(ddot(X, X))
 
 
 def advance(
-    predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar
+    predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
 ) -> tuple[Tensor, Scalar]:
     """New deformation gradient in the old particle frame, and the estimated error of the iteration.
 
@@ -175,8 +183,8 @@ def advance(
         G = Q·Fⁿ⁺¹ and the estimate of |δG G⁻¹|; a non-finite error is one above any tolerance.
     """
     # Three iterations, written out: a loop here would keep the compiler from vectorising the one over lanes.
-    G, _ = improve(predictor, predictor, stress, kappa, mu, lame)
-    G, before = improve(G, predictor, stress, kappa, mu, lame)
-    G, last = improve(G, predictor, stress, kappa, mu, lame)
+    G, _ = improve(predictor, predictor, stress, kappa, mu, lame, M)
+    G, before = improve(G, predictor, stress, kappa, mu, lame, M)
+    G, last = improve(G, predictor, stress, kappa, mu, lame, M)
     contraction = last / (before + _TINY)
     return G, last * select(contraction < 1.0, contraction, 1.0)

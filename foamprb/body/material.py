@@ -1,19 +1,38 @@
-"""Elastic solids, each a stored energy of the invariants I₁, I₂ of b = F Fᵀ and J = det F.
+"""Solids, each a stored energy of the invariants I₁, I₂ of the elastic b and J = det F; and what they share.
 
 A solid has a shear modulus μ, Lamé's λ and, if it needs one, a third parameter k. The Kirchhoff stress
 follows from the energy's derivatives, τ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I; it and its tangent are formed
-elsewhere, so that a new solid is its energy, its derivatives and a line in :data:`MATERIALS`.
+elsewhere, so that a new solid is its energy, its derivatives and a line in :data:`MATERIALS`;
+:func:`add_material` adds one from outside, for which the energy is enough.
+
+A body at rest is an ellipsoid that a symmetric F₀, det F₀ = 1, makes of the sphere of the same volume. The
+deformation gradient F refers to that sphere throughout; only the elastic stress knows of F₀, through
+b_e = F M Fᵀ with M = F₀⁻² (:func:`finger`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from math import inf, isinf
+from types import FunctionType
 from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, add, cofactor, det, dot, log_ratio, scale, transpose
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    add,
+    cofactor,
+    det,
+    dev,
+    dot,
+    inverse,
+    log_ratio,
+    scale,
+    sym,
+    transpose,
+)
 
 Derivatives = Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], tuple[Scalar, Scalar, Scalar]]
 
@@ -120,6 +139,128 @@ MATERIALS: dict[str, Material] = {
     "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
 }
 """The solids by the names under which the settings select them."""
+
+
+_STEP = 1e-30
+
+
+def _complex_step(
+    I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar
+) -> tuple[Scalar, Scalar, Scalar]:
+    """Derivatives of ``energy``, exact to round-off: Im w(x + ih)/h (Squire & Trapp 1998)."""
+    ih = _STEP * 1j
+    return (
+        energy(I1 + ih, I2, J, mu, lame, k).imag / _STEP,
+        energy(I1, I2 + ih, J, mu, lame, k).imag / _STEP,
+        energy(I1, I2, J + ih, mu, lame, k).imag / _STEP,
+    )
+
+
+energy = neo_hooke_energy
+
+
+def add_material(
+    name: str,
+    energy: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], Scalar],
+    derivatives: Derivatives | None = None,
+    *,
+    parameter: Parameter | None = None,
+    dilation: Callable[[Scalar, Scalar, Scalar], Scalar] | None = None,
+    isochoric: bool = True,
+) -> Material:
+    """Add a solid to :data:`MATERIALS`, under the name by which settings and :class:`Models` select it.
+
+    Parameters
+    ----------
+    name
+        A word.
+    energy, derivatives, parameter, dilation, isochoric
+        See :class:`Material`. The functions are plain ones of module level, made of arithmetic, numpy
+        functions and :func:`foamprb.body.tensor.log_ratio`, so that they can be compiled. Without
+        ``derivatives`` those of the energy are taken by complex steps, for which it must be analytic (no
+        ``abs``, ``max``, ``where``).
+
+    Raises
+    ------
+    ValueError
+        If the name is taken, a function is not plain, the derivatives are not those of the energy, the solid
+        is not free of stress at rest, or ``mu`` is not its shear modulus there.
+    """
+    if name in MATERIALS:
+        raise ValueError(f"the solid {name} exists already")
+    for function in (energy, derivatives, dilation):
+        if function is not None and (not isinstance(function, FunctionType) or function.__closure__):
+            raise ValueError(f"solid {name}: {function!r} is not a plain function of module level")
+    if derivatives is None:
+        scope = {**globals(), "energy": energy}
+        derivatives = FunctionType(_complex_step.__code__, scope, _complex_step.__name__)
+    material = Material(energy, derivatives, parameter, dilation, isochoric)
+    _check_material(name, material)
+    MATERIALS[name] = material
+    return material
+
+
+def _check_material(name: str, material: Material) -> None:
+    mu, lame, k = 1.0, 3.0, 0.0
+    if material.parameter is not None:
+        lower, upper = material.parameter.lower, material.parameter.upper
+        # A range without an end is probed far from its start, where a limit of stretch, say, is no obstacle.
+        k = lower + 100.0 if isinf(upper) else 0.5 * (lower + upper)
+    w1, w2, wJ = material.derivatives(3.0, 3.0, 1.0, mu, lame, k)
+    stress = 2.0 * w1 + 4.0 * w2 + wJ
+    if not abs(stress) < 1e-9:
+        raise ValueError(f"solid {name}: at rest its stress is {stress:.3g} mu, not 0")
+    if not abs(2.0 * (w1 + w2) - mu) < 1e-9:
+        raise ValueError(f"solid {name}: its shear modulus at rest is {2.0 * (w1 + w2):.9g} mu, not mu")
+    h = 1e-5
+    for at in ((3.0, 3.0, 1.0), (3.3, 3.2, 1.02), (4.0, 4.5, 0.97)):
+        found = material.derivatives(*at, mu, lame, k)
+        for i in range(3):
+            ends = [[x + s * h * (j == i) for j, x in enumerate(at)] for s in (1, -1)]
+            up, down = (material.energy(I1, I2, J, mu, lame, k) for I1, I2, J in ends)
+            slope = (up - down) / (2.0 * h)
+            if not abs(found[i] - slope) < 1e-6 * (1.0 + abs(slope)):
+                raise ValueError(
+                    f"solid {name}: at (I1, I2, J) = {at} derivative {i + 1} of its energy is {slope:.9g}, "
+                    f"not {found[i]:.9g}"
+                )
+
+
+def finger_of_sphere(F: Tensor, _M: Tensor) -> Tensor:
+    """b_e = F Fᵀ of a body that is a sphere at rest: :func:`finger` for M = I."""
+    return dot(F, transpose(F))
+
+
+def finger(F: Tensor, M: Tensor) -> Tensor:
+    """Elastic left Cauchy–Green (Finger) tensor b_e = F M Fᵀ, in any frame to which F carries.
+
+    Parameters
+    ----------
+    F
+        Deformation gradient from the sphere of the same volume.
+    M
+        (F₀ F₀)⁻¹ of the symmetric F₀ that makes the shape at rest of that sphere.
+    """
+    return dot(dot(F, M), transpose(F))
+
+
+def metric_at_rest(F0: Tensor) -> Tensor:
+    """M = F₀⁻¹ F₀⁻ᵀ of :func:`finger`."""
+    inverted = inverse(F0)
+    return dot(inverted, transpose(inverted))
+
+
+def viscous_stress(l_s: Tensor, eta: Scalar) -> Tensor:
+    """Cauchy stress 2 η_s dev d_s of the viscous part of a Kelvin–Voigt solid, Pa, in any frame.
+
+    Parameters
+    ----------
+    l_s
+        Velocity gradient of the body, 1/s.
+    eta
+        Viscosity of the solid, Pa s; Roscoe's (1967) η₁.
+    """
+    return scale(2.0 * eta, dev(sym(l_s)))
 
 
 def invariants(b: Tensor) -> tuple[Scalar, Scalar]:

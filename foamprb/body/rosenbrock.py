@@ -31,14 +31,14 @@ _DIFFERENCE = 1e-6
 
 
 class Elasticity(NamedTuple):
-    """Kirchhoff stress of an isotropic solid and its derivative where the stretch is diagonal."""
+    """Derivative of an isotropic solid's Kirchhoff stress where its elastic stretch is diagonal."""
 
-    tau: Vector
-    """Principal stresses, Pa."""
+    squares: Vector
+    """e_a², the squared elastic stretches."""
     slopes: Tensor
-    """∂τ_a/∂ln λ_c, Pa."""
+    """∂τ_a/∂ln e_c, Pa."""
     shear: Vector
-    """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij λ_j² + X_ji λ_i²)."""
+    """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij e_j² + X_ji e_i²)."""
 
 
 def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
@@ -47,7 +47,7 @@ def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tens
     Parameters
     ----------
     b, J
-        F Fᵀ and det F.
+        Elastic b_e (:func:`foamprb.body.material.finger`) and det F.
     mu, lame, k
         Lamé parameters of the solid, Pa, and its third parameter.
     """
@@ -78,18 +78,21 @@ def _principal_kirchhoff(e: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scal
     )
 
 
-def elasticity(stretches: Vector, mu: Scalar, lame: Scalar, k: Scalar) -> Elasticity:
-    """Principal stresses and their derivatives, the latter by one-sided differences.
+def elasticity(
+    squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
+) -> Elasticity:
+    """Derivatives of the stress, by one-sided differences; that of surface tension as for a sphere.
 
     Parameters
     ----------
-    stretches
-        λ_a.
+    squares, J
+        e_a², the diagonal of b_e in the particle frame, and det F.
     mu, lame, k
         Lamé parameters of the solid, Pa, and its third parameter.
+    tension
+        γ/R, Pa. What it adds is 4/5 γ/R to the shear modulus: where it is stiff the body is nearly a sphere.
     """
-    x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
-    J = stretches[0] * stretches[1] * stretches[2]
+    x, y, z = squares
     tau = _principal_kirchhoff((x, y, z), J, mu, lame, k)
     h = _DIFFERENCE
     g = 1.0 + 2.0 * h + 2.0 * h * h
@@ -97,26 +100,28 @@ def elasticity(stretches: Vector, mu: Scalar, lame: Scalar, k: Scalar) -> Elasti
     tx = _principal_kirchhoff((x * g, y, z), Jh, mu, lame, k)
     ty = _principal_kirchhoff((x, y * g, z), Jh, mu, lame, k)
     tz = _principal_kirchhoff((x, y, z * g), Jh, mu, lame, k)
+    normal, cross = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
     slopes = (
-        (tx[0] - tau[0]) / h, (ty[0] - tau[0]) / h, (tz[0] - tau[0]) / h,
-        (tx[1] - tau[1]) / h, (ty[1] - tau[1]) / h, (tz[1] - tau[1]) / h,
-        (tx[2] - tau[2]) / h, (ty[2] - tau[2]) / h, (tz[2] - tau[2]) / h,
+        (tx[0] - tau[0]) / h + normal, (ty[0] - tau[0]) / h + cross, (tz[0] - tau[0]) / h + cross,
+        (tx[1] - tau[1]) / h + cross, (ty[1] - tau[1]) / h + normal, (tz[1] - tau[1]) / h + cross,
+        (tx[2] - tau[2]) / h + cross, (ty[2] - tau[2]) / h + cross, (tz[2] - tau[2]) / h + normal,
     )  # fmt: skip
     I1, I2 = _principal_invariants((x, y, z))
     w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
-    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
-    return Elasticity(tau, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
+    p, q = 2.0 * (w1 + I1 * w2) + 0.8 * tension, 2.0 * w2
+    return Elasticity(squares, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
 
 
-def traction_slopes(semi_axes: Vector, g: Integrals) -> Tensor:
-    """Change of the normal tractions σ̃_aa/μ_f with the body's own stretching d_s,cc (26).
+def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
+    """Change of the normal stresses (σ̃ − σ_v)_aa/μ_f with the body's own stretching d_s,cc (26).
 
-    Columns are the responses to unit d_s,cc, its dilation with −4/3 included.
+    Columns are the responses to unit d_s,cc, its dilation with −4/3 included; σ_v is the viscous stress of a
+    solid whose viscosity is ``eta`` times that of the fluid.
     """
     p, q, r = (
-        _normal_traction(semi_axes, g, (2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0)),
-        _normal_traction(semi_axes, g, (-1.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0)),
-        _normal_traction(semi_axes, g, (-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0)),
+        _normal_traction(semi_axes, g, (2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0), eta),
+        _normal_traction(semi_axes, g, (-1.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0), eta),
+        _normal_traction(semi_axes, g, (-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0), eta),
     )
     sphere = -4.0 / 3.0
     return (
@@ -136,16 +141,17 @@ def disturbance_normal(semi_axes: Vector, g: Integrals, d: Vector) -> tuple[Vect
     return (k * A, k * B, k * C), 4.0 * (g.alpha[0] * A + g.alpha[1] * B + g.alpha[2] * C)
 
 
-def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector) -> Vector:
-    """−p̃ + s̃_aa(−e) + 2 e_aa for a traceless stretching e of the body in a fluid at rest."""
+def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector, eta: Scalar) -> Vector:
+    """−p̃ + s̃_aa(−e) + 2(1 − η) e_aa for a traceless stretching e of the body in a fluid at rest."""
     s, pressure = disturbance_normal(semi_axes, g, (-e[0], -e[1], -e[2]))
-    return s[0] - pressure + 2.0 * e[0], s[1] - pressure + 2.0 * e[1], s[2] - pressure + 2.0 * e[2]
+    k = 2.0 - 2.0 * eta
+    return s[0] - pressure + k * e[0], s[1] - pressure + k * e[1], s[2] - pressure + k * e[2]
 
 
 def shear_coefficients(
-    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, k: Scalar
+    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, k: Scalar, eta: Scalar
 ) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-    """Change of σ̃_ab/μ_f by the body's l_s,ab and l_s,ba, then that of σ̃_ba/μ_f.
+    """Change of (σ̃ − σ_v)_ab/μ_f by the body's l_s,ab and l_s,ba, then that of the component ba.
 
     Parameters
     ----------
@@ -153,12 +159,15 @@ def shear_coefficients(
         Two semi-axes, their α₀, and the third axis' α₀°.
     k
         8/(abc).
+    eta
+        Viscosity of the solid over that of the fluid.
     """
     a2, b2 = a * a, b * b
     f = 0.5 * k / (ring * (a2 * alpha + b2 * beta))
     # d = (Y_ab + Y_ba)/2 and w_ba = (Y_ba − Y_ab)/2 in H and H° (B.8), with d and w of the fluid zero.
-    d1, w1 = 1.0 - 0.5 * f * alpha, 0.5 * f * b2 * ring
-    d2, w2 = 1.0 - 0.5 * f * beta, -0.5 * f * a2 * ring
+    own = 1.0 - eta
+    d1, w1 = own - 0.5 * f * alpha, 0.5 * f * b2 * ring
+    d2, w2 = own - 0.5 * f * beta, -0.5 * f * a2 * ring
     return d1 - w1, d1 + w1, d2 - w2, d2 + w2
 
 
@@ -180,12 +189,14 @@ class Stiffness(NamedTuple):
     traction_pairs: tuple[Tensor, Tensor]
     """The same of :func:`shear_coefficients`, 23, 13 and 12 in turn, four each; one unused at the end."""
     elastic: Tensor
-    """c ∂τ_a/∂ln λ_c, 1/s²."""
+    """c ∂τ_a/∂ln e_c, 1/s²."""
     elastic_pairs: tuple[Tensor, Tensor]
     """The same of the shear stresses, laid out as ``traction_pairs``."""
 
 
-def inertial_stiffness(stretches: Vector, g: Integrals, e: Elasticity, c: Scalar, mu_f: Scalar) -> Stiffness:
+def inertial_stiffness(
+    stretches: Vector, g: Integrals, e: Elasticity, c: Scalar, mu_f: Scalar, eta: Scalar
+) -> Stiffness:
     """Assemble the Jacobian.
 
     Parameters
@@ -196,13 +207,14 @@ def inertial_stiffness(stretches: Vector, g: Integrals, e: Elasticity, c: Scalar
         :func:`elasticity` there.
     c
         5/(ρ_s R²), m/kg.
-    mu_f
-        Viscosity of the fluid, Pa s.
+    mu_f, eta
+        Viscosities of the fluid and of the solid, Pa s.
     """
     x, y, z = stretches
     b = (x * x, y * y, z * z)
     J = x * y * z
-    t = traction_slopes(stretches, g)
+    ratio = eta / mu_f
+    t = traction_slopes(stretches, g, ratio)
     f = c * J * mu_f
     traction = (f * t[0], f * t[1], f * t[2], f * t[3], f * t[4], f * t[5], f * t[6], f * t[7], f * t[8])
     s = e.slopes
@@ -212,19 +224,19 @@ def inertial_stiffness(stretches: Vector, g: Integrals, e: Elasticity, c: Scalar
         c * s[6], c * s[7], c * s[8],
     )  # fmt: skip
     k = 8.0 / J
-    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k)
-    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k)
-    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k)
+    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k, ratio)
+    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k, ratio)
+    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k, ratio)
     zero = 0.0 * f
     first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], zero)
     second = (f * r[0], f * r[1], f * r[2], f * r[3], zero, zero, zero, zero, zero)
-    s23, s13, s12 = e.shear
+    (s23, s13, s12), (e1, e2, e3) = e.shear, e.squares
     stiff_first = (
-        c * s23 * b[2], c * s23 * b[1], c * s23 * b[2], c * s23 * b[1],
-        c * s13 * b[2], c * s13 * b[0], c * s13 * b[2], c * s13 * b[0], zero,
+        c * s23 * e3, c * s23 * e2, c * s23 * e3, c * s23 * e2,
+        c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1, zero,
     )  # fmt: skip
     stiff_second = (
-        c * s12 * b[1], c * s12 * b[0], c * s12 * b[1], c * s12 * b[0],
+        c * s12 * e2, c * s12 * e1, c * s12 * e2, c * s12 * e1,
         zero, zero, zero, zero, zero,
     )  # fmt: skip
     return Stiffness(b, traction, (first, second), elastic, (stiff_first, stiff_second))

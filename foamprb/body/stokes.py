@@ -1,8 +1,8 @@
 """The shape without inertia: the body deforms as the balance of traction and elastic stress demands.
 
-σ̃(l_s; l_f) = σ(F) is linear in the body's velocity gradient l_s. In the particle frame the components ij and
-ji decouple from the rest, and the diagonal ones form a 3×3 system with the pressure that keeps the volume
-exactly. All tensors are components in that frame.
+σ̃(l_s; l_f) − 2 η_s d_s = σ(F) is linear in the body's velocity gradient l_s. In the particle frame the
+components ij and ji decouple from the rest, and the diagonal ones form a 3×3 system with the pressure that
+keeps the volume exactly. All tensors are components in that frame.
 """
 
 from __future__ import annotations
@@ -20,18 +20,22 @@ class Mobility(NamedTuple):
     normal: Tensor
     """d_s,aa for unit changes of (σ_cc − traction of the fluid)/μ_f; traceless for any stress."""
     resistance: Vector
-    """2/(abc α₀°(b² + c²)) − 1 and its cyclic companions, for 23, 13 and 12."""
+    """2/(abc α₀°(b² + c²)) − 1 + η_s/μ_f and its cyclic companions, for 23, 13 and 12."""
     slip: Vector
     """(b² − c²)/(b² + c²), (a² − c²)/(a² + c²), (a² − b²)/(a² + b²)."""
+    own: Scalar
+    """1 − η_s/μ_f."""
 
 
-def mobility(semi_axes: Vector, g: Integrals) -> Mobility:
+def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     """Assemble the response.
 
     Parameters
     ----------
     semi_axes, g
         a, b, c and their integrals, in one unit of length.
+    eta
+        Viscosity of the solid over that of the fluid.
     """
     a, b, c = semi_axes
     one = 0.0 * a + 1.0
@@ -40,10 +44,12 @@ def mobility(semi_axes: Vector, g: Integrals) -> Mobility:
     q, _ = disturbance_normal(semi_axes, g, (zero, -one, zero))
     r, _ = disturbance_normal(semi_axes, g, (zero, zero, -one))
     # The sum of d_s,aa vanishes, so ones may be added everywhere; they keep the matrix regular.
+    own = 1.0 - eta
+    n = 1.0 + 2.0 * own
     T = (
-        p[0] + 3.0, q[0] + 1.0, r[0] + 1.0,
-        p[1] + 1.0, q[1] + 3.0, r[1] + 1.0,
-        p[2] + 1.0, q[2] + 1.0, r[2] + 3.0,
+        p[0] + n, q[0] + 1.0, r[0] + 1.0,
+        p[1] + 1.0, q[1] + n, r[1] + 1.0,
+        p[2] + 1.0, q[2] + 1.0, r[2] + n,
     )  # fmt: skip
     W = inverse(T)
     rows = (W[0] + W[1] + W[2], W[3] + W[4] + W[5], W[6] + W[7] + W[8])
@@ -57,11 +63,11 @@ def mobility(semi_axes: Vector, g: Integrals) -> Mobility:
     x, y, z = a * a, b * b, c * c
     k = 2.0 / (a * b * c)
     resistance = (
-        k / (g.ring[0] * (y + z)) - 1.0,
-        k / (g.ring[1] * (x + z)) - 1.0,
-        k / (g.ring[2] * (x + y)) - 1.0,
+        k / (g.ring[0] * (y + z)) - own,
+        k / (g.ring[1] * (x + z)) - own,
+        k / (g.ring[2] * (x + y)) - own,
     )
-    return Mobility(normal, resistance, ((y - z) / (y + z), (x - z) / (x + z), (x - y) / (x + y)))
+    return Mobility(normal, resistance, ((y - z) / (y + z), (x - z) / (x + z), (x - y) / (x + y)), own)
 
 
 def velocity_gradient(semi_axes: Vector, g: Integrals, m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
@@ -79,41 +85,39 @@ def velocity_gradient(semi_axes: Vector, g: Integrals, m: Mobility, sigma: Tenso
     third = (l_f[0] + l_f[4] + l_f[8]) * (1.0 / 3.0)
     s, _ = disturbance_normal(semi_axes, g, (l_f[0] - third, l_f[4] - third, l_f[8] - third))
     d = dot_vector(m.normal, (sigma[0] - s[0], sigma[4] - s[1], sigma[8] - s[2]))
-    l23, l32 = _off_diagonal(m.resistance[0], m.slip[0], sigma[5], l_f[5], l_f[7])
-    l13, l31 = _off_diagonal(m.resistance[1], m.slip[1], sigma[2], l_f[2], l_f[6])
-    l12, l21 = _off_diagonal(m.resistance[2], m.slip[2], sigma[1], l_f[1], l_f[3])
+    l23, l32 = _off_diagonal(m.resistance[0], m.slip[0], m.own, sigma[5], l_f[5], l_f[7])
+    l13, l31 = _off_diagonal(m.resistance[1], m.slip[1], m.own, sigma[2], l_f[2], l_f[6])
+    l12, l21 = _off_diagonal(m.resistance[2], m.slip[2], m.own, sigma[1], l_f[1], l_f[3])
     return (d[0], l12, l13, l21, d[1], l23, l31, l32, d[2])
 
 
 def _off_diagonal(
-    resistance: Scalar, slip: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
+    resistance: Scalar, slip: Scalar, own: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """l_s,ij and l_s,ji: free of torque, and σ̃_ij = σ_ij."""
+    """l_s,ij and l_s,ji: free of torque, and σ̃_ij − 2 η_s d_s,ij = σ_ij."""
     d_f, w_ji = 0.5 * (lf_ij + lf_ji), 0.5 * (lf_ji - lf_ij)
-    delta = (0.5 * sigma - d_f) / resistance
+    delta = (0.5 * sigma - own * d_f) / resistance
     d_s, ws_ji = d_f - delta, w_ji + slip * delta
     return d_s - ws_ji, d_s + ws_ji
 
 
-def solve_inertialess(
-    m: Mobility, e: Elasticity, stretches: Vector, gh: Scalar, mu_f: Scalar, r: Tensor
-) -> Tensor:
+def solve_inertialess(m: Mobility, e: Elasticity, gh: Scalar, mu_f: Scalar, r: Tensor) -> Tensor:
     """Y in Y − γh (∂l_s/∂τ)(δτ(Y)) = r, δτ the change of elastic stress along H = Y F.
 
     Parameters
     ----------
-    m, e, stretches
-        :func:`mobility`, the solid's elasticity and λ_a at the start of the step.
+    m, e
+        :func:`mobility` and the solid's elasticity at the start of the step.
     gh, mu_f
         γh, s, and the viscosity of the fluid, Pa s.
     r
         Right side, a rate of F times F⁻¹, 1/s.
     """
     h = gh / mu_f
-    # Columns of slopes belong to ln λ_c, which Y_cc changes.
+    # Columns of slopes belong to ln e_c, which Y_cc changes.
     M = add_identity(scale(-h, dot(m.normal, e.slopes)), 1.0)
     d = dot_vector(inverse(M), (r[0], r[4], r[8]))
-    x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
+    x, y, z = e.squares
     Y23, Y32 = _solve_pair(0.5 * h * e.shear[0] / m.resistance[0], m.slip[0], y, z, r[5], r[7])
     Y13, Y31 = _solve_pair(0.5 * h * e.shear[1] / m.resistance[1], m.slip[1], x, z, r[2], r[6])
     Y12, Y21 = _solve_pair(0.5 * h * e.shear[2] / m.resistance[2], m.slip[2], x, y, r[1], r[3])

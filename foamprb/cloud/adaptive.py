@@ -12,9 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.drag import acceleration, slip_acceleration
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.drag import reduced_gravity
 from foamprb.body.ellipsoid import Integrals
+from foamprb.body.interface import no_stress as interface
+from foamprb.body.material import finger_of_sphere as finger
+from foamprb.body.material import viscous_stress
 from foamprb.body.rosenbrock import (
     GAMMA,
     Elasticity,
@@ -44,12 +47,15 @@ from foamprb.body.tensor import (
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
     AT_A,
+    AT_DUDT,
     AT_ERROR,
+    AT_ETA,
     AT_F,
     AT_J,
     AT_K,
     AT_L,
     AT_LAME,
+    AT_M,
     AT_MU,
     AT_NEW_A,
     AT_NEW_F,
@@ -59,6 +65,7 @@ from foamprb.cloud.block import (
     AT_R,
     AT_RHO,
     AT_STRETCH,
+    AT_TENSION,
     AT_U,
     AT_V,
     AT_X,
@@ -74,6 +81,7 @@ from foamprb.cloud.block import (
     save_particle,
     store3,
     store9,
+    store_fluid,
 )
 from foamprb.cloud.block import ROWS as FIRST_ROW
 from foamprb.cloud.motion import (
@@ -96,8 +104,8 @@ from foamprb.flow.analytic import walk_free as walk
 # step, its frame included.
 AT_H = FIRST_ROW
 AT_KX, AT_KV, AT_KF, AT_KA = AT_H + 1, AT_H + 4, AT_H + 7, AT_H + 16
-AT_START_Q, AT_START_STRETCH, AT_RATE = AT_H + 25, AT_H + 34, AT_H + 37
-AT_STIFF = AT_H + 40
+AT_START_Q, AT_RATE = AT_H + 25, AT_H + 34
+AT_STIFF = AT_H + 37
 ADAPTIVE_ROWS = AT_STIFF + 57
 
 _SAFETY, _LEAST, _MOST = 0.9, 0.2, 4.0
@@ -143,9 +151,9 @@ def _drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     return c * k[0], c * k[1], c * k[2]
 
 
-def _drift(Q: Tensor, rate: Vector, a_G: Vector) -> Vector:
-    """Velocity relative to the fluid at which drag balances weight, m/s."""
-    g = dot_vector(Q, a_G)
+def _drift(Q: Tensor, rate: Vector, a: Vector) -> Vector:
+    """Velocity relative to the fluid at which drag balances the acceleration, m/s."""
+    g = dot_vector(Q, a)
     return vector_dot((g[0] / rate[0], g[1] / rate[1], g[2] / rate[2]), Q)
 
 
@@ -193,13 +201,13 @@ def first_inertial(block: Any, medium: Medium) -> None:
         gh = GAMMA * h
         Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
         F, A = load9(block, AT_F, i), load9(block, AT_A, i)
-        mu, lame, k = _solid(block, i)
         c = _inertia(block, i)
         l_s = dot(A, inverse(F))
         L, G = to_frame(Q, l_s), dot(Q, F)
-        b = dot(G, transpose(G))
-        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b)
-        n = inertial_stiffness(stretches, g, elasticity(stretches, mu, lame, k), c, medium.mu)
+        b, b_e = dot(G, transpose(G)), finger(G, load9(block, AT_M, i))
+        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b_e)
+        e = _elasticity(block, i, stretches, b_e, 1.0)
+        n = inertial_stiffness(stretches, g, e, c, medium.mu, block[AT_ETA * LANES + i])
         r = add(W, scale(-1.0, dot(dot(L, L), b)))
         Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, L))))
         kL = from_frame(Q, Y)
@@ -210,9 +218,9 @@ def first_inertial(block: Any, medium: Medium) -> None:
         store9(block, AT_NEW_A, i, add(l_s, scale(h, kL)))
         store9(block, AT_NEW_F, i, dot(exponential(scale(h, kF)), F))
 
-        rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
         v, x = load3(block, AT_V, i), load3(block, AT_X, i)
-        kv = _damped(Q, rate, gh, _acceleration(block, i, medium, Q, rate, v, det(F)))
+        a, rate = _acceleration(block, i, medium, Q, drag(stretches, g), v, det(F))
+        kv = _damped(Q, rate, gh, a)
         kx = (v[0] + gh * kv[0], v[1] + gh * kv[1], v[2] + gh * kv[2])
         store3(block, AT_KV, i, kv)
         store3(block, AT_KX, i, kx)
@@ -235,7 +243,7 @@ def second_inertial(block: Any, medium: Medium) -> None:
         k1F, k1L = load9(block, AT_KF, i), load9(block, AT_KA, i)
         L, G = to_frame(Q, l_p), dot(Q, F_p)
         b = dot(G, transpose(G))
-        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b)
+        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, finger(G, load9(block, AT_M, i)))
         f_L = from_frame(Q, add(dot(W, inverse(b)), scale(-1.0, dot(L, L))))
         r_F = add(l_p, scale(-2.0, k1F))
         r_L = add(f_L, scale(-2.0, k1L))
@@ -246,10 +254,9 @@ def second_inertial(block: Any, medium: Medium) -> None:
         k2F = add(r_F, scale(gh, k2L))
         l_s = _combine(dot(A, inverse(F)), h, k1L, k2L)
 
-        rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
         v, v_p = load3(block, AT_V, i), load3(block, AT_NEW_V, i)
         k1v, k1x = load3(block, AT_KV, i), load3(block, AT_KX, i)
-        f_v = _acceleration(block, i, medium, Q, rate, v_p, det(F_p))
+        f_v, _ = _acceleration(block, i, medium, Q, drag(stretches, g), v_p, det(F_p))
         k2v = _damped(Q0, rate0, gh, (f_v[0] - 2.0 * k1v[0], f_v[1] - 2.0 * k1v[1], f_v[2] - 2.0 * k1v[2]))
         k2x = (
             v_p[0] - 2.0 * k1x[0] + gh * k2v[0],
@@ -276,23 +283,55 @@ def second_inertial(block: Any, medium: Medium) -> None:
 
 
 def _shape_force(
-    block: Any, i: int, mu_f: float, Q: Tensor, stretches: Vector, g: Integrals, L: Tensor, b: Tensor
+    block: Any, i: int, mu_f: float, Q: Tensor, stretches: Vector, g: Integrals, L: Tensor, b_e: Tensor
 ) -> Tensor:
-    """Ȧ Fᵀ = c (Jσ̃ − τ) (33), 1/s², in the particle frame, where l_s is L and F Fᵀ is b."""
+    """Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², in the particle frame, where l_s is L."""
     stress = scale(mu_f, traction(stretches, g, to_frame(Q, load9(block, AT_L, i)), L))
+    stress = add(stress, scale(-1.0, viscous_stress(L, block[AT_ETA * LANES + i])))
     J = stretches[0] * stretches[1] * stretches[2]
-    tau = kirchhoff(b, J, *_solid(block, i))
+    tau = _conservative_stress(block, i, stretches, b_e, J)
     c = _inertia(block, i)
     return add(scale(c * J, stress), scale(-c, tau))
 
 
-def _acceleration(block: Any, i: int, medium: Medium, Q: Tensor, rate: Vector, v: Vector, J: Any) -> Vector:
-    """a_G + a_D (34), m/s²."""
+def _conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
+    """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
+    tau = kirchhoff(b_e, J, *_solid(block, i))
+    s = interface(stretches, block[AT_TENSION * LANES + i])
+    return (
+        tau[0] + s[0], tau[1], tau[2],
+        tau[3], tau[4] + s[1], tau[5],
+        tau[6], tau[7], tau[8] + s[2],
+    )  # fmt: skip
+
+
+def _elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
+    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
+    mu, lame, k = _solid(block, i)
+    J = stretches[0] * stretches[1] * stretches[2]
+    squares = (b_e[0], b_e[4], b_e[8])
+    return elasticity(squares, J, mu, dilation * lame, k, block[AT_TENSION * LANES + i])
+
+
+def _acceleration(
+    block: Any, i: int, medium: Medium, Q: Tensor, k: Vector, v: Vector, J: Any
+) -> tuple[Vector, Vector]:
+    """Acceleration of the barycentre (34), m/s², and the rates of drag, 1/s, with resistances R k."""
     u = load3(block, AT_U, i)
-    a_G = reduced_gravity(J, block[AT_RHO * LANES + i], medium.rho, medium.gravity)
+    a, inertia = acceleration(
+        J,
+        block[AT_RHO * LANES + i],
+        medium.rho,
+        medium.gravity,
+        medium.pressure_gradient,
+        medium.virtual_mass,
+        load3(block, AT_DUDT, i),
+    )
+    r = _drag_rate(block, i, medium.mu, k)
+    rate = (r[0] / inertia, r[1] / inertia, r[2] / inertia)
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
     a_D = vector_dot((rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]), Q)
-    return a_G[0] + a_D[0], a_G[1] + a_D[1], a_G[2] + a_D[2]
+    return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
 
 
 def _damped(Q: Tensor, rate: Vector, gh: Any, r: Vector) -> Vector:
@@ -309,20 +348,24 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         h = block[AT_H * LANES + i]
         Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
         F, x = load9(block, AT_F, i), load3(block, AT_X, i)
-        e = _shear_elasticity(block, i, stretches)
-        m = mobility(stretches, g)
-        l_s, kx = _balance(block, i, medium, Q, stretches, g, m, F)
-        Y = solve_inertialess(m, e, stretches, GAMMA * h, medium.mu, l_s)
+        b_e = finger(dot(Q, F), load9(block, AT_M, i))
+        m = mobility(stretches, g, block[AT_ETA * LANES + i] / medium.mu)
+        l_s, kx = _balance(block, i, medium, Q, stretches, g, m, b_e)
+        # The pressure takes over the solid's resistance to dilation.
+        e = _elasticity(block, i, stretches, b_e, 0.0)
+        Y = solve_inertialess(m, e, GAMMA * h, medium.mu, l_s)
         kF = from_frame(Q, Y)
         store9(block, AT_KF, i, kF)
         store3(block, AT_KX, i, kx)
         store9(block, AT_NEW_F, i, dot(exponential(scale(h, kF)), F))
         store3(block, AT_NEW_X, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
         store9(block, AT_START_Q, i, Q)
-        store3(block, AT_START_STRETCH, i, stretches)
         store9(block, AT_STIFF, i, m.normal)
         store3(block, AT_STIFF + 9, i, m.resistance)
         store3(block, AT_STIFF + 12, i, m.slip)
+        store3(block, AT_STIFF + 15, i, e.squares)
+        store9(block, AT_STIFF + 18, i, e.slopes)
+        store3(block, AT_STIFF + 27, i, e.shear)
 
 
 def second_inertialess(block: Any, medium: Medium) -> None:
@@ -330,15 +373,16 @@ def second_inertialess(block: Any, medium: Medium) -> None:
     for i in range(LANES):
         h = block[AT_H * LANES + i]
         Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
-        Q0, stretches0 = load9(block, AT_START_Q, i), load3(block, AT_START_STRETCH, i)
-        m0 = _load_mobility(block, i)
+        Q0 = load9(block, AT_START_Q, i)
+        eta = block[AT_ETA * LANES + i] / medium.mu
         F, F_p = load9(block, AT_F, i), load9(block, AT_NEW_F, i)
-        l_s, v = _balance(block, i, medium, Q, stretches, g, mobility(stretches, g), F_p)
+        b_e = finger(dot(Q, F_p), load9(block, AT_M, i))
+        l_s, v = _balance(block, i, medium, Q, stretches, g, mobility(stretches, g, eta), b_e)
         l_p = from_frame(Q, l_s)
         k1F, k1x = load9(block, AT_KF, i), load3(block, AT_KX, i)
         r = to_frame(Q0, add(l_p, scale(-2.0, k1F)))
-        e = _shear_elasticity(block, i, stretches0)
-        Y = solve_inertialess(m0, e, stretches0, GAMMA * h, medium.mu, r)
+        m, e = _load_response(block, i)
+        Y = solve_inertialess(m, e, GAMMA * h, medium.mu, r)
         k2x = (v[0] - 2.0 * k1x[0], v[1] - 2.0 * k1x[1], v[2] - 2.0 * k1x[2])
         _finish(block, i, F, from_frame(Q0, Y), (k1x, k2x))
         F_new = load9(block, AT_NEW_F, i)
@@ -350,29 +394,26 @@ def second_inertialess(block: Any, medium: Medium) -> None:
         store3(block, AT_NEW_V, i, v)
 
 
-def _shear_elasticity(block: Any, i: int, stretches: Vector) -> Elasticity:
-    """The solid's elasticity without its resistance to dilation, which the pressure takes over."""
-    mu, lame, k = _solid(block, i)
-    return elasticity(stretches, mu, 0.0 * lame, k)
-
-
-def _load_mobility(block: Any, i: int) -> Mobility:
-    """The mobility at the start of the step, as stage 1 left it."""
-    return Mobility(load9(block, AT_STIFF, i), load3(block, AT_STIFF + 9, i), load3(block, AT_STIFF + 12, i))
+def _load_response(block: Any, i: int) -> tuple[Mobility, Elasticity]:
+    """Mobility and elasticity at the start of the step, as stage 1 left them, for the step's equations."""
+    resistance, slip = load3(block, AT_STIFF + 9, i), load3(block, AT_STIFF + 12, i)
+    m = Mobility(load9(block, AT_STIFF, i), resistance, slip, 1.0)
+    squares, shear = load3(block, AT_STIFF + 15, i), load3(block, AT_STIFF + 27, i)
+    return m, Elasticity(squares, load9(block, AT_STIFF + 18, i), shear)
 
 
 def _balance(
-    block: Any, i: int, medium: Medium, Q: Tensor, stretches: Vector, g: Integrals, m: Mobility, F: Tensor
+    block: Any, i: int, medium: Medium, Q: Tensor, stretches: Vector, g: Integrals, m: Mobility, b_e: Tensor
 ) -> tuple[Tensor, Vector]:
     """l_s in the particle frame, 1/s, and the barycentre's velocity u + K⁻¹ f_G/μ_f, m/s."""
-    G = dot(Q, F)
-    tau = kirchhoff(dot(G, transpose(G)), 0.0 * F[0] + 1.0, *_solid(block, i))
+    tau = _conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
     sigma = scale(1.0 / medium.mu, tau)
     l_f = to_frame(Q, load9(block, AT_L, i))
     l_s = velocity_gradient(stretches, g, m, sigma, l_f)
     rate = _drag_rate(block, i, medium.mu, drag(stretches, g))
-    a_G = reduced_gravity(1.0, block[AT_RHO * LANES + i], medium.rho, medium.gravity)
-    u, w = load3(block, AT_U, i), _drift(Q, rate, a_G)
+    rho, DuDt = block[AT_RHO * LANES + i], load3(block, AT_DUDT, i)
+    a = slip_acceleration(1.0, rho, medium.rho, medium.gravity, medium.pressure_gradient, DuDt)
+    u, w = load3(block, AT_U, i), _drift(Q, rate, a)
     return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
 
 
@@ -408,6 +449,7 @@ def track_adaptive(
     step: int,
     steps: int,
     dt: float,
+    start: float,
     block: NDArray[np.float64],
     clearance: NDArray[np.float64],
     tolerance: float,
@@ -443,7 +485,7 @@ def track_adaptive(
         for i in range(len(members)):
             k = members[i]
             while p.status[k] == PENDING and current[i] < last:
-                if p.t0[k] < (current[i] + 1) * dt - SHORTEST_STEP * dt:
+                if p.t0[k] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
                     clearance[i] = release(flow, patches, p, k, block, i)
                     p.h[k] = dt
                 else:
@@ -451,13 +493,12 @@ def track_adaptive(
             if p.status[k] != ACTIVE or current[i] >= last:
                 continue
             moving += 1
-            rest = (current[i] + 1) * dt - p.t[k]
-            # A little more than one step left is two equal ones, not one and a sliver.
-            h = rest if p.h[k] >= rest else min(p.h[k], 0.5 * rest)
+            rest = start + (current[i] + 1) * dt - p.t[k]
+            # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
+            h = rest if p.h[k] >= rest - SHORTEST_STEP * dt else min(p.h[k], 0.5 * rest)
             _begin(block, i, h)
-            u, l_f = sample(flow, p.host[k], load3(block, AT_X, i))
-            store3(block, AT_U, i, u)
-            store9(block, AT_L, i, l_f)
+            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            store_fluid(block, i, u, l_f, u_t)
         if moving == 0:
             break
 
@@ -468,9 +509,9 @@ def track_adaptive(
             k = members[i]
             if p.status[k] == ACTIVE and current[i] < last:
                 hosts[i] = _predicted_host(flow, p.host[k], block, i)
-                u, l_f = sample(flow, hosts[i], load3(block, AT_NEW_X, i))
-                store3(block, AT_U, i, u)
-                store9(block, AT_L, i, l_f)
+                t_new = p.t[k] + block[AT_H * LANES + i]
+                u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
+                store_fluid(block, i, u, l_f, u_t)
         frame_stage(block)
         integrals_stage(block)
         second_slope(block, medium)
@@ -480,7 +521,7 @@ def track_adaptive(
             if p.status[k] != ACTIVE or current[i] >= last:
                 continue
             h = block[AT_H * LANES + i]
-            t_end = (current[i] + 1) * dt
+            t_end = start + (current[i] + 1) * dt
             error = block[AT_ERROR * LANES + i]
             size = _next_size(h, error, tolerance)
             if not error <= tolerance:

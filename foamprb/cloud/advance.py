@@ -18,19 +18,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.drag import implicit_euler, reduced_gravity
+from foamprb.body.drag import acceleration, implicit_euler
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.imex import RELATIVE_TOLERANCE, advance, equation, inertia_factor, tangent
+from foamprb.body.material import viscous_stress
 from foamprb.body.tensor import Tensor, add, det, dot, inverse, scale, to_frame, transpose
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
     AT_A,
     AT_DT,
+    AT_DUDT,
     AT_ERROR,
+    AT_ETA,
     AT_F,
     AT_J,
     AT_L,
     AT_LAME,
+    AT_M,
     AT_MU,
     AT_NEW_A,
     AT_NEW_F,
@@ -56,6 +60,7 @@ from foamprb.cloud.block import (
     save_particle,
     store3,
     store9,
+    store_fluid,
 )
 from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, accept_shape, reach_end, release
 from foamprb.cloud.state import Particles
@@ -66,13 +71,14 @@ _DENSE_STEPS = 25
 
 
 def traction_stage(block: Any, medium: Medium) -> None:
-    """σ̃* of the old shape (46) and Newton's first iterate, both in the particle frame."""
+    """σ̃* of the old shape (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
     for i in range(LANES):
         F, A, Q = load9(block, AT_F, i), load9(block, AT_A, i), load9(block, AT_Q, i)
         l_f = to_frame(Q, load9(block, AT_L, i))
         l_s = to_frame(Q, dot(A, inverse(F)))
         stress = traction(load3(block, AT_STRETCH, i), load_integrals(block, i), l_f, l_s)
-        store9(block, AT_STRESS, i, scale(medium.mu, stress))
+        own = viscous_stress(l_s, block[AT_ETA * LANES + i])
+        store9(block, AT_STRESS, i, add(scale(medium.mu, stress), scale(-1.0, own)))
         store9(block, AT_PREDICTOR, i, dot(Q, add(F, scale(block[AT_DT * LANES + i], A))))
 
 
@@ -99,6 +105,7 @@ def newton_stage(block: Any) -> None:
             _kappa(block, i),
             block[AT_MU * LANES + i],
             block[AT_LAME * LANES + i],
+            load9(block, AT_M, i),
         )
         _finish_shape(block, i, G, error)
 
@@ -110,10 +117,19 @@ def barycentre_stage(block: Any, medium: Medium) -> None:
         R, rho = block[AT_R * LANES + i], block[AT_RHO * LANES + i]
         # μ_f K_a/m with K_a in units of R
         c = medium.mu / (4.0 / 3.0 * math.pi * R * R * rho)
+        a, inertia = acceleration(
+            block[AT_J * LANES + i],
+            rho,
+            medium.rho,
+            medium.gravity,
+            medium.pressure_gradient,
+            medium.virtual_mass,
+            load3(block, AT_DUDT, i),
+        )
+        c = c / inertia
         rate = (c * k[0], c * k[1], c * k[2])
-        a_G = reduced_gravity(block[AT_J * LANES + i], rho, medium.rho, medium.gravity)
         v, u, Q = load3(block, AT_V, i), load3(block, AT_U, i), load9(block, AT_Q, i)
-        store3(block, AT_NEW_V, i, implicit_euler(v, u, Q, rate, a_G, block[AT_DT * LANES + i]))
+        store3(block, AT_NEW_V, i, implicit_euler(v, u, Q, rate, a, block[AT_DT * LANES + i]))
 
 
 def _eliminate(M: Any, n: int) -> bool:
@@ -141,11 +157,12 @@ def dense_newton(block: Any, i: int) -> None:
     """The new deformation gradient of lane i by Newton's method with the full 9×9 tangent (50)."""
     predictor, stress = load9(block, AT_PREDICTOR, i), load9(block, AT_STRESS, i)
     mu, lame, kappa = block[AT_MU * LANES + i], block[AT_LAME * LANES + i], _kappa(block, i)
+    rest = load9(block, AT_M, i)
     M = np.empty((9, 10))
     G = predictor
     size = math.inf
     for _ in range(_DENSE_STEPS):
-        n = equation(G, predictor, stress, kappa, mu, lame)
+        n = equation(G, predictor, stress, kappa, mu, lame, rest)
         for k in range(9):
             E = (
                 1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0,
@@ -180,6 +197,7 @@ def track_block(
     step: int,
     steps: int,
     dt: float,
+    start: float,
     block: NDArray[np.float64],
     clearance: NDArray[np.float64],
 ) -> int:
@@ -194,7 +212,7 @@ def track_block(
     members
         Rows of particles, pending or active.
     step
-        Number of the first step: it goes from t = step Δt to (step + 1) Δt.
+        Number of the first step: it goes from t = start + step Δt to start + (step + 1) Δt.
     block, clearance
         Scratch of ROWS × LANES and LANES numbers.
 
@@ -215,7 +233,7 @@ def track_block(
     integrals_stage(block)
 
     for n in range(step, step + steps):
-        t_end = (n + 1) * dt
+        t_end = start + (n + 1) * dt
         moving = 0
         for i in range(len(members)):
             k = members[i]
@@ -224,10 +242,9 @@ def track_block(
                 clearance[i] = release(flow, patches, p, k, block, i)
             if p.status[k] == ACTIVE:
                 moving += 1
-                block[AT_DT * LANES + i] = t_end - max(n * dt, p.t0[k])
-                u, l_f = sample(flow, p.host[k], load3(block, AT_X, i))
-                store3(block, AT_U, i, u)
-                store9(block, AT_L, i, l_f)
+                block[AT_DT * LANES + i] = t_end - max(start + n * dt, p.t0[k])
+                u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), t_end)
+                store_fluid(block, i, u, l_f, u_t)
             elif p.status[k] == PENDING:
                 moving += 1
         if moving == 0:

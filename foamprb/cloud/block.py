@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from foamprb.body.ellipsoid import Integrals, integrals
-from foamprb.body.tensor import Tensor, Vector, principal_frame
+from foamprb.body.material import metric_at_rest
+from foamprb.body.tensor import Tensor, Vector, dot_vector, principal_frame
 from foamprb.cloud.state import Particles
 
 LANES = 32
@@ -21,15 +22,23 @@ AT_U, AT_L, AT_STRESS, AT_PREDICTOR = 46, 49, 58, 67
 AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
 AT_NEW_X, AT_K = 104, 107
-ROWS = 108
+AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
+ROWS = 122
 
 
 class Medium(NamedTuple):
-    """The fluid around the particles, and gravity."""
+    """The fluid around the particles, and the forces by which it acts on a barycentre beside drag."""
 
     mu: float
+    """Pa s."""
     rho: float
+    """kg/m³."""
     gravity: Vector
+    """m/s²."""
+    pressure_gradient: float = 0.0
+    """1 with the force of the undisturbed flow's pressure gradient, else 0."""
+    virtual_mass: float = 0.0
+    """Coefficient of the virtual mass force; ½ for a sphere."""
 
 
 def load3(block: Any, row: int, i: int) -> Vector:
@@ -60,6 +69,14 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
     block[k], block[k + LANES], block[k + 2 * LANES] = T[0], T[1], T[2]
     block[k + 3 * LANES], block[k + 4 * LANES], block[k + 5 * LANES] = T[3], T[4], T[5]
     block[k + 6 * LANES], block[k + 7 * LANES], block[k + 8 * LANES] = T[6], T[7], T[8]
+
+
+def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
+    """Put the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u into lane i."""
+    store3(block, AT_U, i, u)
+    store9(block, AT_L, i, l_f)
+    c = dot_vector(l_f, u)
+    store3(block, AT_DUDT, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
 
 
 def load_integrals(block: Any, i: int) -> Integrals:
@@ -104,6 +121,14 @@ def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
     block[AT_MU * LANES + i] = p.mu[k]
     block[AT_LAME * LANES + i] = p.lame[k]
     block[AT_K * LANES + i] = p.k[k]
+    block[AT_ETA * LANES + i] = p.eta[k]
+    block[AT_TENSION * LANES + i] = p.gamma[k] / p.R[k]
+    F0 = (
+        p.F0[k, 0], p.F0[k, 1], p.F0[k, 2],
+        p.F0[k, 3], p.F0[k, 4], p.F0[k, 5],
+        p.F0[k, 6], p.F0[k, 7], p.F0[k, 8],
+    )  # fmt: skip
+    store9(block, AT_M, i, metric_at_rest(F0))
 
 
 def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
@@ -127,6 +152,9 @@ def idle(block: Any, i: int, dt: float) -> None:
         AT_NEW_F,
         AT_NEW_F + 4,
         AT_NEW_F + 8,
+        AT_M,
+        AT_M + 4,
+        AT_M + 8,
         AT_R,
         AT_RHO,
         AT_MU,

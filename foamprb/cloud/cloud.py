@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.drag import DRAGS
+from foamprb.body.interface import laplace_stress
 from foamprb.body.material import MATERIALS
+from foamprb.body.material import finger as finger_of_ellipsoid
 from foamprb.body.tensor import principal_frame
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
@@ -93,13 +95,15 @@ class Cloud:
     interactions
         What each of the flow's patches does, in their order.
     dt
-        Tracking step Δt, s. Step n goes from n Δt to (n + 1) Δt.
+        Tracking step Δt, s. Step n goes from start + n Δt to start + (n + 1) Δt.
     models
         Names of traction, drag, material and wall test.
     threads
         Number of threads; the answer does not depend on it.
     step
         Number of steps done.
+    start
+        Time at step 0, on the axis of the flow's and the injections' times, s.
 
     Raises
     ------
@@ -118,6 +122,7 @@ class Cloud:
     threads: int = field(default_factory=available_threads)
     step: int = 0
     recovered: int = 0
+    start: float = 0.0
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -133,6 +138,12 @@ class Cloud:
         bindings["derivatives"] = material.derivatives
         if material.dilation is not None:
             bindings["dilation"] = material.dilation
+        p = self.particles
+        if (np.eye(3).ravel() != p.F0).any():
+            bindings["finger"] = finger_of_ellipsoid
+        if (p.gamma != 0.0).any():
+            _refuse_tension(self.models)
+            bindings["interface"] = laplace_stress
         loop = LOOPS[self.models.integrator]
         bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
@@ -147,7 +158,7 @@ class Cloud:
     @property
     def time(self) -> float:
         """Time to which the cloud has come, s."""
-        return self.step * self.dt
+        return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
@@ -164,7 +175,7 @@ class Cloud:
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, block, clearance, *self._options,
+                    self.step, steps, self.dt, self.start, block, clearance, *self._options,
                 )
                 for members in share
             )  # fmt: skip
@@ -198,6 +209,11 @@ def _check(models: Models) -> None:
         raise InputError(f"the integrator stokes takes no {models.material}: it has no incompressible form")
     if models.integrator == "paper" and material.dilation is None:
         raise InputError(f"the integrator paper takes no {models.material}: choose rosenbrock or stokes")
+
+
+def _refuse_tension(models: Models) -> None:
+    if models.integrator == "paper":
+        raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:

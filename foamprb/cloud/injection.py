@@ -168,7 +168,7 @@ def release(
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
     p.R[:] = 0.5 * size.sample(n, random)
-    p.v[:] = flow.sample(places.x, places.hosts)[0] if model.U0 is None else model.U0
+    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if model.U0 is None else model.U0
     return p
 
 

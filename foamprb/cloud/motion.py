@@ -19,6 +19,7 @@ from foamprb.cloud.block import (
     AT_ERROR,
     AT_F,
     AT_J,
+    AT_M,
     AT_NEW_A,
     AT_NEW_F,
     AT_NEW_V,
@@ -126,8 +127,14 @@ def beyond(
             -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
         )  # fmt: skip
         y0 = x0
-        # The state at rest is mirrored too: it is a sphere, and J stays positive. So do the axes' handedness.
+        # The state at rest is mirrored too, so that J stays positive; one axis is turned, so that det Q does.
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
+        store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
+        f = p.F0
+        F0 = (f[k, 0], f[k, 1], f[k, 2], f[k, 3], f[k, 4], f[k, 5], f[k, 6], f[k, 7], f[k, 8])
+        F0 = dot(turn, dot(F0, turn))
+        for c in range(9):
+            f[k, c] = F0[c]
         Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
     else:
         host, y0, turn = cross(flow, triangle, x0)

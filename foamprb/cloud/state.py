@@ -59,13 +59,16 @@ class Particles(NamedTuple):
 
     x: Annotated[Array, Variable((3,), "f8", "m", "position of the barycentre")]
     v: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the barycentre")]
-    F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient, row by row")]
+    F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient from that sphere, row by row")]
     A: Annotated[Array, Variable((9,), "f8", "1/s", "material velocity gradient dF/dt, row by row")]
-    R: Annotated[Array, Variable((), "f8", "m", "radius at rest")]
+    R: Annotated[Array, Variable((), "f8", "m", "radius at rest, of the sphere of the same volume")]
     rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest")]
     mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid")]
     lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid")]
     k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one")]
+    eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid")]
+    gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension")]
+    F0: Annotated[Array, Variable((9,), "f8", "1", "F at rest, from the sphere of the same volume")]
     Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate")]
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection")]
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection")]
@@ -100,7 +103,7 @@ VARIABLES: dict[str, Variable] = {
 def empty(n: int) -> Particles:
     """N pending spheres at rest, at the origin, with zero size and stiffness."""
     arrays = {name: np.zeros((n, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
-    arrays["F"][:] = np.eye(3).ravel()
+    arrays["F"][:] = arrays["F0"][:] = np.eye(3).ravel()
     arrays["patch"][:] = -1
     arrays["host"][:] = -1
     return Particles(**arrays)
@@ -114,7 +117,16 @@ def concatenate(parts: list[Particles]) -> Particles:
 
 
 def spheres(
-    x: Any, *, d: Any, rho: Any, mu: Any, poissons_ratio: float = 0.499, k: Any = 0.0, t0: Any = 0.0
+    x: Any,
+    *,
+    d: Any,
+    rho: Any,
+    mu: Any,
+    poissons_ratio: float = 0.499,
+    k: Any = 0.0,
+    eta: Any = 0.0,
+    gamma: Any = 0.0,
+    t0: Any = 0.0,
 ) -> Particles:
     """Pending spheres at rest.
 
@@ -122,16 +134,36 @@ def spheres(
     ----------
     x
         Positions, shape (n, 3), m.
-    d, rho, mu, k, t0
-        Diameter (m), density (kg/m³), shear modulus (Pa), third parameter of the solid and time of injection
-        (s), one for all or (n,).
+    d, rho, mu, k, eta, gamma, t0
+        Diameter (m), density (kg/m³), shear modulus (Pa), third parameter and viscosity (Pa s) of the solid,
+        surface tension (N/m) and time of injection (s), one for all or (n,).
     poissons_ratio
         Of the solid, below ½.
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x
     p.R[:] = np.asarray(d) / 2.0
-    p.rho[:], p.mu[:], p.k[:] = rho, mu, k
+    p.rho[:], p.mu[:], p.k[:], p.eta[:], p.gamma[:] = rho, mu, k, eta, gamma
     p.lame[:] = lame_parameter(p.mu, poissons_ratio)
     p.t0[:] = p.t[:] = t0
     return p
+
+
+def set_rest_shape(
+    p: Particles, ratios: Any, axes: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+) -> None:
+    """Make ellipsoids of spheres at rest, of the same volume.
+
+    Parameters
+    ----------
+    p
+        Particles, changed in place.
+    ratios
+        Semi-axes at rest up to a common factor, (3,) or (n, 3).
+    axes
+        Their directions, unit vectors as the rows of a rotation, (3, 3) or (n, 3, 3).
+    """
+    a = np.broadcast_to(np.asarray(ratios, dtype=float), (p.size, 3))
+    E = np.broadcast_to(np.asarray(axes, dtype=float), (p.size, 3, 3))
+    stretches = a / np.cbrt(a.prod(axis=1, keepdims=True))
+    p.F[:] = p.F0[:] = np.einsum("nai,na,naj->nij", E, stretches, E).reshape(-1, 9)

@@ -30,8 +30,8 @@ class LinearArrays(NamedTuple):
     l: Floats
 
 
-def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
-    """Velocity, m/s, and its gradient ∂u_i/∂x_j, 1/s."""
+def sample_linear(flow: LinearArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Velocity, m/s, its gradient ∂u_i/∂x_j, 1/s, and ∂u/∂t = 0, m/s²."""
     g = flow.l
     L = (g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8])
     u = (
@@ -39,7 +39,7 @@ def sample_linear(flow: LinearArrays, host: int, x: Vector) -> tuple[Vector, Ten
         flow.u0[1] + L[3] * x[0] + L[4] * x[1] + L[5] * x[2],
         flow.u0[2] + L[6] * x[0] + L[7] * x[1] + L[8] * x[2],
     )
-    return u, L
+    return u, L, (0.0, 0.0, 0.0)
 
 
 def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -78,12 +78,13 @@ class PipeArrays(NamedTuple):
 _WALL, _INLET, _OUTLET = 0, 1, 2
 
 
-def sample_pipe(flow: PipeArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
-    """u = 2 U (1 − r²/a²), m/s, and its gradient, 1/s."""
+def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """u = 2 U (1 − r²/a²), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
     k = 2.0 * flow.mean_velocity / (flow.radius * flow.radius)
     r2 = x[1] * x[1] + x[2] * x[2]
     u = (2.0 * flow.mean_velocity - k * r2, 0.0, 0.0)
-    return u, (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    l = (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return u, l, (0.0, 0.0, 0.0)
 
 
 def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -165,9 +166,9 @@ class AnalyticFlow:
         inside = self._inside(points)
         return np.where(inside, 0, -1).astype(np.int32)
 
-    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:  # noqa: ARG002
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3)."""
-        u, gradient = self.kernels["sample"](self._parameters, 0, tuple(points.T))
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:  # noqa: ARG002
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at time t, s."""
+        u, gradient, _ = self.kernels["sample"](self._parameters, 0, tuple(points.T), t)
         zeros = np.zeros(len(points))
         return (
             np.stack([c + zeros for c in u], axis=1),

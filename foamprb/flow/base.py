@@ -30,12 +30,13 @@ class PatchFaces(NamedTuple):
 
 
 class Flow(Protocol):
-    """A steady flow: u and ∇u at a point, and what bounds it.
+    """A flow: u and ∇u at a point and a time, and what bounds it.
 
     The ``kernels`` are plain functions that :func:`foamprb.compile.link` compiles into the loop; ``flow`` is
     the tuple that :meth:`arrays` gives and ``host`` the piece of the flow (a tetrahedron) that holds x:
 
-    * ``sample(flow, host, x) -> (u, l)``: velocity, m/s, and ∂u_i/∂x_j row by row, 1/s;
+    * ``sample(flow, host, x, t) -> (u, l, u_t)``: velocity, m/s, ∂u_i/∂x_j row by row, 1/s, and ∂u/∂t at the
+      fixed point, m/s² (zero in a steady flow), at time t, s;
     * ``walk(flow, host, x0, x1) -> (host, fraction, patch, triangle)``: along the segment, to its end (patch
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
@@ -56,8 +57,8 @@ class Flow(Protocol):
     def locate(self, points: Floats) -> Ints:
         """Host of each point of shape (n, 3), −1 outside."""
 
-    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s."""
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at time t, s."""
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""

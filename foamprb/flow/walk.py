@@ -43,14 +43,17 @@ _ATTEMPTS = 4
 _NO_TRIANGLE = -1
 
 
-def sample(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
-    """Velocity u (m/s) and its gradient l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``."""
+def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
+    """Velocity u (m/s) and its gradient l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
+
+    The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
+    """
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
     w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
-    f, t = flow.nodes, flow.tets
-    a, b, c, d = t[host, 0], t[host, 1], t[host, 2], t[host, 3]
+    f, tets = flow.nodes, flow.tets
+    a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
     u = (
         w0 * f[a, 3] + w1 * f[b, 3] + w2 * f[c, 3] + w3 * f[d, 3],
         w0 * f[a, 4] + w1 * f[b, 4] + w2 * f[c, 4] + w3 * f[d, 4],
@@ -67,7 +70,7 @@ def sample(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Tensor]:
         w0 * f[a, 13] + w1 * f[b, 13] + w2 * f[c, 13] + w3 * f[d, 13],
         w0 * f[a, 14] + w1 * f[b, 14] + w2 * f[c, 14] + w3 * f[d, 14],
     )
-    return u, l
+    return u, l, (0.0, 0.0, 0.0)
 
 
 def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -488,11 +491,11 @@ class MeshFlow:
         link(_locate_all)(self._arrays, points, hosts)
         return hosts
 
-    def sample(self, points: Floats, hosts: Ints) -> tuple[Floats, Floats]:
-        """Velocity (n, 3) in m/s and ∂u_i/∂x_j (n, 3, 3) in 1/s at the points (n, 3) in their hosts (n,)."""
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         values = np.empty((len(points), 12))
-        link(_sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), values)
+        link(_sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
         return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
 
     def cell_of(self, hosts: Ints) -> Ints:
@@ -534,9 +537,9 @@ def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
 
 
-def _sample_all(flow: MeshArrays, points: Floats, hosts: Ints, values: Floats) -> None:
+def _sample_all(flow: MeshArrays, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
     for i in range(points.shape[0]):
-        u, l = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]))
+        u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
         for k in range(3):
             values[i, k] = u[k]
         for k in range(9):

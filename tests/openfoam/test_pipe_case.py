@@ -39,8 +39,8 @@ def test_committed_flow_is_what_a_live_run_gives(live):
     np.testing.assert_array_equal(committed.mesh.tets, fresh.mesh.tets)
     x = np.random.default_rng(0).uniform([0.0, -1.4e-3, -1.4e-3], [0.1, 1.4e-3, 1.4e-3], (1000, 3))
     hosts = committed.locate(x)
-    u, l_f = committed.sample(x, hosts)
-    u_fresh, l_fresh = fresh.sample(x, hosts)
+    u, l_f = committed.sample(x, hosts, 0.0)
+    u_fresh, l_fresh = fresh.sample(x, hosts, 0.0)
     np.testing.assert_allclose(u_fresh, u, atol=1e-5 * 0.485)
     np.testing.assert_allclose(l_fresh, l_f, atol=1e-4 * 923.8)
 

@@ -1,0 +1,54 @@
+"""Surface tension of an affinely deforming body: the stress that is the derivative of γ S with respect to F.
+
+The surface of an ellipsoid with semi-axes a, b, c is S = 4π R_G(b²c², c²a², a²b²) with Carlson's R_G. Its
+derivatives need only the integrals of :mod:`foamprb.body.ellipsoid` for semi-axes bc, ca, ab:
+∂R_G/∂x = (χ − x α₀)/8.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from foamprb.body.ellipsoid import integrals
+from foamprb.body.tensor import Scalar, Vector
+
+
+def _pulls(stretches: Vector) -> Vector:
+    """x(χ − xα₀), y(χ − yβ₀), z(χ − zγ₀) with x = b²c² and so on."""
+    a, b, c = stretches
+    products = (b * c, c * a, a * b)
+    g = integrals(products)
+    x, y, z = products[0] * products[0], products[1] * products[1], products[2] * products[2]
+    return x * (g.chi - x * g.alpha[0]), y * (g.chi - y * g.alpha[1]), z * (g.chi - z * g.alpha[2])
+
+
+def surface_area(semi_axes: Vector) -> Scalar:
+    """Surface S of an ellipsoid, in the square of the unit of its semi-axes."""
+    x, y, z = _pulls(semi_axes)
+    # S is of second degree in the axes, so half the sum of its logarithmic derivatives (Euler).
+    return pi * (x + y + z)
+
+
+def laplace_stress(stretches: Vector, tension: Scalar) -> Vector:
+    """Principal Kirchhoff stresses (1/vol₀) ∂(γ S)/∂ln λ_a − 2γ/R, Pa.
+
+    A sphere has none: the pressure 2γ/R that its interior holds at rest is taken as part of the rest, since
+    no incompressible body feels it and a nearly incompressible one should not start by shrinking.
+
+    Parameters
+    ----------
+    stretches
+        λ_a, with semi-axes R λ_a.
+    tension
+        γ/R, Pa, with R the radius of the sphere of the same volume at rest.
+    """
+    x, y, z = _pulls(stretches)
+    k = 0.75 * tension
+    rest = 2.0 * tension
+    return k * (y + z) - rest, k * (z + x) - rest, k * (x + y) - rest
+
+
+def no_stress(_stretches: Vector, tension: Scalar) -> Vector:
+    """The same without surface tension."""
+    zero = 0.0 * tension
+    return zero, zero, zero
