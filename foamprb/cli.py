@@ -8,10 +8,13 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import foamprb
 from foamprb.errors import InputError, suggestion
+
+if TYPE_CHECKING:
+    from foamprb.flow.source import Source
 
 _COMMANDS = ("run", "info", "validate")
 
@@ -48,6 +51,19 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+        command.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+        command.add_argument(
+            "--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's"
+        )
+        command.add_argument("--velocity", default="U", metavar="NAME", help="velocity field [U]")
+        command.add_argument("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+        divided = command.add_mutually_exclusive_group()
+        divided.add_argument(
+            "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
+        )
+        divided.add_argument(
+            "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
+        )
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow")
     when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
@@ -70,7 +86,9 @@ def _run(arguments: argparse.Namespace) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads)
+    job = prepare(
+        arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads, _source(arguments)
+    )
     describe(job)
     if arguments.dry_run:
         steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)
@@ -82,10 +100,33 @@ def _run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def _source(arguments: argparse.Namespace) -> Source:
+    from foamprb.flow.meshfile import Division
+    from foamprb.flow.source import Source
+
+    angle = arguments.featureAngle
+    if angle is not None and not 0.0 < angle < 180.0:
+        raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
+    divided = arguments.patchArray or angle is not None
+    return Source(
+        arguments.flow,
+        arguments.region,
+        arguments.velocity,
+        arguments.gradient,
+        Division(arguments.patchArray, angle) if divided else None,
+    )
+
+
 def _info(arguments: argparse.Namespace) -> int:
+    from foamprb.flow.meshfile import describe_file
     from foamprb.flow.openfoam import describe
 
-    print("\n".join(describe(arguments.case).lines()))
+    source = _source(arguments)
+    if source.file is not None:
+        lines = describe_file(source.file, source.velocity, source.division)
+    else:
+        lines = describe(arguments.case, source.region).lines()
+    print("\n".join(lines))
     return 0
 
 

@@ -25,7 +25,7 @@ from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.flow.openfoam import read_case
+from foamprb.flow.source import Source, read_flow
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series, Snapshot
 from foamprb.positions import read_positions
@@ -49,7 +49,7 @@ class Job:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return self.settings.case / "postProcessing" / self.settings.name
+        return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
 
     @property
     def patch_names(self) -> tuple[str, ...]:
@@ -62,6 +62,7 @@ def prepare(
     time: float | str = "latestTime",
     dictionary: Path | None = None,
     threads: int | None = None,
+    source: Source | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -75,6 +76,8 @@ def prepare(
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
+    source
+        The mesh file or region to read, and the names of its fields, if they are not the usual ones.
 
     Raises
     ------
@@ -82,9 +85,9 @@ def prepare(
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
     case = Path(case)
-    settings = read_settings(case, dictionary)
-    log.info("Reading flow of case %s", case)
-    flow = read_case(case, time)
+    settings = read_settings(case, dictionary, source.region if source else "")
+    log.info("Reading flow of case %s", case if source is None or source.file is None else source.file)
+    flow = read_flow(case, time, source)
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)

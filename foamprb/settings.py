@@ -135,9 +135,10 @@ class Settings:
     patches: tuple[PatchRule, ...]
     pressure_gradient: bool = False
     virtual_mass: float = 0.0
+    region: str = ""
 
 
-def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
+def read_settings(case: Path, dictionary: Path | None = None, region: str = "") -> Settings:
     """Read and validate the settings of a cloud.
 
     Parameters
@@ -147,18 +148,20 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         particle forces, g from its ``constant/g``.
     dictionary
         The cloud's dictionary, relative to the case; ``constant/softCloudProperties`` by default.
+    region
+        Region of the mesh: its files in ``constant/REGION`` go before those in ``constant``.
 
     Raises
     ------
     InputError
         At the first mistake: the file, the line, the entry's path, what was found and what is allowed.
     """
-    file = case / (dictionary or DICTIONARY)
+    file = case / (dictionary or _of_region(case, region, DICTIONARY.name))
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         load_libs(read_entry(root, "libs", Files))
     cloud = read_entries(_CloudProperties, root, also=("libs",))
-    fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case))
+    fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case, region))
     models = cloud.subModels
     return Settings(
         case=case,
@@ -166,7 +169,7 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         name=file.stem.removesuffix("Properties") or file.stem,
         solution=_solution(cloud.solution, root),
         fluid=fluid,
-        gravity=_gravity(case) if models.particleForces.gravity else (0.0, 0.0, 0.0),
+        gravity=_gravity(case, region) if models.particleForces.gravity else (0.0, 0.0, 0.0),
         traction=models.tractionModel,
         drag=models.particleForces.ellipsoidDrag.type,
         touching=models.localInteractionCoeffs.touching,
@@ -174,7 +177,14 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         patches=tuple(_patch_rule(entry) for entry in models.localInteractionCoeffs.patches.items),
         pressure_gradient=models.particleForces.pressureGradient is not None,
         virtual_mass=models.particleForces.virtualMass.Cvm if models.particleForces.virtualMass else 0.0,
+        region=region,
     )
+
+
+def _of_region(case: Path, region: str, name: str) -> Path:
+    """A file of a region, or of the case where the region has none, relative to the case."""
+    own = Path("constant") / region / name
+    return own if (case / own).is_file() else Path("constant") / name
 
 
 def _solution(entries: _Solution, root: Dictionary) -> Solution:
@@ -315,18 +325,19 @@ def _patch_rule(dictionary: Dictionary) -> PatchRule:
     return PatchRule(pattern, interaction, regex)
 
 
-def _viscosity(case: Path) -> float:
+def _viscosity(case: Path, region: str) -> float:
     """Read ν, m2/s, with its name and dimensions or without."""
-    root = read_dictionary(case / "constant/transportProperties", case)
+    root = read_dictionary(case / _of_region(case, region, "transportProperties"), case)
     if "transportModel" in root.entries:
         read_entry(root, "transportModel", Literal["Newtonian"])
     coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
     return float(read_entry(coefficients, "nu", Annotated[Viscosity, Positive]))
 
 
-def _gravity(case: Path) -> Vector3:
+def _gravity(case: Path, region: str) -> Vector3:
     """Read g, m/s2."""
-    g: Vector3 = read_entry(read_dictionary(case / "constant/g", case), "value", Vector3)
+    root = read_dictionary(case / _of_region(case, region, "g"), case)
+    g: Vector3 = read_entry(root, "value", Vector3)
     return g
 
 

@@ -127,7 +127,7 @@ def beyond(
             -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
         )  # fmt: skip
         y0 = x0
-        # The state at rest is mirrored too, so that J stays positive; one axis is turned, so that det Q does.
+        # The state at rest is mirrored too, and one axis turned round: J and det Q stay positive.
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
         store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
         f = p.F0

@@ -28,7 +28,7 @@ from foamprb.flow.openfoam import listed, pick_time, require_volumes, spoken
 from foamprb.flow.reconstruct import Reconstruction, from_points
 from foamprb.flow.walk import MeshFlow
 
-__all__ = ["VTK_SUFFIXES", "Division", "read_mesh_file"]
+__all__ = ["VTK_SUFFIXES", "Division", "describe_file", "read_mesh_file"]
 
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 BOUNDARY = "boundary"
@@ -79,19 +79,8 @@ def read_mesh_file(
         The file cannot be read, holds no three-dimensional cells, or lacks the velocity.
     """
     path = Path(path)
-    if not path.is_file():
-        raise InputError(f"{path}: no such file.")
-    data = _read_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
-    whole, named = _parts(data, path)
-    grid = _solid_cells(whole, path)
-    surfaces = [PatchSurface(name, _type(surface, velocity), surface) for name, surface in named]
-    if surfaces:
-        mesh = build_mesh(grid, surfaces, source=str(path))
-        notes = [f"The patches are those of the file: {_named(mesh)}."]
-    else:
-        mesh, note = _divided(grid, whole, division or Division(), path)
-        notes = [note]
-    require_volumes(mesh, path)
+    grid, mesh, surfaces, note = _read_mesh(path, velocity, time, division)
+    notes = [note]
     if velocity in grid.cell_data:
         cells = _vectors(grid.cell_data[velocity], velocity, path)
         valued = np.zeros(len(mesh.boundary_centres), dtype=bool)
@@ -114,6 +103,58 @@ def read_mesh_file(
         names = sorted({*grid.cell_data.keys(), *grid.point_data.keys()})
         raise InputError(f"{path}: no array {velocity}. {suggestion(velocity, names)}")
     return MeshFlow(mesh, u, l, notes)
+
+
+def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:
+    """What a mesh file holds, for a person to read.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_mesh_file`.
+    """
+    grid, mesh, _, note = _read_mesh(path, velocity, "latestTime", division)
+    kinds = [
+        (name, np.count_nonzero(np.asarray(grid.celltypes) == kind)) for kind, name in CELL_KINDS.items()
+    ]
+    low, high = (
+        "({:g} {:g} {:g})".format(*corner) for corner in (mesh.points.min(axis=0), mesh.points.max(axis=0))
+    )
+    lines = [f"File    {path}", "", "Mesh", f"    {'points':20s} {mesh.n_points:10d}"]
+    lines += [f"    {name:20s} {n:10d}" for name, n in kinds if n]
+    lines += [f"    {'bounds [m]':20s} {low} {high}", "", "Patches"]
+    for index, patch in enumerate(mesh.patches):
+        rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        centre = "({:g} {:g} {:g})".format(*mesh.boundary_centres[rows].mean(axis=0))
+        faces = rows.stop - rows.start
+        lines.append(f"    {patch.name:20s} {faces:10d} faces  {patch.type}  about {centre}")
+    lines += ["", "Arrays"]
+    for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
+        lines += [
+            f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)
+        ]
+    return [*lines, "", note]
+
+
+def _read_mesh(
+    path: Path, velocity: str, time: float | str, division: Division | None
+) -> tuple[Any, Mesh, list[PatchSurface], str]:
+    """The cells of a file, their mesh, the patches that the file names, and what the user should know."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file.")
+    data = _read_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
+    whole, named = _parts(data, path)
+    grid = _solid_cells(whole, path)
+    surfaces = [PatchSurface(name, _type(surface, velocity), surface) for name, surface in named]
+    if not surfaces:
+        mesh, note = _divided(grid, whole, division or Division(), path)
+    elif division is not None:
+        raise InputError(f"{path}: the file names its patches, {listed([s.name for s in surfaces])}.")
+    else:
+        mesh = build_mesh(grid, surfaces, source=str(path))
+        note = f"The patches are those of the file: {_named(mesh)}."
+    require_volumes(mesh, path)
+    return grid, mesh, surfaces, note
 
 
 def _read_vtk(path: Path, time: float | str) -> Any:
