@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import GRADIENT, Format, header, write_case
 from test_flow_shapes import block, box_patches, corners, grid, pipe
 
 from foamprb.errors import InputError
@@ -17,61 +18,6 @@ from foamprb.flow.openfoam import available_times, describe, read_case, read_fie
 
 PIPE = Path(__file__).parents[1] / "cases" / "pipe"
 POLY = "constant/polyMesh/"
-GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
-
-
-def header(kind, name, note=""):
-    noted = f'note "{note}";' if note else ""
-    return f"FoamFile\n{{\nversion 2.0; format ascii; class {kind}; object {name}; {noted}\n}}\n"
-
-
-def rows(values):
-    return "\n".join("(" + " ".join(f"{x:.9g}" for x in row) + ")" for row in values)
-
-
-def write_case(folder, kind="hexahedra", note=True, perturbation=0.2):
-    """A case in OpenFOAM's ascii format, its velocity linear; floor and sides are walls."""
-    shape = block(2, perturbation, kind)
-    mesh = build_mesh(shape, box_patches(shape))
-    poly = folder / "constant" / "polyMesh"
-    poly.mkdir(parents=True)
-    (folder / "system").mkdir()
-    (folder / "system" / "controlDict").write_text(header("dictionary", "controlDict"))
-    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
-    counts = f"nPoints:{mesh.n_points}  nCells:{mesh.n_cells}  nFaces:{len(faces)}"
-    lists = {
-        "points": ("vectorField", rows(mesh.points), mesh.n_points),
-        "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in faces), len(faces)),
-        "owner": ("labelList", "\n".join(map(str, mesh.owner)), len(faces)),
-        "neighbour": ("labelList", "\n".join(map(str, mesh.neighbour)), mesh.n_internal),
-    }
-    for name, (cls, body, count) in lists.items():
-        (poly / name).write_text(header(cls, name, counts if note else "") + f"{count}\n(\n{body}\n)\n")
-    patches, values = "", ""
-    for patch, first, last in zip(mesh.patches, mesh.patch_start[:-1], mesh.patch_start[1:], strict=True):
-        patches += (
-            f"    {patch.name} // a patch\n    {{ type {patch.type}; inGroups 1(some);"
-            f" nFaces {last - first}; startFace {mesh.n_internal + first}; }}\n"
-        )
-        at = mesh.boundary_centres[first:last] @ GRADIENT.T
-        values += f"{patch.name} {{ type fixedValue; value nonuniform List<vector> {len(at)}\n"
-        values += f"(\n{rows(at)}\n);\n}}\n"
-    (poly / "boundary").write_text(
-        header("polyBoundaryMesh", "boundary") + f"{len(mesh.patches)}\n(\n{patches})\n"
-    )
-    for time in ("0", "0.5", "1e1"):
-        (folder / time).mkdir()
-        cells = rows(mesh.centres @ GRADIENT.T)
-        (folder / time / "U").write_text(
-            header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
-            f"internalField nonuniform List<vector> {mesh.n_cells}\n(\n{cells}\n);\n"
-            f"boundaryField\n{{\n{values}}}\n"
-        )
-        (folder / time / "p").write_text(
-            header("volScalarField", "p") + "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\n"
-            "boundaryField { floor { type none; } sides { type none; } lid { type none; } }\n"
-        )
-    return mesh
 
 
 @pytest.fixture
@@ -96,6 +42,19 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
     assert np.array_equal(mesh.patch_start, written.patch_start)
     assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
     assert mesh.boundary_centres == pytest.approx(written.boundary_centres, abs=1e-6)
+    assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
+    assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("scalar", [32, 64])
+@pytest.mark.parametrize("kind", ["mixed", "polyhedra"])
+@pytest.mark.parametrize("compressed", [False, True])
+def test_binary_cases(label, scalar, kind, compressed, tmp_path):
+    written = write_case(tmp_path, kind, form=Format(True, label, scalar, compressed))
+    mesh, cells, boundary, _ = read_fields(tmp_path)
+    assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
+    assert np.array_equal(mesh.patch_start, written.patch_start)
     assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
     assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
 

@@ -130,9 +130,7 @@ def describe_file(path: Path, velocity: str = "U", division: Division | None = N
         lines.append(f"    {patch.name:20s} {faces:10d} faces  {patch.type}  about {centre}")
     lines += ["", "Arrays"]
     for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
-        lines += [
-            f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)
-        ]
+        lines += [f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)]
     return [*lines, "", note]
 
 
