@@ -79,6 +79,23 @@ def test_inverted_tetrahedra_are_counted():
     assert mesh.inverted == np.count_nonzero(volumes(mesh) <= 0.0) > 0
 
 
+def test_the_faces_of_a_cell_around_another_turn_outwards():
+    """A cell like a U, its middle outside it, and the cell that fills the U."""
+    outline = np.array([(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], dtype=float)
+    points = np.concatenate([np.column_stack([outline, np.full(8, z)]) for z in (0.0, 1.0)])
+
+    def prism(corners):
+        walls = [[a, b, b + 8, a + 8] for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
+        return [corners, [k + 8 for k in corners], *walls]
+
+    mesh = build_mesh(polyhedra(points, [prism(list(range(8))), prism([5, 4, 3, 6])]))
+    assert mesh.volumes == pytest.approx([7.0, 2.0])
+    assert mesh.n_internal == 3
+    assert np.sum(volumes(mesh)) == pytest.approx(9.0)
+    outward = mesh.boundary_centres - np.array([1.5, 1.5, 0.5])
+    assert np.all(np.einsum("fi,fi->f", outward, mesh.boundary_areas) > 0.0)
+
+
 def test_faces_of_six_vertices():
     angle = np.arange(6) * np.pi / 3.0
     ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(6)])

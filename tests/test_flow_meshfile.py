@@ -179,6 +179,20 @@ def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
+    """The points are said to lie in no compressed block instead of one."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    text = path.read_text()
+    assert "AQAAAACAAACIAgAA" in text
+    path.write_text(text.replace("AQAAAACAAACIAgAA", "AAAAAACAAACIAgAA"))
+    with pytest.raises(InputError, match=r"flow\.vtu: VTK"):
+        read_mesh_file(path)
+
+
 def test_inside_out_cells_are_refused(tmp_path):
     points, hexes = corners(1, 0.0)
     points[:, 2] *= -0.0

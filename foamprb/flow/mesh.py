@@ -41,6 +41,7 @@ CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _
 
 # Faces or cells handled at once: the temporary arrays then stay in the cache.
 _CHUNK = 1 << 15
+_MOST_TURNS = 5
 
 
 class PatchSurface(NamedTuple):
@@ -157,9 +158,32 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         first, second = (np.concatenate([ends[~apart], split]) for ends in (first, second))
         points, half, cell_points = _part_points(points, half, first, second, cell_point_start, cell_points)
     half, owner_half, neighbour_half = _order_faces(points, half, first, second)
-    order, patches, patch_start = _assign_patches(
-        points, grid.points.dtype, half, owner_half, surfaces, source
+    cells = (_int32(cell_point_start), _int32(cell_points))
+    for _ in range(_MOST_TURNS):
+        mesh, astray = _assemble(
+            points, grid.points.dtype, half, owner_half, neighbour_half, cells, surfaces, source
+        )
+        if len(astray) == 0:
+            return mesh
+        half = _turn_alike(half, owner_half, neighbour_half, astray)
+    raise InputError(
+        f"{source}: the faces of {len(astray)} cells do not turn alike (the first is cell {astray[0]}); "
+        "is the mesh damaged?"
     )
+
+
+def _assemble(
+    points: Floats,
+    dtype: Any,
+    half: _Halves,
+    owner_half: _Index,
+    neighbour_half: _Index,
+    cells: tuple[Ints, Ints],
+    surfaces: Sequence[PatchSurface] | None,
+    source: str,
+) -> tuple[Mesh, _Index]:
+    """The mesh, and cells of which two neighbouring faces turn against each other."""
+    order, patches, patch_start = _assign_patches(points, dtype, half, owner_half, surfaces, source)
     n_internal = len(neighbour_half)
     owner_half = np.concatenate([owner_half[:n_internal], owner_half[n_internal:][order]])
     face_start, face_points = _take_lists(half.start, half.points, owner_half)
@@ -170,19 +194,19 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     centres, volumes = _cell_geometry(face_centres, areas, owner, neighbour, half.n_cells)
     face_points, inverted = _choose_bases(points, centres, face_start, face_points, owner, neighbour)
 
-    cell_start, tets, neighbours, triangle_tet = _tetrahedra(
+    cell_start, tets, neighbours, triangle_tet, astray = _tetrahedra(
         half, face_start, face_points, owner_half, neighbour_half, len(points), source
     )
     triangles = tets[triangle_tet][:, 1:]
     counts = np.diff(face_start)[n_internal:] - 2
     triangle_face = np.repeat(np.arange(len(counts)), counts)
     boundary_patch = np.repeat(np.arange(len(patches)), np.diff(patch_start))
-    return Mesh(
+    mesh = Mesh(
         points=points,
         centres=centres,
         volumes=volumes,
-        cell_point_start=_int32(cell_point_start),
-        cell_points=_int32(cell_points),
+        cell_point_start=cells[0],
+        cell_points=cells[1],
         face_start=_int32(face_start),
         face_points=_int32(face_points),
         owner=_int32(owner),
@@ -202,6 +226,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         inverted=inverted,
         couplings=couplings,
     )
+    return mesh, astray
 
 
 class _Halves(NamedTuple):
@@ -553,8 +578,8 @@ def _tetrahedra(
     neighbour_half: _Index,
     n_points: int,
     source: str,
-) -> tuple[_Index, Ints, Ints, _Index]:
-    """Tetrahedra by cell with their neighbours, and the tetrahedron of each boundary triangle."""
+) -> tuple[_Index, Ints, Ints, _Index, _Index]:
+    """Tetrahedra by cell with their neighbours, the tetrahedron of each boundary triangle, cells astray."""
     sizes = np.diff(half.start)
     tet_start = _starts(sizes - 2)
     n_internal, n_tets = len(neighbour_half), int(tet_start[-1])
@@ -592,13 +617,19 @@ def _tetrahedra(
             triangle = boundary_start[at[inside:] - n_internal] + k
             neighbours[own[inside:], 0] = -1 - triangle
             triangle_tet[triangle] = own[inside:]
-    _join_within_cells(half, lists, tet_start, neighbours, source)
+    astray = _join_within_cells(half, lists, tet_start, neighbours, source)
     cell_start = tet_start[np.searchsorted(half.cell, np.arange(half.n_cells + 1))]
-    return cell_start, tets, neighbours, triangle_tet
+    return cell_start, tets, neighbours, triangle_tet, astray
 
 
-def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours: Ints, source: str) -> None:
-    """Join the tetrahedra of a cell across the edges at which two of its faces meet."""
+def _join_within_cells(
+    half: _Halves, lists: Ints, tet_start: _Index, neighbours: Ints, source: str
+) -> _Index:
+    """Join the tetrahedra of a cell across the edges at which two of its faces meet.
+
+    Returns the cells of which two faces run along a common edge in the same direction.
+    """
+    astray = []
     first_half = np.searchsorted(half.cell, np.arange(half.n_cells + 1))
     flat = neighbours.reshape(-1)
     for low in range(0, half.n_cells, _CHUNK):
@@ -618,7 +649,7 @@ def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours
         edge = (np.minimum(a, b) << 32) | np.maximum(a, b)
         # Stable: equal edges stay in the order of the cells, so that mates become consecutive.
         order = np.argsort(edge, kind="stable")
-        edge, cell, slot = edge[order], cell[order], slot[order]
+        edge, cell, slot, ahead = edge[order], cell[order], slot[order], (a < b)[order]
         fresh = np.ones(len(edge) + 1, dtype=bool)
         fresh[1:-1] = (edge[1:] != edge[:-1]) | (cell[1:] != cell[:-1])
         bad = np.diff(np.flatnonzero(fresh)) != 2
@@ -630,6 +661,52 @@ def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours
             )
         flat[slot[0::2]] = slot[1::2] // 4
         flat[slot[1::2]] = slot[0::2] // 4
+        astray.append(np.unique(cell[0::2][ahead[0::2] == ahead[1::2]]))
+    return np.concatenate(astray)
+
+
+def _turn_alike(half: _Halves, owner_half: _Index, neighbour_half: _Index, cells: _Index) -> _Halves:
+    """Turn those faces of cells that run along an edge in the same direction as their neighbours there.
+
+    Which way a face turns has been judged by where the middle of the cell lies, which fails for single faces
+    of cells far from convex.
+    """
+    mate = np.full(len(half.cell), -1)
+    mate[owner_half[: len(neighbour_half)]] = neighbour_half
+    mate[neighbour_half] = owner_half[: len(neighbour_half)]
+    lists = half.points.copy()
+    first = np.searchsorted(half.cell, cells)
+    last = np.searchsorted(half.cell, cells, side="right")
+    for begin, end in zip(first.tolist(), last.tolist(), strict=True):
+        faces = [lists[half.start[h] : half.start[h + 1]].tolist() for h in range(begin, end)]
+        for h in np.flatnonzero(_against(faces)).tolist():
+            for side in (begin + h, int(mate[begin + h])):
+                if side >= 0:
+                    at = slice(half.start[side], half.start[side + 1])
+                    lists[at] = lists[at][::-1].copy()
+    return half._replace(points=lists)
+
+
+def _against(faces: list[list[int]]) -> _Mask:
+    """Which faces of a closed cell turn against the others, who are more."""
+    edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for k, face in enumerate(faces):
+        for a, b in zip(face, face[1:] + face[:1], strict=True):
+            edges.setdefault((min(a, b), max(a, b)), []).append((k, 1 if a < b else -1))
+    beside: list[list[tuple[int, int]]] = [[] for _ in faces]
+    for (k, way), (j, other) in (pair for pair in edges.values() if len(pair) == 2):
+        beside[k].append((j, -way * other))
+        beside[j].append((k, -way * other))
+    senses = np.zeros(len(faces))
+    senses[0], waiting = 1, [0]
+    while waiting:
+        k = waiting.pop()
+        for j, relation in beside[k]:
+            if senses[j] == 0:
+                senses[j] = senses[k] * relation
+                waiting.append(j)
+    against: _Mask = senses < 0 if senses.sum() >= 0 else senses > 0
+    return against
 
 
 def _inward_normals(points: Floats, triangles: Ints, areas: Floats) -> Floats:

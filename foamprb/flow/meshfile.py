@@ -11,7 +11,10 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import os
 import re
+import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +29,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.openfoam import listed, pick_time, require_volumes, spoken
 from foamprb.flow.reconstruct import Reconstruction, from_points
+from foamprb.flow.trial import require_survival
 from foamprb.flow.walk import MeshFlow
 
 __all__ = ["VTK_SUFFIXES", "Division", "describe_file", "read_mesh_file"]
@@ -158,7 +162,8 @@ def _read_mesh(
 def _read_vtk(path: Path, time: float | str) -> Any:
     if path.suffix == ".series":
         path = _of_series(path, time)
-    with spoken() as said:
+    require_survival(path)
+    with spoken() as said, _quiet(path):
         try:
             reader = pyvista.get_reader(path)
             times = list(getattr(reader, "time_values", None) or [])
@@ -221,6 +226,23 @@ def _require_whole(path: Path) -> None:
         raise InputError(
             f"{path}: {words[0]} has {found} values, not {expected}; the file is broken or cut short."
         )
+
+
+@contextlib.contextmanager
+def _quiet(path: Path) -> Iterator[None]:
+    """Keep the HDF5 library from printing what goes wrong, which it does beneath Python."""
+    if path.suffix != ".vtkhdf":
+        yield
+        return
+    sys.stderr.flush()
+    kept = os.dup(2)
+    with open(os.devnull, "wb") as nothing:  # noqa: PTH123
+        os.dup2(nothing.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
 
 
 def _of_series(path: Path, time: float | str) -> Path:

@@ -8,6 +8,7 @@ what it passes over is checked.
 from __future__ import annotations
 
 import gzip
+import logging
 import re
 import zlib
 from collections.abc import Iterator, Sequence
@@ -314,6 +315,17 @@ class Spoken(NamedTuple):
     warnings: list[str]
 
 
+class _Records(logging.Handler):
+    """Keeps the errors in the log."""
+
+    def __init__(self, errors: list[str]) -> None:
+        super().__init__(logging.ERROR)
+        self._errors = errors
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._errors.append(" ".join(record.getMessage().split()))
+
+
 @contextmanager
 def spoken() -> Iterator[Spoken]:
     """Collect what VTK would print: lists that are filled when the block ends."""
@@ -321,9 +333,13 @@ def spoken() -> Iterator[Spoken]:
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(window)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    # Of some of its errors pyvista makes records of the log.
+    records = _Records(said.errors)
+    logging.getLogger().addHandler(records)
     try:
         yield said
     finally:
+        logging.getLogger().removeHandler(records)
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_INFO)
         vtkOutputWindow.SetInstance(before)
         text: Any = window.GetOutput()
