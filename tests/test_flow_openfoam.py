@@ -228,11 +228,14 @@ BREAKAGES = {
     "U without a patch": (rewrite("1e1/U", "lid", "lit"), "no values could be read for patch lid"),
     "owner out of range": (
         rewrite(POLY + "owner", r"\n7\n", "\n9999\n"),
-        "header says nCells 8, but .* has 10000",
+        "owner: face 19 belongs to cell 9999, but there are 8 cells",
     ),
     "owner cut short": (cut(POLY + "owner"), "owner"),
     "neighbour cut short": (cut(POLY + "neighbour"), "neighbour"),
-    "neighbour out of range": (rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"), "has 78"),
+    "neighbour out of range": (
+        rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
+        "belongs to cell 77, but there are 8",
+    ),
     "faces cut short": (cut(POLY + "faces"), "faces"),
     "points cut short": (cut(POLY + "points"), "points"),
     "no points": (remove(POLY + "points"), "points"),
@@ -270,8 +273,27 @@ def test_a_broken_case_gives_its_one_message(name, case, capfd):
 def test_a_damaged_owner_is_found_without_the_note(tmp_path):
     write_case(tmp_path, note=False)
     edit(tmp_path / "constant" / "polyMesh" / "owner", r"\n7\n", "\n999\n")
-    with pytest.raises(InputError, match=r"VTK's OpenFOAM reader says: Number of cells"):
+    with pytest.raises(InputError, match="owner: face 19 belongs to cell 999, but there are 36"):
         read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("name", ["owner", "neighbour"])
+def test_a_label_of_some_billions_costs_no_memory(name, label, tmp_path):
+    write_case(tmp_path, form=Format(True, label), note=False)
+    path = tmp_path / POLY / name
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1
+    path.write_bytes(data[: at + 3] + b"\x70" + data[at + 4 :])
+    with pytest.raises(InputError, match=f"{name}: face 0 belongs to cell 1879048"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("value", ["1e35", "1e300"])
+def test_numbers_beyond_any_length_are_refused(value, case):
+    edit(case / POLY / "points", r"\n\(0 0 0\)", f"\n({value} 0 0)")
+    with pytest.raises(InputError, match="1 of 27 points are not finite numbers below 1e"):
+        read_case(case)
 
 
 @pytest.mark.parametrize(

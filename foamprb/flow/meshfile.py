@@ -27,7 +27,7 @@ from scipy.sparse import csgraph
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
-from foamprb.flow.openfoam import listed, pick_time, require_volumes, spoken
+from foamprb.flow.openfoam import listed, pick_time, require_numbers, require_volumes, spoken
 from foamprb.flow.reconstruct import Reconstruction, from_points
 from foamprb.flow.trial import require_survival
 from foamprb.flow.walk import MeshFlow
@@ -147,6 +147,7 @@ def _read_mesh(
     data = _read_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
     whole, named = _parts(data, path)
     grid = _solid_cells(whole, path)
+    require_numbers(np.asarray(grid.points, dtype=np.float64), path, "points")
     surfaces = [PatchSurface(name, _type(surface, velocity), surface) for name, surface in named]
     if not surfaces:
         mesh, note = _divided(grid, whole, division or Division(), path)
@@ -417,7 +418,7 @@ def _vectors(values: Any, name: str, path: Path) -> Floats:
     vectors = np.asarray(values, dtype=np.float64)
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InputError(f"{path}: array {name} has shape {vectors.shape}, but a velocity has 3 components.")
-    _require_finite(vectors, name, path)
+    require_numbers(vectors, path, f"values of {name}")
     return vectors
 
 
@@ -428,11 +429,5 @@ def _gradients(grid: Any, name: str, path: Path) -> Floats:
     values = np.asarray(grid.cell_data[name], dtype=np.float64)
     if values.shape != (grid.n_cells, 9):
         raise InputError(f"{path}: array {name} has shape {values.shape}, but a gradient has 9 components.")
-    _require_finite(values, name, path)
+    require_numbers(values, path, f"values of {name}")
     return values.reshape(-1, 3, 3).transpose(0, 2, 1)
-
-
-def _require_finite(values: Floats, name: str, path: Path) -> None:
-    bad = np.count_nonzero(~np.isfinite(values))
-    if bad:
-        raise InputError(f"{path}: array {name} has {bad} values that are no number.")

@@ -19,6 +19,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pyvista
+from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
@@ -40,6 +41,7 @@ __all__ = [
     "pick_time",
     "read_case",
     "regions",
+    "require_numbers",
     "require_volumes",
     "select_time",
     "spoken",
@@ -48,6 +50,9 @@ __all__ = [
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _HEADER_BYTES = 4096
+_LIST = re.compile(rb"\n\s*(\d+)\s*\(")
+LARGEST = 1e30
+"""Larger numbers, in m or m/s, are none: products of a few of them must stay finite."""
 _SPOKEN = re.compile(
     r"^(ERROR|Warning|Generic Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE
 )
@@ -180,6 +185,7 @@ def describe(case: Path, region: str = "") -> CaseInfo:
     times = tuple(TimeInfo(name, _fields(case / name / region)) for name in names)
     folder = _mesh_folder(case, names[-1] if names else None, region)
     patches = _read_boundary(case, folder)
+    _require_labels(folder, _noted_counts(folder))
     blocks, said = _read_blocks(case, names[-1] if names else None, None, region, patches=False)
     _raise_spoken(case, said)
     grid = blocks["internalMesh"]
@@ -258,6 +264,7 @@ def read_fields(
     folder = _mesh_folder(case, name, region)
     patches = _read_boundary(case, folder)
     noted = _noted_counts(folder)
+    _require_labels(folder, noted)
     blocks, said = _read_blocks(case, name, velocity, region, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
@@ -281,9 +288,26 @@ def read_fields(
             values.append(np.zeros((patch.faces, 3)))
         else:
             values.append(_values(block, velocity, path, f"patch {patch.name}"))
+    require_numbers(np.asarray(grid.points, dtype=np.float64), folder / "points", "points")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
     return mesh, cells, np.concatenate([np.zeros((0, 3)), *values]), name
+
+
+def require_numbers(values: Floats, source: Path, what: str) -> None:
+    """Refuse rows that are not finite, or larger than any length or velocity.
+
+    Raises
+    ------
+    InputError
+        How many of them, and the first.
+    """
+    bad = np.flatnonzero(~(np.abs(values) <= LARGEST).all(axis=1))
+    if len(bad):
+        raise InputError(
+            f"{source}: {len(bad)} of {len(values)} {what} are not finite numbers below {LARGEST:g}; the "
+            f"first is number {bad[0]}."
+        )
 
 
 def require_volumes(mesh: Mesh, source: Path) -> None:
@@ -292,13 +316,8 @@ def require_volumes(mesh: Mesh, source: Path) -> None:
     Raises
     ------
     InputError
-        A point is no number, or cells have no volume or are inside out.
+        Cells have no volume or are inside out.
     """
-    bad = np.flatnonzero(~np.isfinite(mesh.points).all(axis=1))
-    if len(bad):
-        raise InputError(
-            f"{source}: {len(bad)} of {mesh.n_points} points are not finite numbers; the first is {bad[0]}."
-        )
     flat = np.flatnonzero(~(mesh.volumes > 0.0))
     if len(flat):
         x = "({:g} {:g} {:g})".format(*mesh.centres[flat[0]])
@@ -416,11 +435,7 @@ def _values(block: Any, field: str, path: Path, where: str, components: int = 3)
     shape = (block.n_cells, components)
     if values.shape != shape:
         raise InputError(f"{path}: {where} have values of shape {values.shape}, not {shape}.")
-    bad = ~np.isfinite(values).all(axis=1)
-    if bad.any():
-        raise InputError(
-            f"{path}: {np.count_nonzero(bad)} of {len(values)} values of {where} are not finite numbers."
-        )
+    require_numbers(values, path, f"values of {where}")
     return values
 
 
@@ -527,6 +542,44 @@ def _noted_counts(folder: Path) -> dict[str, int]:
             raise InputError(f"{folder / name}: no such file.")
     note = _header(_shown(folder / "owner")).get("note", "")
     return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
+
+
+def _require_labels(folder: Path, noted: dict[str, int]) -> None:
+    """Refuse owners and neighbours that cannot be cells: VTK would make room for as many."""
+    faces = 0
+    for name in ("owner", "neighbour"):
+        path = _shown(folder / name)
+        labels = _labels(path)
+        faces = max(faces, 0 if labels is None else len(labels))
+        if labels is None or len(labels) == 0:
+            continue
+        # There are fewer cells than faces in any mesh.
+        limit = noted.get("nCells", faces)
+        wrong = np.flatnonzero((labels < 0) | (labels >= limit))
+        if len(wrong):
+            raise InputError(
+                f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {limit} cells."
+            )
+
+
+def _labels(path: Path) -> NDArray[np.int64] | None:
+    """A list of labels, None if it is not in the form that OpenFOAM writes."""
+    data = _read_bytes(path)
+    header = _header(path)
+    match = _LIST.search(data, max(data.find(b"}"), 0))
+    if match is None:
+        return None
+    count, body = int(match[1]), data[match.end() :]
+    if header.get("format") == "binary":
+        size = 8 if "label=64" in header.get("arch", "") else 4
+        if len(body) < count * size:
+            return None
+        return np.frombuffer(body, f"<i{size}", count).astype(np.int64)
+    words = body[: body.find(b")")].split()
+    try:
+        return np.array(words, dtype=np.int64) if len(words) == count else None
+    except (ValueError, OverflowError):
+        return None
 
 
 def _header(path: Path) -> dict[str, str]:
