@@ -8,7 +8,7 @@ import shutil
 
 import numpy as np
 import pytest
-from test_flow_openfoam import GRADIENT, header, rows, write_case
+from foam_writer import GRADIENT, header, rows, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
