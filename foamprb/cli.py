@@ -15,9 +15,10 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 import foamprb
-from foamprb.errors import InputError, RunStopped, suggestion
+from foamprb.errors import InputError, RankError, RunStopped, suggestion
 
 if TYPE_CHECKING:
+    from foamprb.parallel import Root
     from foamprb.settings import StartFrom
 
 _COMMANDS = ("run", "info", "validate")
@@ -64,7 +65,12 @@ def _parser() -> argparse.ArgumentParser:
         "--resume", action="store_true", help="go on from the last checkpoint, if there is one"
     )
     start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
-    run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
+    run.add_argument(
+        "--threads", type=int, metavar="N", help="number of threads, of each process [all processors]"
+    )
+    run.add_argument(
+        "--parallel", action="store_true", help="share the particles among the processes of mpirun"
+    )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
         "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
@@ -77,12 +83,13 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(arguments: argparse.Namespace) -> int:
+def _run(arguments: argparse.Namespace, team: Root | None) -> int:
     from foamprb.run import describe, execute, prepare
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads)
+    threads = arguments.threads or (team.threads if team else None)
+    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, threads)
     describe(job)
     if arguments.dry_run:
         steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)
@@ -94,13 +101,15 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"
     with _stopped_by_signals() as received:
+        elsewhere = team.signals if team else ()
         try:
-            execute(job, start_from, stop=lambda: bool(received))
+            execute(job, start_from, stop=lambda: bool(received or elsewhere), team=team)
         except RunStopped as stopped:
-            if not received:
+            signals: list[int] = [*received, *elsewhere]
+            if not signals:
                 raise
             print(f"--> foamprb {stopped}", file=sys.stderr)
-            return 128 + received[0]
+            return 128 + signals[0]
     return 0
 
 
@@ -130,14 +139,14 @@ def _stopped_by_signals() -> Iterator[list[int]]:
         restore()
 
 
-def _info(arguments: argparse.Namespace) -> int:
+def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.flow.openfoam import describe
 
     print("\n".join(describe(arguments.case).lines()))
     return 0
 
 
-def _validate(arguments: argparse.Namespace) -> int:
+def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
 
@@ -174,8 +183,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
-    debug = "--debug" in words
     _log_to_stdout()
+    return _run_together(words) if "--parallel" in words else _answer(words)
+
+
+def _answer(words: Sequence[str], team: Root | None = None) -> int:
+    """Do what the words of the command line say."""
     try:
         command = next((word for word in words if not word.startswith("-")), None)
         if command is not None and words[0] == command and command not in _COMMANDS:
@@ -184,20 +197,46 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if parsed.command is None:
             _parser().print_help()
             return 1
-        commands: dict[str, Callable[[argparse.Namespace], int]] = {
+        commands: dict[str, Callable[[argparse.Namespace, Root | None], int]] = {
             "run": _run,
             "info": _info,
             "validate": _validate,
         }
-        return commands[parsed.command](parsed)
-    except (InputError, RunStopped, OSError) as error:
-        if debug:
+        return commands[parsed.command](parsed, team)
+    except (InputError, RunStopped, RankError, OSError) as error:
+        if "--debug" in words:
             raise
         print(f"--> foamprb Error : {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
         return 130
+
+
+def _run_together(words: Sequence[str]) -> int:
+    """Do what the words of the command line say with the other processes of ``mpirun``, if there are any."""
+    from foamprb.parallel import Rank, connect, is_first
+
+    try:
+        rank = connect()
+    except InputError as error:
+        if is_first():
+            print(f"--> foamprb Error : {error}", file=sys.stderr)
+        return 1
+    if rank is None:
+        return _answer(words)
+    if isinstance(rank, Rank):
+        logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
+        with _stopped_by_signals() as received:
+            return rank.serve(received)
+    status = 1
+    try:
+        status = _answer(words, rank)
+    except SystemExit as left:
+        status = 1 if left.code else 0
+    finally:
+        rank.dismiss(status)
+    return status
 
 
 if __name__ == "__main__":

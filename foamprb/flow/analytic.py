@@ -156,6 +156,9 @@ class AnalyticFlow:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """There is nothing large."""
+
     def locate(self, points: Floats) -> Ints:
         """0 for each point of shape (n, 3) in the flow, −1 for one outside."""
         inside = self._inside(points)
