@@ -15,6 +15,7 @@ import logging
 import os
 import pickle
 import sys
+import time
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -42,6 +43,8 @@ _UNEVEN = 1.1
 """How much longer than with even shares a step may take before particles change hands."""
 _RECORD = np.dtype([("id", "i8"), *((name, v.dtype, v.shape) for name, v in VARIABLES.items())])
 _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
+_LONGEST_NAP = 1e-3
+"""Seconds between two looks at whether the others have come, when that takes its time."""
 _TOGETHER = ("make", "spread", "free", "begin", "exchange", "gather")
 """Orders in the course of which the processes wait for each other: one that fails there takes all down."""
 
@@ -187,10 +190,10 @@ class Rank:
                     array[records["id"]] = records[name]
         self._fresh = _live(self.particles)
 
-    def write(self, folder: Path, time: float, view: View) -> Piece | None:
+    def write(self, folder: Path, at: float, view: View) -> Piece | None:
         """Write the particles; nothing if there are none, but for the root."""
         flow = _Samples(self._tracker.kernels["sample"], self._flow)
-        snapshot = view.snapshot(time, self.particles, flow, self.ids)
+        snapshot = view.snapshot(at, self.particles, flow, self.ids)
         if self.number and not len(snapshot.points):
             return None
         file = folder / f"{self.number}.vtp"
@@ -206,11 +209,21 @@ class Rank:
             Those that this process has received, which grow.
         """
         while True:
+            self.meet()
             name, arguments = self.comm.bcast(None)
             if name == "leave":
                 self.leave()
                 return int(arguments[0])
-            self.comm.gather(self.carry_out(name, arguments, signals))
+            answer = self.carry_out(name, arguments, signals)
+            self.meet()
+            self.comm.gather(answer)
+
+    def meet(self) -> None:
+        """Wait for all processes without keeping a processor busy, as MPI itself would."""
+        request, nap = self.comm.Ibarrier(), 1e-6
+        while not request.Test():
+            time.sleep(nap)
+            nap = min(2.0 * nap, _LONGEST_NAP)
 
     def leave(self) -> None:
         """Give back what was shared, and end MPI."""
@@ -259,8 +272,11 @@ class Root:
             If one of them could not.
         """
         self._amid = True
+        self.rank.meet()
         self.rank.comm.bcast((name, arguments))
-        answers: list[Answer] = self.rank.comm.gather(self._do(name, arguments))
+        answer = self._do(name, arguments)
+        self.rank.meet()
+        answers: list[Answer] = self.rank.comm.gather(answer)
         self._amid = False
         self.signals += [number for answer in answers for number in answer.signals]
         for answer in answers:
@@ -278,6 +294,7 @@ class Root:
         if self._amid:
             # They wait for something else than this, and so can only be stopped.
             self.rank.comm.Abort(status)
+        self.rank.meet()
         self.rank.comm.bcast(("leave", (status,)))
         self.rank.leave()
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from pyvista.core.utilities.reader import BaseReader, PointCellDataSelection
+from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
 
 
 class XMLPPolyDataReader(BaseReader, PointCellDataSelection):  # type: ignore[misc]
     """Reads ``.pvtp`` files by VTK's reader of that name."""
 
-    _vtk_module_name = "vtkIOXML"
-    _vtk_class_name = "vtkXMLPPolyDataReader"
+    _vtk_class = vtkXMLPPolyDataReader
