@@ -151,9 +151,9 @@ class Rank:
         counts = np.bincount(self.particles.status, minlength=len(Status))
         return Share(counts, longest_semi_axis(self.particles))
 
-    def look(self, flow: Any) -> None:
+    def look(self, flow: bytes) -> None:
         """Take over what the flow's kernels read."""
-        self._flow = self.windows.find(flow)
+        self._flow = self.windows.find(pickle.loads(flow))
 
     def exchange(self, plan: NDArray[np.int64]) -> None:
         """Give active particles away and receive others: ``plan[i, j]`` from process i to j."""
@@ -259,7 +259,7 @@ class Root:
         self.signals: list[int] = []
         self._amid = False
         self._published = Publisher(rank.windows, self.order)
-        self._flow: Any = None
+        self._seen = b""
         self._shares: list[Share] = []
         self._stale = False
 
@@ -317,6 +317,7 @@ class Root:
 
     def write(self, series: Series, cloud: Cloud, view: View) -> None:
         """Let every process write its particles, and list the pieces."""
+        cloud.flow.load(cloud.time, cloud.time)
         self._show(cloud.flow_arrays())
         stem = series.next(cloud.time)
         pieces = [p for p in self.order("write", stem, cloud.time, view) if p is not None]
@@ -352,9 +353,10 @@ class Root:
             self._stale = False
 
     def _show(self, flow: Any) -> None:
-        if flow is not self._flow:
-            self.order("look", self._published.publish(flow))
-            self._flow = flow
+        seen = pickle.dumps(self._published.publish(flow))
+        if seen != self._seen:
+            self.order("look", seen)
+            self._seen = seen
 
 
 def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import math
+import re
 import time as clock
 import zlib
 from collections.abc import Callable, Iterator
@@ -26,22 +28,27 @@ from foamprb.cloud.injection import release
 from foamprb.cloud.measures import context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
+from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
+from foamprb.flow.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
 from foamprb.flow.openfoam import read_case
+from foamprb.flow.series import read_series
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series
 from foamprb.positions import read_positions
 from foamprb.restart import Fingerprint, fingerprint, restore, save
-from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patches, read_settings
+from foamprb.settings import InjectionSettings, Settings, Solution, StartFrom, match_patches, read_settings
 from foamprb.team import Serial, Team, View
 
 log = logging.getLogger("foamprb")
 
-_CHUNK_OF_WORK = 1_000_000
+_CHUNK_OF_WORK = 10_000_000
 _MAX_LISTED_FAILURES = 10
+TIME_TOLERANCE = 1e-9
+"""Relative error of a time that has been written and read."""
 _HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
 FATES = "fates.csv"
@@ -64,6 +71,11 @@ class Job:
         return self.settings.case / "postProcessing" / self.settings.name
 
     @property
+    def steps(self) -> int:
+        """Number of steps from the start to the end of the run."""
+        return _steps(self.settings.solution, self.cloud.start)
+
+    @property
     def patch_names(self) -> tuple[str, ...]:
         """Names of the flow's patches, in the order of the codes in ``Particles.patch``."""
         return tuple(patch.name for patch in self.cloud.flow.patches)
@@ -71,9 +83,10 @@ class Job:
 
 def prepare(
     case: Path | str,
-    time: float | str = "latestTime",
+    time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
+    decomposed: bool = False,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -82,11 +95,14 @@ def prepare(
     case
         An OpenFOAM case folder.
     time
-        Time of the flow: a value, or ``"latestTime"``.
+        Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
+        :func:`foamprb.flow.series.select_times` has them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
+    decomposed
+        Read the flow from the processor folders even if there is one beside them.
 
     Raises
     ------
@@ -96,10 +112,25 @@ def prepare(
     case = Path(case)
     settings = read_settings(case, dictionary)
     log.info("Reading flow of case %s", case)
-    flow = read_case(case, time)
+    flow = _read_flow(settings, time, decomposed or is_only_decomposed(case))
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)
+
+
+def _read_flow(settings: Settings, time: float | str | None, decomposed: bool) -> Flow:
+    case, solution = settings.case, settings.solution
+    if solution.transient:
+        times = None if time is None else str(time)
+        read = read_decomposed_series if decomposed else read_series
+        return read(case, times, solution.period)
+    if isinstance(time, str) and re.search(r"[:,\s]", time):
+        raise InputError(
+            f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
+            "transient yes, or select one time."
+        )
+    read_one = read_decomposed_case if decomposed else read_case
+    return read_one(case, "latestTime" if time is None else time)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
@@ -118,6 +149,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         float(settings.pressure_gradient),
         settings.virtual_mass,
     )
+    start = _start(settings, flow)
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -126,7 +158,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
-        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, 0.0))
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, start))
     models = Models(
         settings.traction,
         settings.drag,
@@ -137,7 +169,14 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     )
     try:
         cloud = Cloud(
-            particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
+            particles,
+            flow,
+            medium,
+            interactions,
+            solution.deltaT,
+            models,
+            threads or available_threads(),
+            start=start,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -147,6 +186,35 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions)
+
+
+def _start(settings: Settings, flow: Flow) -> float:
+    """The first time of the flow, s, if it has one; raise InputError if the run goes beyond the flow."""
+    solution, (first, last) = settings.solution, flow.span
+    start = first if math.isfinite(first) else 0.0
+    if solution.endTime <= start:
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}. Allowed: after {start:g}, the first "
+            "time of the flow."
+        )
+    end = start + _steps(solution, start) * solution.deltaT
+    if end > last + TIME_TOLERANCE * abs(last):
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
+            f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."
+        )
+    for injection in settings.injections:
+        if injection.model.SOI < start:  # noqa: SIM300
+            raise InputError(
+                f"{settings.file}: injection model {injection.name}: SOI is {injection.model.SOI:g}. "
+                f"Allowed: from {start:g} on, the first time of the flow."
+            )
+    return start
+
+
+def _steps(solution: Solution, start: float) -> int:
+    """Number of steps from the start to the end of the run."""
+    return max(1, round((solution.endTime - start) / solution.deltaT))
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -277,7 +345,7 @@ def _execute(
     job: Job, start_from: StartFrom | None, stop: Callable[[], bool], team: Team
 ) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
-    last = max(1, round(solution.endTime / solution.deltaT))
+    last = job.steps
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
     marks = fingerprint(job.settings, cloud)
     checkpoints = Checkpoints(job.folder / CHECKPOINTS)
@@ -285,9 +353,11 @@ def _execute(
     started, cpu = clock.perf_counter(), clock.process_time()
     reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
     failing = _failing(job)
+    if not cloud.compiled:
+        log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
     team.take(cloud)
     log.info("\nStarting time loop\n")
-    with _progress(solution.endTime) as show:
+    with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
             reached = _advance_to(job, target, show, stop)
@@ -377,17 +447,17 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
 
 
 @contextmanager
-def _progress(end: float) -> Iterator[Callable[[float], None]]:
+def _progress(start: float, end: float) -> Iterator[Callable[[float], None]]:
     """A progress bar on a terminal, nothing elsewhere."""
     console = Console(stderr=True)
     columns = (
-        TextColumn("Time = {task.completed:g} of {task.total:g}"),
+        TextColumn("{task.completed:g} of {task.total:g} s"),
         BarColumn(None),
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("", total=end)
-        yield lambda t: progress.update(task, completed=min(t, end))
+        task = progress.add_task("", total=end - start)
+        yield lambda t: progress.update(task, completed=min(t, end) - start)
 
 
 def view(job: Job) -> View:

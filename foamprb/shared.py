@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -108,6 +109,7 @@ class Publisher:
         """Arrays from which the windows were filled."""
         self._own: dict[tuple[int, tuple[int, ...], str], int] = {}
         """Windows that take the place of their sources, by where they are."""
+        self._small = b""
 
     @property
     def size(self) -> int:
@@ -116,7 +118,7 @@ class Publisher:
 
     def move(self, array: Array) -> Array:
         """Put an array that will not change into shared memory for good."""
-        if array.nbytes < _SMALLEST:
+        if not _is_large(array):
             return array
         key = self._fill_new(array)
         moved = self._windows.arrays[key]
@@ -126,18 +128,22 @@ class Publisher:
     def publish(self, tree: Any) -> Any:
         """Make the arrays in a tuple known to all processes; those of the call before are forgotten.
 
+        What :meth:`foamprb.flow.base.Flow.arrays` says of arrays that change is relied upon.
+
         Returns
         -------
         The tuple with a :class:`Place` for each large array.
         """
         used: set[int] = set()
+        small = pickle.dumps(_map(tree, lambda leaf: None if _is_large(leaf) else leaf))
+        changed, self._small = small != self._small, small
 
         def place(leaf: Any) -> Any:
-            if not isinstance(leaf, np.ndarray) or leaf.nbytes < _SMALLEST:
+            if not _is_large(leaf):
                 return leaf
             key = self._own.get(_where(leaf))
             if key is None:
-                key = self._update(leaf)
+                key = self._update(leaf, changed)
                 used.add(key)
             return Place(key)
 
@@ -147,11 +153,11 @@ class Publisher:
             self._order("free", key)
         return placed
 
-    def _update(self, array: Array) -> int:
+    def _update(self, array: Array, changed: bool) -> int:
         for key, source in self._sources.items():
             if _where(source) == _where(array):
                 shared = self._windows.arrays[key]
-                if not np.array_equal(shared.view(np.uint8), array.view(np.uint8)):
+                if changed and not np.array_equal(shared.view(np.uint8), array.view(np.uint8)):
                     shared[...] = array
                     self._order("spread", key)
                 return key
@@ -165,6 +171,10 @@ class Publisher:
         self._windows.arrays[key][...] = array
         self._order("spread", key)
         return key
+
+
+def _is_large(leaf: Any) -> bool:
+    return isinstance(leaf, np.ndarray) and leaf.nbytes >= _SMALLEST
 
 
 def _where(array: Array) -> tuple[int, tuple[int, ...], str]:

@@ -29,12 +29,12 @@ from foamprb.cloud.adaptive import (
     track_adaptive,
 )
 from foamprb.cloud.advance import STAGES, track_block
-from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import link
+from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
@@ -42,6 +42,8 @@ from foamprb.flow.base import Flow
 __all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
 
 _REACH_MARGIN = 2.0
+_ROUND_OFF = 1e-6
+"""Share of a step by which it may end after the time until which the flow is ready."""
 
 
 def available_threads() -> int:
@@ -144,6 +146,11 @@ class Tracker:
         # Another process compiles for itself.
         return Tracker, self._made_of
 
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled already."""
+        return is_compiled(self._track)
+
     def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
         """Carry particles from step ``step`` through ``steps`` steps, in place.
 
@@ -162,12 +169,16 @@ class Tracker:
         blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
-            block = np.empty(self._rows * LANES)
-            clearance = np.empty(LANES)
+            scratch = Scratch(
+                np.empty(self._rows * LANES),
+                np.empty(LANES),
+                np.empty(LANES, dtype=np.int64),
+                np.empty((9, 10)),
+            )
             return sum(
                 self._track(
                     flow, self._table, self._medium, p, members,
-                    step, steps, self._dt, self._start, block, clearance, *self._options,
+                    step, steps, self._dt, self._start, scratch, *self._options,
                 )
                 for members in share
             )  # fmt: skip
@@ -268,6 +279,7 @@ class Cloud:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         _check(self.models)
+        _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
@@ -284,7 +296,11 @@ class Cloud:
             tense=tense,
         )
         self.crew: Crew = _Threads(self)
-        self._arrays: tuple[float, Any] = (-1.0, None)
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
+        return self.tracker.compiled
 
     @property
     def time(self) -> float:
@@ -295,7 +311,20 @@ class Cloud:
         """Take ``steps`` time steps, whatever becomes of single particles.
 
         Where others than this process' own threads carry the particles, :meth:`gather` brings the result.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
         """
+        last = self.step + steps
+        while self.step < last:
+            until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+            ready = (until - self.time) / self.dt + _ROUND_OFF
+            self._advance(last - self.step if ready > last - self.step else max(1, int(ready)))
+
+    def _advance(self, steps: int) -> None:
+        """Take steps for which the flow is ready."""
         self._grow_reach()
         self.recovered += self.crew.advance(self.flow_arrays(), steps)
         self.step += steps
@@ -303,7 +332,6 @@ class Cloud:
     def hand_over(self, crew: Crew) -> None:
         """Let others carry the particles, which know them and the flow."""
         self.crew = crew
-        self._arrays = (-1.0, None)
 
     def counts(self) -> dict[Status, int]:
         """Number of particles of each status, whether they were gathered or not."""
@@ -325,12 +353,8 @@ class Cloud:
 
     def flow_arrays(self) -> Any:
         """What the flow's kernels read, with walls listed to :attr:`reach`."""
-        if self._arrays[0] != self.reach:
-            touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
-            if self.models.touching == "centre":
-                touchable = []
-            self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
-        return self._arrays[1]
+        touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+        return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
 
     def _grow_reach(self) -> None:
         """Let the reach be well beyond the longest particle."""
@@ -353,6 +377,15 @@ def _check(models: Models) -> None:
 def _refuse_tension(models: Models) -> None:
     if models.integrator == "paper":
         raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
+
+
+def _refuse_early(p: Particles, start: float) -> None:
+    early = np.flatnonzero((p.status == Status.PENDING) & (p.t0 < start))
+    if len(early):
+        raise InputError(
+            f"{len(early)} of {p.size} particles would appear before the start of the run at {start:g} s, "
+            f"the first at {p.t0[early].min():g} s"
+        )
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:
