@@ -25,7 +25,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
 from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
-from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
+from foamprb.cloud.measures import context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.compile import cache_directory
@@ -35,10 +35,11 @@ from foamprb.flow.source import Source, read_flow, read_transient_flow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
-from foamprb.output.vtk import Series, Snapshot
+from foamprb.output.vtk import Series
 from foamprb.positions import read_positions
 from foamprb.restart import Fingerprint, fingerprint, restore, save
 from foamprb.settings import InjectionSettings, Settings, Solution, StartFrom, match_patches, read_settings
+from foamprb.team import Serial, Team, View
 
 log = logging.getLogger("foamprb")
 
@@ -296,7 +297,10 @@ def _log_groups(g: Groups) -> None:
 
 
 def execute(
-    job: Job, start_from: StartFrom | None = None, stop: Callable[[], bool] = lambda: False
+    job: Job,
+    start_from: StartFrom | None = None,
+    stop: Callable[[], bool] = lambda: False,
+    team: Team | None = None,
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
@@ -313,6 +317,8 @@ def execute(
         but not in place of an unfinished one.
     stop
         Asked every second or so: true to write a checkpoint and end the run.
+    team
+        The processes that share the particles; this one alone by default.
 
     Returns
     -------
@@ -328,12 +334,14 @@ def execute(
     """
     try:
         with only_writer(job.folder):
-            return _execute(job, start_from or job.settings.solution.startFrom, stop)
+            return _execute(job, start_from or job.settings.solution.startFrom, stop, team or Serial())
     except OSError as error:
         raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
 
 
-def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:
+def _execute(
+    job: Job, start_from: StartFrom | None, stop: Callable[[], bool], team: Team
+) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
     last = job.steps
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
@@ -345,14 +353,17 @@ def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -
     failing = _failing(job)
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+    team.take(cloud)
     log.info("\nStarting time loop\n")
     with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            if not _advance_to(job, target, show, stop):
+            reached = _advance_to(job, target, show, stop)
+            cloud.gather()
+            if not reached:
                 checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
                 raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
-            series.append(snapshot(job))
+            team.write(series, cloud, view(job))
             job.functions.write(job.folder)
             checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
@@ -412,7 +423,7 @@ def _failing(job: Job) -> str:
 
 
 def _moving(cloud: Cloud) -> bool:
-    counts = cloud.particles.counts()
+    counts = cloud.counts()
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
@@ -422,7 +433,7 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
     while cloud.step < target and _moving(cloud):
         if stop():
             return False
-        counts = cloud.particles.counts()
+        counts = cloud.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
         until = job.functions.next_look(target)
         cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
@@ -447,22 +458,15 @@ def _progress(start: float, end: float) -> Iterator[Callable[[float], None]]:
         yield lambda t: progress.update(task, completed=min(t, end) - start)
 
 
-def snapshot(job: Job) -> Snapshot:
-    """The injected particles as they are now, with everything that is reported of them."""
-    cloud = job.cloud
-    c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
-    return Snapshot(
-        cloud.time,
-        c.particles.x,
-        measure(c),
-        {name: m.unit for name, m in MEASURES.items()},
-        {
-            "status": STATUS_NAMES,
-            "reason": tuple(REASONS[reason] for reason in Reason),
-            "patch": job.patch_names,
-            "injector": tuple(injection.name for injection in job.settings.injections),
-        },
-    )
+def view(job: Job) -> View:
+    """What it takes to report a job's particles."""
+    names: dict[str, tuple[str, ...]] = {
+        "status": STATUS_NAMES,
+        "reason": tuple(REASONS[reason] for reason in Reason),
+        "patch": job.patch_names,
+        "injector": tuple(injection.name for injection in job.settings.injections),
+    }
+    return View(names, job.cloud.medium.mu)
 
 
 def _log_time(job: Job, cpu: float, wall: float) -> None:

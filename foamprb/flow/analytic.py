@@ -199,6 +199,9 @@ class AnalyticFlow:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """There is nothing large."""
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """The parameters, by name."""
         names: Mapping[str, ArrayLike] = self._parameters._asdict()

@@ -8,6 +8,7 @@ is met exactly where it is crossed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -532,6 +533,18 @@ class MeshFlow:
         start, near = near_walls(mesh, boxes, self._tree, reach, names, corners)
         return arrays._replace(near_start=start, near=near)
 
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """Put what the kernels read, but for the lists of walls nearby, where ``place`` copies it."""
+        fixed: dict[str, Any] = {
+            name: place(array)
+            for name, array in self._arrays._asdict().items()
+            if isinstance(array, np.ndarray) and not name.startswith("near")
+        }
+        self._arrays = self._arrays._replace(**fixed)
+        self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
+        held = {field.name for field in fields(self.mesh)}
+        self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""
         return self._arrays._asdict()
@@ -545,10 +558,7 @@ class MeshFlow:
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
-        points = np.ascontiguousarray(points, dtype=np.float64)
-        values = np.empty((len(points), 12))
-        link(sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
-        return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+        return sample_with(sample, self._arrays, points, hosts, t)
 
     def cell_of(self, hosts: Ints) -> Ints:
         """Cells to which the tetrahedra belong, (n,)."""
@@ -609,7 +619,18 @@ def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
 
 
-def sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
+def sample_with(
+    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
+) -> tuple[Floats, Floats]:
+    """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    values = np.empty((len(points), 12))
+    sampler = link(_sample_all, {"sample": kernel})
+    sampler(arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
+    return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+
+
+def _sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
     """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
     for i in range(points.shape[0]):
         u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
