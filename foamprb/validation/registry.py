@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from foamprb.validation import cost, extension, order, pipe, rotation, shear
+from foamprb.validation import cost, extension, jeffery, order, pipe, rotation, shear, viscoelastic
 from foamprb.validation.case import Case
 
 CASES: dict[str, Case] = {
@@ -14,6 +14,8 @@ CASES: dict[str, Case] = {
     "pipeRigid": Case("5.4, Figs. 11 and 12", pipe.rigid),
     "pipeSoft": Case("5.4, Figs. 13 and 14", pipe.soft),
     "pipeOpenFOAM": Case("5.4, Figs. 10 and 14", pipe.openfoam),
+    "jeffery": Case("beyond the paper; shapes at rest", jeffery.orbits),
+    "viscoelastic": Case("beyond the paper; Kelvin–Voigt solids", viscoelastic.steady),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", extension.settling),
