@@ -137,8 +137,8 @@ def orbits(quick: bool) -> Outcome:
     )
     remarks = [
         f"The bodies are soft solids of Ca = {CAPILLARY:g} with ellipsoids as shapes at rest. What is left "
-        "of their softness lets the orbit's constant drift in proportion to Ca, that of a prolate body towards "
-        "the plane of shear and that of an oblate one towards the vorticity; a rigid body keeps it for ever. "
-        "The motion of a body with three different axes is not periodic (Hinch & Leal 1979)."
+        "of their softness lets the orbit's constant drift in proportion to Ca, that of a prolate body "
+        "towards the plane of shear and that of an oblate one towards the vorticity; a rigid body keeps it "
+        "for ever. The motion of a body with three different axes is not periodic (Hinch & Leal 1979)."
     ]
     return Outcome(rows, [figure], remarks)

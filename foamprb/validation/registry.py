@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from foamprb.validation import cost, extension, jeffery, order, pipe, rotation, shear, viscoelastic
+from foamprb.validation import (
+    cost,
+    extension,
+    jeffery,
+    order,
+    pipe,
+    rotation,
+    settling,
+    shear,
+    tumbling,
+    viscoelastic,
+)
 from foamprb.validation.case import Case
 
 CASES: dict[str, Case] = {
@@ -15,10 +26,11 @@ CASES: dict[str, Case] = {
     "pipeSoft": Case("5.4, Figs. 13 and 14", pipe.soft),
     "pipeOpenFOAM": Case("5.4, Figs. 10 and 14", pipe.openfoam),
     "jeffery": Case("beyond the paper; shapes at rest", jeffery.orbits),
+    "tumbling": Case("beyond the paper; shapes at rest", tumbling.regimes),
     "viscoelastic": Case("beyond the paper; Kelvin–Voigt solids", viscoelastic.steady),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
-    "settling": Case("beyond the paper", extension.settling),
+    "settling": Case("beyond the paper", settling.settling),
     "order": Case("beyond the paper", order.order),
     "volume": Case("beyond the paper", extension.volume),
 }

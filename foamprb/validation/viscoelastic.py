@@ -28,7 +28,9 @@ def _steady(integrator: str, Ca: Floats, ratio: float, end: float) -> Floats:
 
 def steady(quick: bool) -> Outcome:
     """Viscoelastic spheres in simple shear."""
-    rows, angles, shapes = [], [], []
+    rows = []
+    angles: list[Curve] = []
+    shapes: list[Curve] = []
     Ca = CAPILLARY[[2, 4]] if quick else CAPILLARY
     for colour, ratio in enumerate((0.5, 5.0) if quick else RATIOS):
         roscoe = np.array([ref.roscoe_at(c, ratio) for c in Ca])
