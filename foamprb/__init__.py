@@ -7,11 +7,12 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from foamprb.body.material import Parameter, add_material
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud, Models
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
-    from foamprb.cloud.state import Particles, Status, spheres
+    from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.errors import InputError
     from foamprb.flow import analytic
     from foamprb.flow.meshfile import read_mesh_file
@@ -26,10 +27,12 @@ _HOMES = {
     "InputError": "foamprb.errors",
     "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.cloud",
+    "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
     "Rebound": "foamprb.cloud.patches",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
+    "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",
     "context": "foamprb.cloud.measures",
     "execute": "foamprb.run",
@@ -37,6 +40,7 @@ _HOMES = {
     "prepare": "foamprb.run",
     "read_case": "foamprb.flow.openfoam",
     "read_mesh_file": "foamprb.flow.meshfile",
+    "set_rest_shape": "foamprb.cloud.state",
     "spheres": "foamprb.cloud.state",
 }
 
@@ -46,10 +50,12 @@ __all__ = [
     "InputError",
     "Medium",
     "Models",
+    "Parameter",
     "Particles",
     "Rebound",
     "Status",
     "Stick",
+    "add_material",
     "analytic",
     "context",
     "execute",
@@ -57,6 +63,7 @@ __all__ = [
     "prepare",
     "read_case",
     "read_mesh_file",
+    "set_rest_shape",
     "spheres",
 ]
 

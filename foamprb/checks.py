@@ -37,7 +37,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
     medium = cloud.medium
     gamma = shear_rate_at(cloud.flow, p, cloud.time)
-    tau = relaxation_time(p.rho, p.R, medium.mu)
+    tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)
     return Groups(
         p.size,
         _range(gamma),

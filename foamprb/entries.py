@@ -52,10 +52,27 @@ class Only:
         return value == self.value
 
 
-Rule: TypeAlias = Bounds | Choice | Only
+@dataclass(frozen=True)
+class Each:
+    """What every component of a vector must keep."""
+
+    bounds: Bounds
+
+    @property
+    def text(self) -> str:
+        """How a message names it."""
+        return f"a vector (x y z), each {self.bounds.text}"
+
+    def admits(self, value: tuple[float, ...]) -> bool:
+        """Whether all components are admitted."""
+        return all(self.bounds.admits(component) for component in value)
+
+
+Rule: TypeAlias = Bounds | Choice | Only | Each
 Vector3: TypeAlias = tuple[float, float, float]
 
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")
+Positive3 = Each(Positive)

@@ -23,7 +23,7 @@ from typing import (
 )
 
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, Stream, unquoted
-from foamprb.entries import Bounds, Choice, Only, Rule, Vector3
+from foamprb.entries import Bounds, Choice, Each, Only, Rule, Vector3
 from foamprb.errors import suggestion
 
 if TYPE_CHECKING:
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 Record = TypeVar("Record", bound="DataclassInstance")
 Line = NewType("Line", str)
 """An entry's whole text, of one word or more."""
+Files = NewType("Files", tuple[Path, ...])
+"""Names of existing files, in the case's ``constant`` folder or absolute."""
 Viscosity = NewType("Viscosity", float)
 """A kinematic viscosity, m2/s, that may be written with its name and dimensions."""
 
@@ -133,7 +135,7 @@ def allowed(hint: Any, found: str = "") -> str:
             return suggestion(unquoted(found), names)
         case Only(value, why):
             return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
-        case Bounds():
+        case Bounds() | Each():
             return f"Allowed: {rule.text}."
     return f"Allowed: {_READERS[kind if kind in _READERS else Dictionary].text}."
 
@@ -173,8 +175,20 @@ def _word(entry: Stream) -> str | None:
 
 def _file(entry: Stream) -> Path | None:
     name = _word(entry)
-    path = entry.source.case / "constant" / name if name else None
-    return path if path and path.is_file() else None
+    return _existing(entry, name) if name else None
+
+
+def _existing(entry: Stream, name: str) -> Path | None:
+    path = entry.source.case / "constant" / name
+    return path if path.is_file() else None
+
+
+def _files(entry: Stream) -> tuple[Path, ...] | None:
+    if len(entry.tokens) < 2 or (entry.tokens[0], entry.tokens[-1]) != ("(", ")"):
+        return None
+    paths = [_existing(entry, unquoted(name)) for name in entry.tokens[1:-1]]
+    found = tuple(path for path in paths if path is not None)
+    return found if len(found) == len(paths) else None
 
 
 _READERS: dict[Any, _Reader] = {
@@ -185,6 +199,7 @@ _READERS: dict[Any, _Reader] = {
     Line: _Reader(lambda entry: entry.text, "any text"),
     Viscosity: _Reader(_viscosity_value, "a number, with the dimensions [0 2 -1 0 0 0 0] or none"),
     Path: _Reader(_file, "the name of an existing file, in constant/ or absolute"),
+    Files: _Reader(_files, "a list (file file) of existing files, in constant/ or absolute"),
     Vector3: _Reader(_vector, "a vector (x y z)"),
     Dictionary: _Reader(lambda _: None, DICTIONARY_TEXT),
     DictionaryList: _Reader(lambda _: None, "a list ( name { … } name { … } )"),

@@ -99,7 +99,13 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         If a patch has no interaction or particles would start outside the flow.
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
-    medium = Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
+    medium = Medium(
+        settings.fluid.mu,
+        settings.fluid.rho,
+        settings.gravity,
+        float(settings.pressure_gradient),
+        settings.virtual_mass,
+    )
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -131,7 +137,7 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> fl
     if p.size == 0:
         return 0.0
     rate = shear_rate_at(flow, p, time)
-    return float((rate * relaxation_time(p.rho, p.R, mu)).max())
+    return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
@@ -143,7 +149,8 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
     p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
-    p.k[:] = solid.parameter
+    p.k[:], p.eta[:], p.gamma[:] = solid.parameter, solid.viscosity, solid.surface_tension
+    injection.shape.form(p, random)
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
@@ -156,7 +163,10 @@ def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
     log.info("Selecting tractionModel %s", settings.traction)
-    log.info("Selecting ellipsoidDrag %s", settings.drag)
+    log.info("Selecting particleForces ellipsoidDrag %s%s%s%s", settings.drag,
+             ", gravity" if any(settings.gravity) else "",
+             ", pressureGradient" if settings.pressure_gradient else "",
+             f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])

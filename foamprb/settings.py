@@ -27,10 +27,13 @@ from foamprb.body.material import MATERIALS, lame_parameter
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection import INJECTIONS, SIZE_DISTRIBUTIONS, FixedValue, Injection
 from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
+from foamprb.cloud.shapes import SHAPES, Ellipsoid, Shape, Sphere
 from foamprb.dictionary import Dictionary, DictionaryList, Entry, read_dictionary, unquoted
-from foamprb.entries import Bounds, Choice, Only, PoissonsRatio, Positive, Vector3
+from foamprb.entries import Bounds, Choice, NonNegative, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
+from foamprb.libs import load_libs
 from foamprb.records import (
+    Files,
     Line,
     Viscosity,
     allowed,
@@ -79,13 +82,15 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: its name, μ_s and λ_s, Pa, the shear rate of its Ca, 1/s, and its parameter."""
+    """A particle's material: μ_s and λ_s, Pa, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m."""
 
     type: str
     shear_modulus: float
     lame: float
     reference_shear_rate: float | None = None
     parameter: float = 0.0
+    viscosity: float = 0.0
+    surface_tension: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -97,6 +102,7 @@ class InjectionSettings:
     rho: float
     solid: Solid
     size: FixedValue
+    shape: Shape
 
 
 @dataclass(frozen=True)
@@ -114,7 +120,7 @@ class PatchRule:
 
 @dataclass(frozen=True)
 class Settings:
-    """All that a user asks for; gravity in m/s2."""
+    """All that a user asks for; gravity in m/s2, and Cvm, 0 without the virtual mass."""
 
     case: Path
     file: Path
@@ -127,6 +133,8 @@ class Settings:
     touching: Touching
     injections: tuple[InjectionSettings, ...]
     patches: tuple[PatchRule, ...]
+    pressure_gradient: bool = False
+    virtual_mass: float = 0.0
 
 
 def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
@@ -147,7 +155,9 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
     """
     file = case / (dictionary or DICTIONARY)
     root = read_dictionary(file, case)
-    cloud = read_entries(_CloudProperties, root)
+    if "libs" in root.entries:
+        load_libs(read_entry(root, "libs", Files))
+    cloud = read_entries(_CloudProperties, root, also=("libs",))
     fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case))
     models = cloud.subModels
     return Settings(
@@ -162,6 +172,8 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         touching=models.localInteractionCoeffs.touching,
         injections=_injections(models.injectionModels, cloud.constantProperties, root, fluid),
         patches=tuple(_patch_rule(entry) for entry in models.localInteractionCoeffs.patches.items),
+        pressure_gradient=models.particleForces.pressureGradient is not None,
+        virtual_mass=models.particleForces.virtualMass.Cvm if models.particleForces.virtualMass else 0.0,
     )
 
 
@@ -203,7 +215,21 @@ def _injection(
         rho=constant.rho0 if common.rho0 is None else common.rho0,
         solid=_solid(solids, fluid, where=solids[-1] if solids else root.at("constantProperties")),
         size=_size_distribution(common.sizeDistribution),
+        shape=_shape(common.shape or constant.shape),
     )
+
+
+def _shape(dictionary: Dictionary | None) -> Shape:
+    """Read ``shape { type ellipsoid; … }``; without it particles are spheres."""
+    if dictionary is None:
+        return Sphere()
+    shape: Shape = read_entries(selected(SHAPES, dictionary), dictionary, also=("type",))
+    if isinstance(shape, Ellipsoid):
+        try:
+            shape.axes()
+        except ValueError as error:
+            raise dictionary.mistake(f"gives no orientation: {error}.") from error
+    return shape
 
 
 def _size_distribution(dictionary: Dictionary) -> FixedValue:
@@ -228,12 +254,13 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
         The dictionary that a message about a missing entry names.
     """
     entries: dict[str, Any] = {}
+    parameters = _parameters()
     for dictionary in dictionaries:
-        read = vars(read_entries(_Solid, dictionary, also=_PARAMETERS))
+        read = vars(read_entries(_Solid, dictionary, also=parameters))
         own = {key: value for key, value in read.items() if value is not None}
         own |= {
             name: read_entry(dictionary, name, hint)
-            for name, hint in _PARAMETERS.items()
+            for name, hint in parameters.items()
             if name in dictionary.entries
         }
         stiffness = [key for key in _STIFFNESS if key in own]
@@ -251,7 +278,7 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
         if key not in entries:
             raise where.missing(key, allowed(hints[key]))
     parameter = MATERIALS[entries["type"]].parameter
-    for name, hint in _PARAMETERS.items():
+    for name, hint in parameters.items():
         if parameter is not None and name == parameter.entry and name not in entries:
             raise where.missing(name, allowed(hint))
         if name in entries and (parameter is None or name != parameter.entry):
@@ -263,6 +290,8 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
         lame=lame_parameter(mu, entries["poissonsRatio"]),
         reference_shear_rate=entries.get("referenceShearRate"),
         parameter=entries[parameter.entry] if parameter else 0.0,
+        viscosity=entries.get("viscosity", 0.0),
+        surface_tension=entries.get("surfaceTension", 0.0),
     )
 
 
@@ -404,20 +433,23 @@ class _Solid:
     youngsModulus: Annotated[float, Positive] | None = None
     Ca: Annotated[float, Positive] | None = None
     referenceShearRate: Annotated[float, Positive] | None = None
+    viscosity: Annotated[float, NonNegative] | None = None
+    surfaceTension: Annotated[float, NonNegative] | None = None
 
 
 _STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 
 
-_PARAMETERS: dict[str, Any] = {
-    p.entry: Annotated[
-        float,
-        Bounds(p.lower, p.upper, True, math.isinf(p.upper), f"a number > {p.lower:g} and <= {p.upper:g}"),
-    ]
-    for p in (material.parameter for material in MATERIALS.values())
-    if p is not None
-}
-"""The entries of the solids' third parameters."""
+def _parameters() -> dict[str, Any]:
+    """Return the entries of the solids' third parameters, those of the user's own solids included."""
+    return {
+        p.entry: Annotated[
+            float,
+            Bounds(p.lower, p.upper, True, math.isinf(p.upper), f"a number > {p.lower:g} and <= {p.upper:g}"),
+        ]
+        for p in (material.parameter for material in MATERIALS.values())
+        if p is not None
+    }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -425,6 +457,7 @@ class _ConstantProperties:
     rho0: Annotated[float, Positive]
     rhoInf: Annotated[float, Positive]
     solid: Dictionary | None = None
+    shape: Dictionary | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -437,10 +470,26 @@ class _Gravity:
     pass
 
 
+_FLUID_VELOCITY = Only("U", "the flow's velocity")
+
+
+@dataclass(frozen=True, kw_only=True)
+class _PressureGradient:
+    U: Annotated[str, _FLUID_VELOCITY] = "U"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _VirtualMass:
+    Cvm: Annotated[float, NonNegative]
+    U: Annotated[str, _FLUID_VELOCITY] = "U"
+
+
 @dataclass(frozen=True, kw_only=True)
 class _ParticleForces:
     ellipsoidDrag: _EllipsoidDrag
     gravity: _Gravity | None = None
+    pressureGradient: _PressureGradient | None = None
+    virtualMass: _VirtualMass | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -451,6 +500,7 @@ class _InjectionModel:
     sizeDistribution: Dictionary
     rho0: Annotated[float, Positive] | None = None
     solid: Dictionary | None = None
+    shape: Dictionary | None = None
     parcelBasisType: Annotated[str, Only("fixed", _PARCELS)] = "fixed"
     nParticle: Annotated[float, Only(1.0, _PARCELS)] = 1.0
     massTotal: Annotated[float, Only(0.0, f"{_PARCELS}: their mass follows from diameter and rho0")] = 0.0

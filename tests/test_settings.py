@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 
 from foamprb.cloud.injection import ManualInjection, PatchInjection
 from foamprb.cloud.patches import Escape, Rebound, Stick
+from foamprb.cloud.shapes import Ellipsoid, Sphere
 from foamprb.dictionary import Dictionary, Stream, read_dictionary
 from foamprb.errors import InputError
 from foamprb.positions import read_positions
@@ -340,6 +341,47 @@ def test_an_injection_models_solid_replaces_entries_of_the_clouds(read: Reader) 
         solid("poissonsRatio 0.4; shearModulus 5;", "Ca 2;")
     with pytest.raises(InputError, match="injectionModels/inlet/solid gives shearModulus and youngsModulus"):
         solid(common + "Ca 1;", "youngsModulus 1; shearModulus 7;")
+
+
+def test_viscosity_and_surface_tension(read: Reader) -> None:
+    plain = read().injections[0].solid
+    assert (plain.viscosity, plain.surface_tension) == (0.0, 0.0)
+    solid = read(("shearModulus 1000;", "shearModulus 1000; viscosity 2e-3; surfaceTension 0.01;"))
+    assert solid.injections[0].solid.viscosity == 2e-3
+    assert solid.injections[0].solid.surface_tension == 0.01
+    with pytest.raises(InputError, match=r"solid/viscosity is '-1'. Allowed: a number >= 0"):
+        read(("shearModulus 1000;", "shearModulus 1000; viscosity -1;"))
+
+
+def test_shapes(read: Reader) -> None:
+    assert read().injections[0].shape == Sphere()
+    own = "shape { type ellipsoid; axisRatios (2 1 1); e1 (0 0 3); e2 (1 0 1); }"
+    shape = read(
+        ("rho0            2560;", "rho0 2560; shape { type ellipsoid; axisRatios (3 2 1); }"),
+        ("patch inlet;", f"patch inlet; {own}"),
+    ).injections[0].shape  # fmt: skip
+    assert isinstance(shape, Ellipsoid)
+    assert shape.axisRatios == (2.0, 1.0, 1.0)
+    np.testing.assert_allclose(shape.axes(), [[0, 0, 1], [1, 0, 0], [0, 1, 0]], atol=1e-15)
+    with pytest.raises(InputError, match=r"shape/axisRatios is '\(2 0 1\)'. Allowed: .* each a number > 0"):
+        read(("patch inlet;", f"patch inlet; {own.replace('(2 1 1)', '(2 0 1)')}"))
+    with pytest.raises(InputError, match="inlet/shape gives no orientation: e1 and e2 are parallel"):
+        read(("patch inlet;", f"patch inlet; {own.replace('(1 0 1)', '(0 0 -1)')}"))
+    with pytest.raises(InputError, match="Did you mean 'ellipsoid'"):
+        read(("patch inlet;", f"patch inlet; {own.replace('type ellipsoid', 'type elipsoid')}"))
+
+
+def test_forces(read: Reader) -> None:
+    assert (read().pressure_gradient, read().virtual_mass) == (False, 0.0)
+    settings = read(("ellipsoidDrag;", "ellipsoidDrag; pressureGradient { U U; } virtualMass { Cvm 0.5; }"))
+    assert (settings.pressure_gradient, settings.virtual_mass) == (True, 0.5)
+    with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
+        read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
+
+
+def test_libs_must_be_files(read: Reader) -> None:
+    with pytest.raises(InputError, match=r"libs is .*no.py.*Allowed: a list \(file file\)"):
+        read(("solution", 'libs ("no.py");\nsolution'))
 
 
 # Fluid

@@ -9,8 +9,24 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
-from foamprb.body.tensor import Tensor, axial, ddot, det, dot, inverse, principal_frame, skew, sym
+from foamprb.body.ellipsoid import integrals, sorted_frame, taylor_deformation
+from foamprb.body.tensor import (
+    Tensor,
+    add,
+    axial,
+    ddot,
+    det,
+    dev,
+    dot,
+    from_frame,
+    inverse,
+    principal_frame,
+    scale,
+    skew,
+    sym,
+    to_frame,
+)
+from foamprb.body.traction import disturbance
 from foamprb.cloud.state import Particles, Status
 from foamprb.flow.base import Flow
 
@@ -42,6 +58,12 @@ class Measure(NamedTuple):
     value: Callable[[Context], NDArray[Any]]
 
 
+def _deformation_gradient(c: Context) -> Floats:
+    """F·F₀⁻¹, from the shape at rest."""
+    F0: Tensor = tuple(c.particles.F0.T)
+    return np.stack(dot(c.F, inverse(F0)), axis=1)
+
+
 def _glyph(c: Context) -> Floats:
     """Columns of R F one after the other: what ParaView's Tensor Glyph draws as the deformed unit sphere."""
     return np.stack([c.particles.R * c.F[3 * i + j] for j in range(3) for i in range(3)], axis=1)
@@ -51,6 +73,21 @@ def _orientation(c: Context) -> Floats:
     """Unit quaternion (w, x, y, z) of the rotation that carries the fixed axes onto the particle's."""
     Q = np.stack(c.frame, axis=1).reshape(-1, 3, 3)
     return Rotation.from_matrix(Q.transpose(0, 2, 1)).as_quat(canonical=True, scalar_first=True)
+
+
+def _stresslet(c: Context) -> Floats:
+    """S = V μ_f dev sym s̃(d, w), the body's extra stress times volume, xx yy zz xy yz xz (Batchelor 1970).
+
+    s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
+    """
+    A: Tensor = tuple(c.particles.A.T)
+    l_s = to_frame(c.frame, dot(A, inverse(c.F)))
+    l_f = to_frame(c.frame, c.l_f)
+    d, w = dev(add(sym(l_f), scale(-1.0, sym(l_s)))), add(skew(l_f), scale(-1.0, skew(l_s)))
+    s, _ = disturbance(c.stretches, integrals(c.stretches), d, w)
+    volume = 4.0 / 3.0 * np.pi * c.particles.R**3 * det(c.F)
+    S = from_frame(c.frame, scale(volume * c.mu, dev(sym(s))))
+    return np.stack([S[0], S[4], S[8], S[1], S[5], S[2]], axis=1)
 
 
 def _angular_velocity(c: Context) -> Floats:
@@ -82,11 +119,12 @@ MEASURES: dict[str, Measure] = {
     "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
-    "deformationGradient": Measure("1", lambda c: c.particles.F),
+    "deformationGradient": Measure("1", _deformation_gradient),
     "glyph": Measure("m", _glyph),
     "semiAxes": Measure("m", _semi_axes),
     "orientation": Measure("1", _orientation),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
+    "stresslet": Measure("N m", _stresslet),
     "J": Measure("1", lambda c: det(c.F)),
     "angularVelocity": Measure("1/s", _angular_velocity),
     "shearRate": Measure("1/s", lambda c: shear_rate(c.l_f)),
