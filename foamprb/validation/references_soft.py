@@ -169,7 +169,7 @@ def signed_distance(at: tuple[float, float], slope: tuple[float, float]) -> floa
     return float((at[0] * slope[1] - at[1] * slope[0]) / np.hypot(*slope))
 
 
-def passages(Ca: float, ratio: float, end: float = 60.0) -> Passages:
+def passages(Ca: float, ratio: float, end: float = 44.0) -> Passages:
     """Follow a prolate body of the given aspect ratio, released along the flow, to the time ``end``."""
     body = Body(Ca, stretched((ratio, 1.0, 1.0)))
 
@@ -196,7 +196,7 @@ def passages(Ca: float, ratio: float, end: float = 60.0) -> Passages:
     bottom: Any = rising
     near.direction = bottom.direction = 1.0
     answer: Any = solve_ivp(
-        rate, (0.0, end), body.F0.ravel(), "DOP853", events=(near, bottom), rtol=1e-9, atol=1e-10
+        rate, (0.0, end), body.F0.ravel(), "DOP853", events=(near, bottom), rtol=1e-8, atol=1e-9
     )
     late = [y[t > 0.5 * end] for t, y in zip(answer.t_events, answer.y_events, strict=True)]
     distances = [signed_distance(place(y), slope(y)) for y in late[0]]
@@ -208,7 +208,7 @@ def transition(of: Callable[[Passages], float], ratio: float, low: float, high: 
     ends = of(passages(low, ratio)), of(passages(high, ratio))
     if not ends[0] * ends[1] < 0.0:
         return np.nan
-    return float(brentq(lambda Ca: of(passages(Ca, ratio)), low, high, xtol=1e-6))
+    return float(brentq(lambda Ca: of(passages(Ca, ratio)), low, high, xtol=1e-5))
 
 
 # --- Stress in a suspension ---------------------------------------------------------------------------------

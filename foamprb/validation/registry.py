@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from foamprb.validation import (
     cost,
+    device,
     extension,
     jeffery,
     order,
@@ -11,6 +12,7 @@ from foamprb.validation import (
     rotation,
     settling,
     shear,
+    suspension,
     tumbling,
     viscoelastic,
 )
@@ -18,6 +20,7 @@ from foamprb.validation.case import Case
 
 CASES: dict[str, Case] = {
     "rotation": Case("5.1, Fig. 4", rotation.spin_up),
+    "extensionDevice": Case("5.2, Fig. 5", device.beads),
     "shear": Case("5.3, Figs. 6 and 7", shear.steady),
     "roscoe": Case("5.3, references", shear.formulas),
     "transient": Case("5.3, Fig. 8", shear.transient),
@@ -28,6 +31,7 @@ CASES: dict[str, Case] = {
     "jeffery": Case("beyond the paper; shapes at rest", jeffery.orbits),
     "tumbling": Case("beyond the paper; shapes at rest", tumbling.regimes),
     "viscoelastic": Case("beyond the paper; Kelvin–Voigt solids", viscoelastic.steady),
+    "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", settling.settling),
