@@ -45,6 +45,11 @@ def stretched(ratios: tuple[float, float, float]) -> Floats:
     return np.diag(a / np.cbrt(a.prod()))
 
 
+def semi_axes(F: Floats) -> Floats:
+    """Semi-axes (..., 3), in falling order, of what deformation gradients (..., 3, 3) make of the sphere."""
+    return np.asarray(np.linalg.svd(F, compute_uv=False), dtype=np.float64)
+
+
 def disturbance(axes: Floats, g: Integrals) -> Floats:
     """s̃_ij = T_ijkl l_kl of (B.5) to (B.8) in the particle frame, for unit viscosity, (3, 3, 3, 3).
 
