@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
-    from foamprb.errors import InputError
+    from foamprb.errors import InputError, RunStopped
     from foamprb.flow import analytic
     from foamprb.flow.meshfile import read_mesh_file
     from foamprb.flow.openfoam import read_case
@@ -30,6 +30,7 @@ _HOMES = {
     "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
     "Rebound": "foamprb.cloud.patches",
+    "RunStopped": "foamprb.errors",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
     "add_material": "foamprb.body.material",
@@ -53,6 +54,7 @@ __all__ = [
     "Parameter",
     "Particles",
     "Rebound",
+    "RunStopped",
     "Status",
     "Stick",
     "add_material",

@@ -5,13 +5,20 @@ from __future__ import annotations
 import argparse
 import logging
 import re
+import signal
 import sys
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import NoReturn
+from types import FrameType
+from typing import TYPE_CHECKING, NoReturn
 
 import foamprb
-from foamprb.errors import InputError, suggestion
+from foamprb.errors import InputError, RunStopped, suggestion
+
+if TYPE_CHECKING:
+    from foamprb.settings import StartFrom
 
 _COMMANDS = ("run", "info", "validate")
 
@@ -52,6 +59,11 @@ def _parser() -> argparse.ArgumentParser:
     when.add_argument("--time", metavar="TIME", help="time of the flow")
     when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
     run.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
+    start = run.add_mutually_exclusive_group()
+    start.add_argument(
+        "--resume", action="store_true", help="go on from the last checkpoint, if there is one"
+    )
+    start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
     run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
@@ -78,8 +90,44 @@ def _run(arguments: argparse.Namespace) -> int:
             "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
         )
         return 0
-    execute(job)
+    start_from: StartFrom | None = None
+    if arguments.resume or arguments.overwrite:
+        start_from = "latestTime" if arguments.resume else "startTime"
+    with _stopped_by_signals() as received:
+        try:
+            execute(job, start_from, stop=lambda: bool(received))
+        except RunStopped as stopped:
+            if not received:
+                raise
+            print(f"--> foamprb {stopped}", file=sys.stderr)
+            return 128 + received[0]
     return 0
+
+
+@contextmanager
+def _stopped_by_signals() -> Iterator[list[int]]:
+    """Collect the first Ctrl-C or SIGTERM in a list; a second one acts at once, as without this."""
+    received: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        # Only the main thread may say what a signal does.
+        yield received
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def restore() -> None:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    def receive(number: int, _: FrameType | None) -> None:
+        received.append(number)
+        restore()
+
+    for number in before:
+        signal.signal(number, receive)
+    try:
+        yield received
+    finally:
+        restore()
 
 
 def _info(arguments: argparse.Namespace) -> int:
@@ -121,7 +169,8 @@ def _log_to_stdout() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status.
 
-    It is 0, 1 for a mistake in the input or a validation that fails, 130 after Ctrl-C.
+    It is 0; 1 for a mistake in the input, a run that had to end early or a validation that fails; 130 after
+    Ctrl-C and 143 after SIGTERM.
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
@@ -141,7 +190,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "validate": _validate,
         }
         return commands[parsed.command](parsed)
-    except (InputError, OSError) as error:
+    except (InputError, RunStopped, OSError) as error:
         if debug:
             raise
         print(f"--> foamprb Error : {error}", file=sys.stderr)

@@ -90,7 +90,9 @@ def _link(
         return _SELECT
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    digest = hashlib.sha256(f"{numba.__version__} {_FAST_MATH} {function.__qualname__}".encode())
+    digest = hashlib.sha256(
+        f"{numba.__version__} {_FAST_MATH} {function.__module__} {function.__qualname__}".encode()
+    )
     digest.update(_fingerprint(function.__code__))
     for name in sorted(_global_names(function.__code__)):
         value = bindings.get(name, scope.get(name))

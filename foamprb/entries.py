@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NewType, TypeAlias
 
 
 @dataclass(frozen=True)
@@ -70,9 +70,17 @@ class Each:
 
 Rule: TypeAlias = Bounds | Choice | Only | Each
 Vector3: TypeAlias = tuple[float, float, float]
+Constant = NewType("Constant", float)
+"""A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""
+Words: TypeAlias = tuple[str, ...]
+Pairs: TypeAlias = tuple[tuple[float, float], ...]
+Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
+"""Positions, each with the direction of an axis."""
 
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
+AtLeastOne = Bounds(1.0, math.inf, False, True, "a whole number >= 1")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
+Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")
 Positive3 = Each(Positive)

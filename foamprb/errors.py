@@ -1,4 +1,4 @@
-"""The one exception that foamprb raises for what a user gave."""
+"""What foamprb raises for what a user gave, and for a run that ends early."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from collections.abc import Iterable
 
 class InputError(Exception):
     """A mistake in what the user gave: its message is all that the user needs to see."""
+
+
+class RunStopped(Exception):  # noqa: N818
+    """A run that ended before its end time: its message says why, and how to go on."""
 
 
 def suggestion(found: str, allowed: Iterable[str]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib.util
+import sys
 import traceback
 from collections.abc import Iterable
 from pathlib import Path
@@ -38,7 +39,7 @@ def load_libs(files: Iterable[Path]) -> None:
             MATERIALS.pop(name, None)
         known = set(MATERIALS)
         try:
-            _run(path)
+            _run(path, digest)
         finally:
             _loaded[path] = ("", tuple(set(MATERIALS) - known))
         for name in _loaded[path][1]:
@@ -46,12 +47,16 @@ def load_libs(files: Iterable[Path]) -> None:
         _loaded[path] = (digest, _loaded[path][1])
 
 
-def _run(path: Path) -> None:
-    spec = importlib.util.spec_from_file_location(f"foamprb_libs_{path.stem}", path)
+def _run(path: Path, digest: str) -> None:
+    name = f"foamprb_libs_{path.stem}_{digest[:12]}"
+    spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
         raise InputError(f"{path} is not a Python file (.py).")
+    module = importlib.util.module_from_spec(spec)
+    # Compiled code that is read back from disk asks for the module by its name.
+    sys.modules[name] = module
     try:
-        spec.loader.exec_module(importlib.util.module_from_spec(spec))
+        spec.loader.exec_module(module)
     except Exception as error:
         frames = traceback.extract_tb(error.__traceback__)
         lines = [frame.lineno for frame in frames if frame.filename == str(path)]

@@ -23,8 +23,8 @@ from typing import (
 )
 
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, Stream, unquoted
-from foamprb.entries import Bounds, Choice, Each, Only, Rule, Vector3
-from foamprb.errors import suggestion
+from foamprb.entries import Axes, Bounds, Choice, Constant, Each, Only, Pairs, Rule, Vector3, Words
+from foamprb.errors import InputError, suggestion
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -45,7 +45,7 @@ def read_entries(record: type[Record], dictionary: Dictionary, also: Iterable[st
     ----------
     record
         Its hints may be a key of ``_READERS``, another record, Literal, or Annotated with one ``Rule``; each
-        also with ``| None``.
+        also with ``| None``, or with ``| Dictionary`` for what may be a dictionary instead.
     dictionary
         Its entries; those that a macro has used may have any name.
     also
@@ -54,17 +54,20 @@ def read_entries(record: type[Record], dictionary: Dictionary, also: Iterable[st
     Raises
     ------
     InputError
-        If an entry is not known, missing, or does not hold what its hint says.
+        If an entry is not known, missing, or does not hold what its hint says, or the record refuses what
+        its entries say together.
     """
     hints = get_type_hints(record, include_extras=True)
     refuse_unknown(dictionary, (*names_of(record), *also))
-    return record(
-        **{
-            entry.name: read_entry(dictionary, entry.name, hints[entry.name])
-            for entry in fields(record)
-            if entry.name in dictionary.entries or not _has_default(entry)
-        }
-    )
+    values = {
+        entry.name: read_entry(dictionary, entry.name, hints[entry.name])
+        for entry in fields(record)
+        if entry.name in dictionary.entries or not _has_default(entry)
+    }
+    try:
+        return record(**values)
+    except InputError as error:
+        raise dictionary.mistake(f"{error}.") from error
 
 
 def read_entry(dictionary: Dictionary, key: str, hint: Any) -> Any:
@@ -99,6 +102,8 @@ def selected(registry: Mapping[str, type[Record]], dictionary: Dictionary) -> ty
 def _convert(entry: Entry, hint: Any) -> Any:
     """Turn an entry into what a type hint says."""
     kind, rule = _kind(hint)
+    if isinstance(entry, Dictionary) and _may_be_dictionary(hint):
+        return entry
     if kind is Dictionary:
         return entry.dictionary()
     if kind not in _READERS:
@@ -123,12 +128,24 @@ def _kind(hint: Any) -> tuple[Any, Rule | None]:
     if origin is Literal:
         return str, Choice(get_args(hint))
     if origin in (Union, UnionType):
-        return _kind(next(kind for kind in get_args(hint) if kind is not type(None)))
+        return _kind(_first(hint))
     return hint, None
+
+
+def _may_be_dictionary(hint: Any) -> bool:
+    """Whether a union names Dictionary as the second choice."""
+    return Dictionary in get_args(hint) and _first(hint) is not Dictionary
+
+
+def _first(union: Any) -> Any:
+    """The first member of a union that is not None."""
+    return next(kind for kind in get_args(union) if kind is not type(None))
 
 
 def allowed(hint: Any, found: str = "") -> str:
     """Say what an entry may be."""
+    if _may_be_dictionary(hint):
+        return f"{allowed(_first(hint), found).removesuffix('.')}, or {DICTIONARY_TEXT}."
     kind, rule = _kind(hint)
     match rule:
         case Choice(names):
@@ -136,7 +153,7 @@ def allowed(hint: Any, found: str = "") -> str:
         case Only(value, why):
             return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
         case Bounds() | Each():
-            return f"Allowed: {rule.text}."
+            return f"Allowed: {rule.text}{', constant in time' if kind is Constant else ''}."
     return f"Allowed: {_READERS[kind if kind in _READERS else Dictionary].text}."
 
 
@@ -161,12 +178,63 @@ def _viscosity_value(entry: Stream) -> float | None:
     return _number(match["value"]) if match else None
 
 
-def _vector(entry: Stream) -> Vector3 | None:
+def _constant(entry: Stream) -> float | None:
     match entry.tokens:
-        case ("(", x, y, z, ")"):
-            vector = tuple(number for number in map(_number, (x, y, z)) if number is not None)
-            return vector if len(vector) == 3 else None
+        case (value,) | ("constant", value):
+            return _number(value)
     return None
+
+
+def _vector(entry: Stream) -> Any:
+    return _numbers(_nested(entry), 3)
+
+
+def _pairs(entry: Stream) -> Any:
+    return _each(_nested(entry), lambda item: _numbers(item, 2))
+
+
+def _axes(entry: Stream) -> Any:
+    return _each(_nested(entry), _two_vectors)
+
+
+def _words(entry: Stream) -> Any:
+    return _each(_nested(entry), lambda item: unquoted(item) if isinstance(item, str) else None)
+
+
+def _two_vectors(item: Any) -> Any:
+    vectors = _each(item, lambda part: _numbers(part, 3))
+    return vectors if vectors is not None and len(vectors) == 2 else None
+
+
+def _numbers(item: Any, n: int) -> Any:
+    """A tuple of n numbers; None if the item is something else."""
+    numbers = _each(item, lambda part: _number(part) if isinstance(part, str) else None)
+    return numbers if numbers is not None and len(numbers) == n else None
+
+
+def _each(item: Any, read: Callable[[Any], Any]) -> Any:
+    """A tuple of what is read of each part of a list; None if it is no list, or a part cannot be read."""
+    if not isinstance(item, tuple):
+        return None
+    parts = tuple(map(read, item))
+    return None if any(part is None for part in parts) else parts
+
+
+def _nested(entry: Stream) -> Any:
+    """Parentheses as nested tuples of words, the number of items before the outermost left out."""
+    tokens = entry.tokens
+    if len(tokens) > 1 and _INTEGER.fullmatch(tokens[0]):
+        tokens = tokens[1:]
+    lists: list[list[Any]] = [[]]
+    for token in tokens:
+        if token == "(":
+            lists.append([])
+        elif token == ")" and len(lists) > 1:
+            last = tuple(lists.pop())
+            lists[-1].append(last)
+        else:
+            lists[-1].append(token)
+    return lists[0][0] if len(lists) == 1 and len(lists[0]) == 1 else None
 
 
 def _word(entry: Stream) -> str | None:
@@ -201,6 +269,10 @@ _READERS: dict[Any, _Reader] = {
     Path: _Reader(_file, "the name of an existing file, in constant/ or absolute"),
     Files: _Reader(_files, "a list (file file) of existing files, in constant/ or absolute"),
     Vector3: _Reader(_vector, "a vector (x y z)"),
+    Constant: _Reader(_constant, "a number, constant in time"),
+    Words: _Reader(_words, "a list of words ( word word … )"),
+    Pairs: _Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),
+    Axes: _Reader(_axes, "a list of positions with an axis ( ((x y z) (x y z)) … )"),
     Dictionary: _Reader(lambda _: None, DICTIONARY_TEXT),
     DictionaryList: _Reader(lambda _: None, "a list ( name { … } name { … } )"),
 }

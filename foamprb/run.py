@@ -17,26 +17,36 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
+from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
-from foamprb.errors import InputError
+from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
+from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
+from foamprb.output.atomic import only_writer, remove_unfinished
+from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series, Snapshot
 from foamprb.positions import read_positions
-from foamprb.settings import InjectionSettings, Settings, match_patches, read_settings
+from foamprb.restart import Fingerprint, fingerprint, restore, save
+from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patches, read_settings
 
 log = logging.getLogger("foamprb")
 
 _CHUNK_OF_WORK = 1_000_000
 _MAX_LISTED_FAILURES = 10
+_HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
-STATUS_NAMES = tuple(status.name.lower() for status in Status)
+FATES = "fates.csv"
+FAILURES = "failed.csv"
+CHECKPOINTS = "checkpoint"
+"""Files and the folder in a run's folder, besides its series."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +55,7 @@ class Job:
 
     settings: Settings
     cloud: Cloud
+    functions: Functions
 
     @property
     def folder(self) -> Path:
@@ -129,7 +140,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
-    return Job(settings, cloud)
+    look = Look(cloud, tuple(i.name for i in settings.injections), tuple(p.name for p in flow.patches))
+    try:
+        functions = Functions(settings.functions, look)
+    except InputError as error:
+        raise InputError(f"{settings.file}: {error}") from error
+    return Job(settings, cloud, functions)
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -141,22 +157,29 @@ def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> fl
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
-    # The name seeds the numbers, so that another injection model does not change where these start.
-    random = np.random.default_rng(zlib.crc32(injection.name.encode()))
     try:
-        p = release(injection.model, flow, injection.size, random, read_positions)
+        p = release(injection.model, flow, _random(injection.name), read_positions)
     except InputError as error:
         raise InputError(f"injection model {injection.name}: {error}") from error
     solid = injection.solid
-    p.rho[:], p.mu[:], p.lame[:] = injection.rho, solid.shear_modulus, solid.lame
-    p.k[:], p.eta[:], p.gamma[:] = solid.parameter, solid.viscosity, solid.surface_tension
-    injection.shape.form(p, random)
+    p.R[:] = 0.5 * draw(injection.size, p.size, _random(injection.name, "size"))
+    p.rho[:] = draw(injection.rho, p.size, _random(injection.name, "rho"))
+    p.mu[:] = draw(solid.shear_modulus, p.size, _random(injection.name, "stiffness"))
+    p.eta[:] = draw(solid.viscosity, p.size, _random(injection.name, "viscosity"))
+    p.gamma[:] = draw(solid.surface_tension, p.size, _random(injection.name, "surfaceTension"))
+    p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
+    injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     rate: Any = solid.reference_shear_rate
     if rate is None:
         rate = shear_rate_at(flow, p, injection.model.SOI)
     p.Ca[:] = medium.mu * rate / p.mu
     return p
+
+
+def _random(*names: str) -> np.random.Generator:
+    """Random numbers of an injection model, or of one of its quantities: no other changes what it draws."""
+    return np.random.default_rng([zlib.crc32(name.encode()) for name in names])
 
 
 def describe(job: Job) -> list[str]:
@@ -174,7 +197,8 @@ def describe(job: Job) -> list[str]:
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
-    log.info("Selecting patchInteractionModel localInteraction, touching by the %s", settings.touching)
+    log.info("Selecting patchInteractionModel %s, touching by the %s",
+             settings.interaction, settings.touching)  # fmt: skip
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
     warnings = []
@@ -183,6 +207,8 @@ def describe(job: Job) -> list[str]:
         log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
         _log_groups(g)
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
+    for name, function in settings.functions.items():
+        log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
     for warning in warnings:
         log.warning("%s", warning)
     return warnings
@@ -203,8 +229,24 @@ def _log_groups(g: Groups) -> None:
         log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 
-def execute(job: Job) -> dict[Status, int]:
+def execute(
+    job: Job, start_from: StartFrom | None = None, stop: Callable[[], bool] = lambda: False
+) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
+
+    A checkpoint is written with the results of every write time. Whatever ends a run, another one started
+    from ``latestTime`` ends with the same state and the same files, bit for bit, as a run never interrupted.
+
+    Parameters
+    ----------
+    job
+        A cloud that has not been advanced.
+    start_from
+        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to go on from the last
+        checkpoint, if there is one. By default what the settings say. If they say nothing, a run begins anew,
+        but not in place of an unfinished one.
+    stop
+        Asked every second or so: true to write a checkpoint and end the run.
 
     Returns
     -------
@@ -212,25 +254,42 @@ def execute(job: Job) -> dict[Status, int]:
 
     Raises
     ------
-    OSError
-        If results cannot be written.
+    InputError
+        If the run cannot go on from its checkpoints, or the user must say whether it shall; if another run is
+        writing to the same folder.
+    RunStopped
+        If ``stop`` said so, too many particles failed, or results could not be written.
     """
+    try:
+        with only_writer(job.folder):
+            return _execute(job, start_from or job.settings.solution.startFrom, stop)
+    except OSError as error:
+        raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
+
+
+def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
     last = max(1, round(solution.endTime / solution.deltaT))
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
-    series = Series(job.folder, job.settings.name)
+    marks = fingerprint(job.settings, cloud)
+    checkpoints = Checkpoints(job.folder / CHECKPOINTS)
+    series = _begin(job, marks, checkpoints, start_from)
     started, cpu = clock.perf_counter(), clock.process_time()
-    reported = np.empty(0, dtype=np.int64)
+    reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
+    failing = _failing(job)
     log.info("\nStarting time loop\n")
     with _progress(solution.endTime) as show:
-        while cloud.step < last:
+        while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            _advance_to(cloud, target, show)
+            if not _advance_to(job, target, show, stop):
+                checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
+                raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
             series.append(snapshot(job))
+            job.functions.write(job.folder)
+            checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
             reported = _log_failures(cloud.particles, reported)
-            if not _moving(cloud):
-                break
+            failing = _failing(job)
     write_fates(job)
     log_fates(job)
     log.info("\nResults in %s", job.folder)
@@ -239,8 +298,49 @@ def execute(job: Job) -> dict[Status, int]:
         clock.process_time() - cpu,
         clock.perf_counter() - started,
     )
+    if failing:
+        raise RunStopped(f"{failing} The results until then are in {job.folder}.")
     log.info("End")
     return cloud.particles.counts()
+
+
+def _begin(job: Job, marks: Fingerprint, checkpoints: Checkpoints, start_from: StartFrom | None) -> Series:
+    """Put the cloud at the time from which the run goes on, and drop what an old run wrote after it."""
+    fates, failed = job.folder / FATES, job.folder / FAILURES
+    if start_from is None and checkpoints.files() and not fates.exists():
+        raise InputError(
+            f"{job.folder}: an unfinished run has come to t = {max(checkpoints.files()):g} s. To go on with "
+            "it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
+            "startTime."
+        )
+    checkpoint = checkpoints.latest() if start_from == "latestTime" else None
+    if checkpoint is None:
+        if start_from == "latestTime":
+            log.info("No checkpoint in %s: beginning at the start time", checkpoints.folder)
+        # First: with them an interrupted removal could be taken for the run itself.
+        checkpoints.truncate(after=-np.inf)
+        after = -np.inf
+    else:
+        restore(job.cloud, job.functions, checkpoint, marks, job.folder / f"{job.settings.name}.pvd")
+        log.info("Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, checkpoints.folder)
+        after = checkpoint.time
+    remove_unfinished(job.folder)
+    for table in (fates, failed):
+        table.unlink(missing_ok=True)
+    return Series(job.folder, job.settings.name, after=after)
+
+
+def _failing(job: Job) -> str:
+    """Say that too many particles have failed; nothing if not."""
+    p, most = job.cloud.particles, job.settings.solution.maxFailedFraction
+    counts = p.counts()
+    injected = p.size - counts[Status.PENDING]
+    if counts[Status.FAILED] <= most * injected:
+        return ""
+    return (
+        f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
+        f"than maxFailedFraction {most:g} allows; {job.folder / FAILURES} says why."
+    )
 
 
 def _moving(cloud: Cloud) -> bool:
@@ -248,13 +348,21 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(cloud: Cloud, target: int, show: Callable[[float], None]) -> None:
+def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Callable[[], bool]) -> bool:
+    """Advance to a step; whether it was reached before ``stop`` said so."""
+    cloud = job.cloud
     while cloud.step < target and _moving(cloud):
+        if stop():
+            return False
         counts = cloud.particles.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
-        cloud.advance(min(target - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        until = job.functions.next_look(target)
+        cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        if cloud.step == until:
+            job.functions.see()
         show(cloud.time)
     cloud.step = target
+    return True
 
 
 @contextmanager
@@ -319,7 +427,7 @@ def write_fates(job: Job) -> None:
     values = measure(context(everyone, cloud.flow, cloud.medium.mu, cloud.time))
     axes = values["semiAxes"]
     write_table(
-        job.folder / "fates.csv",
+        job.folder / FATES,
         {
             "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
@@ -329,7 +437,7 @@ def write_fates(job: Job) -> None:
         },
     )  # fmt: skip
     failed = np.flatnonzero(p.status == Status.FAILED)
-    table = job.folder / "failed.csv"
+    table = job.folder / FAILURES
     if len(failed):
         reasons = [REASONS[Reason(r)] for r in p.reason[failed]]
         x = p.x[failed]
@@ -363,4 +471,4 @@ def log_fates(job: Job) -> None:
     if job.cloud.recovered:
         log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
     if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
-        log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / "failed.csv")
+        log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / FAILURES)

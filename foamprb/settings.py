@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import (
-    TYPE_CHECKING,
     Annotated,
     Any,
     Literal,
@@ -23,13 +22,15 @@ from typing import (
 
 from foamprb.body.drag import DRAGS
 from foamprb.body.imex import INTEGRATORS
-from foamprb.body.material import MATERIALS, lame_parameter
+from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.injection import INJECTIONS, SIZE_DISTRIBUTIONS, FixedValue, Injection
-from foamprb.cloud.patches import INTERACTIONS, Interaction, Rebound
+from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
+from foamprb.cloud.injection import INJECTIONS, Injection
+from foamprb.cloud.patches import INTERACTIONS, Escape, Interaction, Rebound
 from foamprb.cloud.shapes import SHAPES, Ellipsoid, Shape, Sphere
-from foamprb.dictionary import Dictionary, DictionaryList, Entry, read_dictionary, unquoted
-from foamprb.entries import Bounds, Choice, NonNegative, Only, PoissonsRatio, Positive, Vector3
+from foamprb.cloudfunctions import FUNCTIONS, CloudFunction
+from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
+from foamprb.entries import Bounds, Choice, Fraction, NonNegative, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
 from foamprb.libs import load_libs
 from foamprb.records import (
@@ -44,10 +45,8 @@ from foamprb.records import (
     selected,
 )
 
-if TYPE_CHECKING:
-    pass
-
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
+StartFrom: TypeAlias = Literal["startTime", "latestTime"]
 DICTIONARY = Path("constant/softCloudProperties")
 MULTIPLE_TOLERANCE = 1e-6
 
@@ -58,13 +57,19 @@ MULTIPLE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance."""
+    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance.
+
+    A run begins at time 0 or goes on from its last checkpoint, as ``startFrom`` says, None if the user does
+    not; it stops when more than ``maxFailedFraction`` of the injected particles have failed.
+    """
 
     deltaT: float
     endTime: float
     writeInterval: float
     shape: str
     tolerance: float
+    startFrom: StartFrom | None = None
+    maxFailedFraction: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -82,15 +87,15 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: μ_s and λ_s, Pa, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m."""
+    """A particle's material: μ_s, Pa, and ν_s, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m."""
 
     type: str
-    shear_modulus: float
-    lame: float
+    shear_modulus: float | Distribution
+    poissons_ratio: float
     reference_shear_rate: float | None = None
     parameter: float = 0.0
-    viscosity: float = 0.0
-    surface_tension: float = 0.0
+    viscosity: float | Distribution = 0.0
+    surface_tension: float | Distribution = 0.0
 
 
 @dataclass(frozen=True)
@@ -99,9 +104,9 @@ class InjectionSettings:
 
     name: str
     model: Injection
-    rho: float
+    rho: float | Distribution
     solid: Solid
-    size: FixedValue
+    size: Distribution
     shape: Shape
 
 
@@ -119,6 +124,17 @@ class PatchRule:
 
 
 @dataclass(frozen=True)
+class KindRule:
+    """What all patches of a kind do: the walls, the open ones (neither walls nor constrained), or any."""
+
+    kind: Literal["wall", "open", "any"]
+    interaction: Interaction
+
+
+Rule: TypeAlias = PatchRule | KindRule
+
+
+@dataclass(frozen=True)
 class Settings:
     """All that a user asks for; gravity in m/s2, and Cvm, 0 without the virtual mass."""
 
@@ -130,9 +146,11 @@ class Settings:
     gravity: Vector3
     traction: str
     drag: str
-    touching: Touching
     injections: tuple[InjectionSettings, ...]
-    patches: tuple[PatchRule, ...]
+    interaction: str
+    touching: Touching
+    patches: tuple[Rule, ...]
+    functions: Mapping[str, CloudFunction]
     pressure_gradient: bool = False
     virtual_mass: float = 0.0
 
@@ -160,6 +178,7 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
     cloud = read_entries(_CloudProperties, root, also=("libs",))
     fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case))
     models = cloud.subModels
+    patches, touching = _patch_interaction(models.patchInteractionModel, root.at("subModels").dictionary())
     return Settings(
         case=case,
         file=file,
@@ -169,9 +188,11 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         gravity=_gravity(case) if models.particleForces.gravity else (0.0, 0.0, 0.0),
         traction=models.tractionModel,
         drag=models.particleForces.ellipsoidDrag.type,
-        touching=models.localInteractionCoeffs.touching,
         injections=_injections(models.injectionModels, cloud.constantProperties, root, fluid),
-        patches=tuple(_patch_rule(entry) for entry in models.localInteractionCoeffs.patches.items),
+        interaction=models.patchInteractionModel,
+        touching=touching,
+        patches=patches,
+        functions=_functions(cloud.cloudFunctions),
         pressure_gradient=models.particleForces.pressureGradient is not None,
         virtual_mass=models.particleForces.virtualMass.Cvm if models.particleForces.virtualMass else 0.0,
     )
@@ -191,6 +212,8 @@ def _solution(entries: _Solution, root: Dictionary) -> Solution:
         writeInterval=entries.endTime if interval is None else interval,
         shape=entries.integrationSchemes.shape,
         tolerance=entries.integrationSchemes.tolerance,
+        startFrom=entries.startFrom,
+        maxFailedFraction=entries.maxFailedFraction,
     )
 
 
@@ -212,9 +235,9 @@ def _injection(
     return InjectionSettings(
         name=dictionary.key,
         model=read_entries(model, dictionary, also=names_of(_InjectionModel)),
-        rho=constant.rho0 if common.rho0 is None else common.rho0,
+        rho=_quantity(constant.rho0 if common.rho0 is None else common.rho0),
         solid=_solid(solids, fluid, where=solids[-1] if solids else root.at("constantProperties")),
-        size=_size_distribution(common.sizeDistribution),
+        size=_distribution(common.sizeDistribution),
         shape=_shape(common.shape or constant.shape),
     )
 
@@ -232,13 +255,23 @@ def _shape(dictionary: Dictionary | None) -> Shape:
     return shape
 
 
-def _size_distribution(dictionary: Dictionary) -> FixedValue:
-    """Read ``sizeDistribution { type name; nameDistribution { … } }``."""
-    distribution = selected(SIZE_DISTRIBUTIONS, dictionary)
+def _quantity(found: float | Dictionary) -> float | Distribution:
+    """A positive number, or a distribution of such numbers."""
+    return _distribution(found) if isinstance(found, Dictionary) else found
+
+
+def _distribution(dictionary: Dictionary) -> Distribution:
+    """Read ``{ type name; nameDistribution { … } }``, a distribution of positive numbers."""
+    kind = selected(DISTRIBUTIONS, dictionary)
     coefficients = f"{read_entry(dictionary, 'type', str)}Distribution"
     refuse_unknown(dictionary, ("type", coefficients))
-    size: FixedValue = read_entry(dictionary, coefficients, distribution)
-    return size
+    if coefficients not in dictionary.entries:
+        raise dictionary.missing(coefficients, f"Allowed: {DICTIONARY_TEXT}.")
+    entries = dictionary.entries[coefficients].dictionary()
+    distribution: Distribution = read_entries(kind, entries)
+    if not distribution.limits[0] > 0.0:
+        raise entries.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
+    return distribution
 
 
 def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> Solid:
@@ -287,21 +320,72 @@ def _solid(dictionaries: Sequence[Dictionary], fluid: Fluid, where: Entry) -> So
     return Solid(
         type=entries["type"],
         shear_modulus=mu,
-        lame=lame_parameter(mu, entries["poissonsRatio"]),
+        poissons_ratio=entries["poissonsRatio"],
         reference_shear_rate=entries.get("referenceShearRate"),
         parameter=entries[parameter.entry] if parameter else 0.0,
-        viscosity=entries.get("viscosity", 0.0),
-        surface_tension=entries.get("surfaceTension", 0.0),
+        viscosity=_quantity(entries.get("viscosity", 0.0)),
+        surface_tension=_quantity(entries.get("surfaceTension", 0.0)),
     )
 
 
-def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float:
+def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float | Distribution:
     """μ_s, Pa, of a solid that gives one of ``_STIFFNESS``; Ca = μ_f γ̇/μ_s."""
     if "Ca" in solid:
-        return float(fluid.mu * solid["referenceShearRate"] / solid["Ca"])
+        return _scaled(_quantity(solid["Ca"]), fluid.mu * solid["referenceShearRate"], power=-1)
     if "youngsModulus" in solid:
-        return float(solid["youngsModulus"] / (2.0 * (1.0 + solid["poissonsRatio"])))
-    return float(solid["shearModulus"])
+        return _scaled(_quantity(solid["youngsModulus"]), 0.5 / (1.0 + solid["poissonsRatio"]))
+    return _quantity(solid["shearModulus"])
+
+
+def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
+    """``factor`` times a power of a quantity, distributed or not."""
+    return factor * quantity**power if isinstance(quantity, float) else Scaled(quantity, factor, power)
+
+
+def _functions(dictionary: Dictionary | None) -> dict[str, CloudFunction]:
+    """Read ``cloudFunctions { name { type …; … } … }``."""
+    functions: dict[str, CloudFunction] = {}
+    for entry in dictionary.entries.values() if dictionary else ():
+        name, own = unquoted(entry.key), entry.dictionary()
+        if Path(name).name != name:
+            raise entry.mistake("is no name of a folder, which the results need.")
+        functions[name] = read_entries(selected(FUNCTIONS, own), own, also=("type",))
+    return functions
+
+
+def _patch_interaction(model: str, models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
+    """Read the coefficients of a patch interaction model: rules for the patches, and what touches."""
+    coefficients: Dictionary = read_entry(models, f"{model}Coeffs", Dictionary)
+    touching: Touching = "ellipsoid"
+    if "touching" in coefficients.entries:
+        touching = read_entry(coefficients, "touching", Touching)
+    return INTERACTION_MODELS[model](coefficients), touching
+
+
+def _local_interaction(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """Rules patch by patch."""
+    entries = read_entries(_LocalInteraction, dictionary, also=("touching",))
+    return tuple(_patch_rule(entry) for entry in entries.patches.items)
+
+
+def _standard_wall_interaction(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """One rule for all walls; particles leave through what is open."""
+    walls = read_entries(selected(INTERACTIONS, dictionary), dictionary, also=("type", "touching"))
+    return KindRule("wall", walls), KindRule("open", Escape())
+
+
+def _rebound(dictionary: Dictionary) -> tuple[Rule, ...]:
+    """Particles bounce off every patch; twice UFactor of the normal velocity is taken away."""
+    entries = read_entries(_Rebound, dictionary, also=("touching",))
+    return (KindRule("any", Rebound(e=2.0 * entries.UFactor - 1.0)),)
+
+
+INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
+    "localInteraction": _local_interaction,
+    "rebound": _rebound,
+    "standardWallInteraction": _standard_wall_interaction,
+}
+"""Patch interaction models: what their coefficients mean for the patches."""
 
 
 def _patch_rule(dictionary: Dictionary) -> PatchRule:
@@ -348,9 +432,9 @@ _COUPLED = ("cyclic", "processor")
 
 
 def match_patches(
-    rules: Sequence[PatchRule], patches: Sequence[Patch], file: Path | str = DICTIONARY
+    rules: Sequence[Rule], patches: Sequence[Patch], file: Path | str = DICTIONARY
 ) -> list[Interaction]:
-    """Find what each patch does to a particle, as OpenFOAM's ``localInteraction`` does.
+    """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
     of that name, as does a patch of a constraint type). Without a rule, symmetry planes, wedges and empty
@@ -370,25 +454,29 @@ def match_patches(
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     for rule in rules:
-        if not any(_applies(rule, patch) for patch in patches):
+        if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
             names = [patch.name for patch in patches]
             raise InputError(f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}")
-    return [_interaction(rules, patch, where) for patch in patches]
+    return [_interaction(rules, patch, file, where) for patch in patches]
 
 
-def _interaction(rules: Sequence[PatchRule], patch: Patch, where: str) -> Interaction:
+def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
     if patch.type in _MIRRORS:
         return Rebound(e=1.0, mu=0.0)
     if patch.type.startswith(_COUPLED):
-        raise InputError(f"{where}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
+        raise InputError(f"{file}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 
 
-def _applies(rule: PatchRule, patch: Patch) -> bool:
-    is_group = patch.type == "wall" or patch.type in _MIRRORS or patch.type.startswith(_COUPLED)
+def _applies(rule: Rule, patch: Patch) -> bool:
+    constrained = patch.type in _MIRRORS or patch.type.startswith(_COUPLED)
+    if isinstance(rule, KindRule):
+        kind = "wall" if patch.type == "wall" else "constrained" if constrained else "open"
+        return rule.kind in (kind, "any")
+    is_group = patch.type == "wall" or constrained
     return rule.matches(patch.name) or (is_group and rule.matches(patch.type))
 
 
@@ -417,6 +505,9 @@ class _Solution:
     deltaT: Annotated[float, Positive]
     endTime: Annotated[float, Positive]
     writeInterval: Annotated[float, Positive] | None = None
+    startFrom: StartFrom | None = None
+    startTime: Annotated[float, Only(0.0, "a cloud begins at time 0")] = 0.0
+    maxFailedFraction: Annotated[float, Fraction] = 1.0
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
     transient: Annotated[bool, Only(False, "particles are tracked through steady flows only")] = False
@@ -429,12 +520,12 @@ class _Solution:
 class _Solid:
     type: Annotated[str, Choice(MATERIALS)] | None = None
     poissonsRatio: Annotated[float, PoissonsRatio] | None = None
-    shearModulus: Annotated[float, Positive] | None = None
-    youngsModulus: Annotated[float, Positive] | None = None
-    Ca: Annotated[float, Positive] | None = None
+    shearModulus: Annotated[float, Positive] | Dictionary | None = None
+    youngsModulus: Annotated[float, Positive] | Dictionary | None = None
+    Ca: Annotated[float, Positive] | Dictionary | None = None
     referenceShearRate: Annotated[float, Positive] | None = None
-    viscosity: Annotated[float, NonNegative] | None = None
-    surfaceTension: Annotated[float, NonNegative] | None = None
+    viscosity: Annotated[float, NonNegative] | Dictionary | None = None
+    surfaceTension: Annotated[float, NonNegative] | Dictionary | None = None
 
 
 _STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
@@ -454,7 +545,7 @@ def _parameters() -> dict[str, Any]:
 
 @dataclass(frozen=True, kw_only=True)
 class _ConstantProperties:
-    rho0: Annotated[float, Positive]
+    rho0: Annotated[float, Positive] | Dictionary
     rhoInf: Annotated[float, Positive]
     solid: Dictionary | None = None
     shape: Dictionary | None = None
@@ -498,7 +589,7 @@ class _InjectionModel:
 
     type: Annotated[str, Choice(INJECTIONS)]
     sizeDistribution: Dictionary
-    rho0: Annotated[float, Positive] | None = None
+    rho0: Annotated[float, Positive] | Dictionary | None = None
     solid: Dictionary | None = None
     shape: Dictionary | None = None
     parcelBasisType: Annotated[str, Only("fixed", _PARCELS)] = "fixed"
@@ -512,15 +603,21 @@ class _InjectionModel:
 @dataclass(frozen=True, kw_only=True)
 class _LocalInteraction:
     patches: DictionaryList
-    touching: Touching = "ellipsoid"
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Rebound:
+    UFactor: Annotated[float, Bounds(0.5, 1.0, False, False, "a number from 0.5 to 1")]
 
 
 @dataclass(frozen=True, kw_only=True)
 class _SubModels:
     particleForces: _ParticleForces
     injectionModels: Dictionary
-    patchInteractionModel: Literal["localInteraction"]
-    localInteractionCoeffs: _LocalInteraction
+    patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
+    localInteractionCoeffs: Dictionary | None = None
+    standardWallInteractionCoeffs: Dictionary | None = None
+    reboundCoeffs: Dictionary | None = None
     tractionModel: Annotated[str, Choice(TRACTIONS)] = "roscoe"
     dispersionModel: Literal["none"] = "none"
     heatTransferModel: Literal["none"] = "none"
@@ -530,13 +627,8 @@ class _SubModels:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _CloudFunctions:
-    pass
-
-
-@dataclass(frozen=True, kw_only=True)
 class _CloudProperties:
     solution: _Solution
     constantProperties: _ConstantProperties
     subModels: _SubModels
-    cloudFunctions: _CloudFunctions = _CloudFunctions()
+    cloudFunctions: Dictionary | None = None

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
-from strategies import flat, rotations, square, stretches, tensors
+from strategies import flat, mild_stretches, rotations, square, stretches, tensors
 
 from foamprb.body import tensor as t
 from foamprb.body.ellipsoid import sorted_frame
@@ -54,6 +54,41 @@ def test_principal_frame_of_nearly_a_sphere_is_still_a_frame(Q1, size, differenc
     Q, found = t.principal_frame(flat(F))
     np.testing.assert_allclose(found, size, rtol=1e-8)
     np.testing.assert_allclose(square(Q) @ square(Q).T, np.eye(3), atol=1e-14)
+
+
+@given(rotations, mild_stretches, rotations, tensors)
+def test_refined_frame_is_principal_where_it_has_turned_a_little(Q1, stretch, Q2, turn):
+    """By up to 0.1, about the angle of a step that the flow sets."""
+    F = Q1 @ np.diag(stretch) @ Q2
+    size = np.linalg.norm(t.axial(t.skew(turn))) + 1e-300
+    nearly = square(t.exponential(t.scale(0.1 / max(size, 1.0), t.skew(turn)))) @ Q1.T
+    Q = t.refined_frame(flat(F), flat(nearly))
+    found, skewness = t.stretches_in_frame(flat(F), Q)
+    assert skewness <= 1e-24
+    np.testing.assert_allclose(np.sort(found), np.sort(stretch), rtol=1e-13)
+    np.testing.assert_allclose(square(Q) @ square(Q).T, np.eye(3), atol=1e-15)
+    assert np.linalg.det(square(Q)) > 0
+
+
+@given(rotations, stretches, rotations)
+def test_repeated_refinement_ends_in_the_principal_frame_from_anywhere(Q1, stretch, Q2):
+    F = flat(Q1 @ np.diag(stretch) @ Q2)
+    Q = flat(np.eye(3))
+    for _ in range(6):
+        Q = t.refined_frame(F, Q)
+    found, _ = t.stretches_in_frame(F, Q)
+    np.testing.assert_allclose(np.sort(found), np.sort(stretch), rtol=1e-9)
+    np.testing.assert_allclose(square(Q) @ square(Q).T, np.eye(3), atol=1e-15)
+
+
+def test_frame_that_is_carried_along_stays_one():
+    """After 20 000 steps of a body that turns, the frame is as orthonormal as after one."""
+    Q, F = flat(np.eye(3)), np.diag([1.3, 1.0, 0.7])
+    turn = square(t.exponential(t.skew((0.0, 0.02, 0.01, -0.02, 0.0, 0.03, -0.01, -0.03, 0.0))))
+    for _ in range(20_000):
+        F = turn @ F
+        Q = t.refined_frame(flat(F), Q)
+    np.testing.assert_allclose(square(Q) @ square(Q).T, np.eye(3), atol=1e-15)
 
 
 @given(rotations, stretches, rotations)

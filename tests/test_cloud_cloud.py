@@ -41,7 +41,9 @@ def modulus(Ca):
 def pipe_cloud(Ca, dt=2e-5, x=(0.0, -1.65e-3, 0.0), wall=None, length=0.3, touching="ellipsoid", **options):
     Ca = np.atleast_1d(Ca)
     p = spheres(np.tile(x, (len(Ca), 1)), d=D, rho=2560.0, mu=modulus(Ca))
-    models = Models(touching=touching, **{k: options.pop(k) for k in ("drag", "traction") if k in options})
+    models = Models(
+        touching=touching, **{k: options.pop(k) for k in ("drag", "traction", "integrator") if k in options}
+    )
     flow = analytic.pipe(RADIUS, MEAN, length)
     return Cloud(p, flow, AIR, (wall or Stick(), Escape(), Escape()), dt, models, **options)
 
@@ -399,3 +401,22 @@ class TestBody:
         drift = p.v[0, 1] - u
         # What is left is the body's own acceleration along its curved path.
         np.testing.assert_allclose(drift, -weight / (AIR.mu * K[1]), rtol=0.07)
+
+
+@pytest.mark.parametrize("array", ["x", "v", "F", "A"])
+@pytest.mark.parametrize("integrator", ["paper", "rosenbrock"])
+def test_not_a_number_ends_its_particle_with_a_reason_and_no_other(array, integrator):
+    clean, spoilt = (scattered_cloud(integrator=integrator) for _ in range(2))
+    for cloud in (clean, spoilt):
+        cloud.advance(300)
+    k = int(np.flatnonzero(spoilt.particles.status == Status.ACTIVE)[3])
+    getattr(spoilt.particles, array)[k] = np.nan
+    for cloud in (clean, spoilt):
+        cloud.advance(100)
+    p = spoilt.particles
+    assert p.status[k] == Status.FAILED
+    # The adaptive integrator takes its error for one that no step is small enough for.
+    reason = Reason.NOT_FINITE if integrator == "paper" else Reason.NOT_CONVERGED
+    assert p.reason[k] == reason
+    others = np.arange(p.size) != k
+    assert_same(p.take(others), clean.particles.take(others))

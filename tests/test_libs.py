@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -160,3 +164,21 @@ def test_run_with_a_users_solid_and_shape(tmp_path, capsys):
     assert len(rows) == 1
     np.testing.assert_allclose(float(rows[0]["a"]) / float(rows[0]["c"]), 2.0, rtol=1e-3)
     assert foamprb.add_material is add_material
+
+
+def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):
+    """What the first process compiled and kept on disk, the second one reads."""
+    (tmp_path / "rubber.py").write_text(FUNG)
+    text = (
+        "import sys, pathlib; from foamprb.libs import load_libs; from foamprb.compile import link; "
+        "from foamprb.body.material import MATERIALS; load_libs([pathlib.Path(sys.argv[1])]); "
+        "f = link(MATERIALS['fung'].derivatives); f(3.0, 3.0, 1.0, 1.0, 1.0, 1.0); "
+        "print(sum(f.stats.cache_hits.values()))"
+    )
+    command = [sys.executable, "-c", text, str(tmp_path / "rubber.py")]
+    environment = {**os.environ, "FOAMPRB_CACHE_DIR": str(tmp_path / "cache")}
+    hits = [
+        subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.strip()
+        for _ in range(2)
+    ]
+    assert hits == ["0", "1"]

@@ -1,3 +1,5 @@
+import errno
+import os
 import signal
 import subprocess
 import sys
@@ -7,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from foamprb.output.atomic import atomic_write, remove_unfinished
+from foamprb.errors import InputError
+from foamprb.output.atomic import atomic_write, only_writer, remove_unfinished
 
 
 def test_writes_whole_file_and_nothing_else(tmp_path: Path) -> None:
@@ -91,7 +94,7 @@ def test_killed_process_keeps_old_file(tmp_path: Path, name: str) -> None:
     assert path.read_text() == "old"
     assert len(list(tmp_path.iterdir())) == 2
 
-    remove_unfinished(path)
+    remove_unfinished(tmp_path)
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -105,10 +108,29 @@ def wait_for_megabyte(folder: Path, writer: subprocess.Popen[bytes]) -> None:
     pytest.fail("the writer wrote nothing")
 
 
-def test_remove_unfinished_takes_only_its_own(tmp_path: Path) -> None:
-    kept = [tmp_path / name for name in ("a.pvd", ".a.pvd", ".b.pvd.0.tmp", "a.pvd.0.tmp")]
-    for file in (*kept, tmp_path / ".a.pvd.0.tmp"):
+def test_remove_unfinished_takes_temporary_files_only(tmp_path: Path) -> None:
+    kept = [
+        tmp_path / name for name in ("a.pvd", ".a.pvd", ".b.pvd.0.tmp", "a.pvd.0123abcd.tmp", ".bashrc.tmp")
+    ]
+    for file in (*kept, tmp_path / ".a.pvd.0123abcd.tmp"):
         file.touch()
-    remove_unfinished(tmp_path / "a.pvd")
+    remove_unfinished(tmp_path)
     assert sorted(tmp_path.iterdir()) == sorted(kept)
-    remove_unfinished(tmp_path / "absent" / "a.pvd")
+    remove_unfinished(tmp_path / "absent")
+
+
+def test_full_disk_names_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    with pytest.raises(OSError, match=r"No space left on device: '.*/table\.csv'"), atomic_write(path):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_has_one_writer(tmp_path: Path) -> None:
+    folder = tmp_path / "new"
+    with only_writer(folder):
+        with pytest.raises(InputError, match="another run is writing here"), only_writer(folder):
+            pass
+        assert list(folder.iterdir()) == []
+    with only_writer(folder):
+        pass

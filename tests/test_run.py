@@ -11,12 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from scipy import stats
 
 from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
+from foamprb.cloudfunctions import STATUS_NAMES
 from foamprb.output.vtk import read_pvd
-from foamprb.run import STATUS_NAMES
+from foamprb.run import prepare
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"
@@ -244,6 +246,58 @@ def test_mistakes_in_the_arguments(words, expected, capsys):
     err = capsys.readouterr().err
     assert expected in err
     assert "Traceback" not in err
+
+
+def population(case, threads=None):
+    return prepare(case, threads=threads).cloud.particles
+
+
+def of(p, injector):
+    return p.take(np.flatnonzero(p.injector == injector))
+
+
+def test_a_population_is_spread_and_reproducible(case):
+    """Size, density and stiffness are drawn by the model's name, whatever else is injected."""
+    plain = of(population(case), 5)
+    names = {"rho0": (900.0, 1100.0), "shearModulus": (50.0, 500.0), "viscosity": (0.1, 0.2)}
+    rho, mu, eta = (
+        f"{name} {{ type uniform; uniformDistribution {{ minValue {low}; maxValue {high}; }} }}"
+        for name, (low, high) in names.items()
+    )
+    sizes = "{ type uniform; uniformDistribution { minValue 2e-6; maxValue 9e-6; } }"
+    edit(case, r"(patch\s+inlet;)", rf"\1 {rho} solid {{ {mu} {eta} }}")
+    edit(case, r"sizeDistribution\s*\{\s*\$:onePoint\.sizeDistribution;\s*\}", f"sizeDistribution {sizes}")
+    both = of(population(case, threads=1), 5), of(population(case, threads=2), 5)
+    for array, other in zip(*both, strict=True):
+        np.testing.assert_array_equal(array, other)
+    p = both[0]
+    np.testing.assert_array_equal(p.x, plain.x)
+    for values, (low, high) in ((p.rho, names["rho0"]), (p.mu, names["shearModulus"]),
+                                (p.eta, names["viscosity"]), (2e6 * p.R, (2.0, 9.0))):  # fmt: skip
+        share = (values - low) / (high - low)
+        assert stats.ks_1samp(share, stats.uniform.cdf).pvalue > 0.01
+    np.testing.assert_allclose(p.lame, p.mu * 2.0 * 0.499 / (1.0 - 2.0 * 0.499), rtol=1e-12)
+    np.testing.assert_allclose(p.Ca * p.mu, 1.208 * 1.491e-5 * 923.8, rtol=1e-4)
+    # No two quantities share their random numbers, or who is large would be stiff.
+    columns = [p.rho, p.mu, p.eta, p.R]
+    correlation = np.corrcoef(columns) - np.eye(4)
+    assert np.abs(correlation).max() < 4.0 / np.sqrt(p.size)
+    text = (case / "constant/softCloudProperties").read_text()
+    (case / "constant/softCloudProperties").write_text(re.sub(r"Ca025\s*\{[^{}]*\{[^{}]*\}\s*\}", "", text))
+    alone = of(population(case), 4)
+    for name, array, other in zip(p._fields, p, alone, strict=True):
+        if name != "injector":
+            np.testing.assert_array_equal(array, other)
+
+
+def test_a_cloud_function_that_cannot_work_stops_a_dry_run(case, capsys):
+    edit(
+        case, r"cloudFunctions\s*\{\}", "cloudFunctions { hits { type patchPostProcessing; patches (wal); } }"
+    )
+    text = message(case, capsys, "-dry-run")
+    assert (
+        "softCloudProperties: cloudFunctions/hits: patch wal is not in the mesh. Did you mean 'wall'" in text
+    )
 
 
 def test_positions_that_are_left_out_are_counted(case, capsys):

@@ -6,7 +6,7 @@ import contextlib
 import re
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,14 +16,29 @@ from foamlib import FoamFile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.cloud.injection import ManualInjection, PatchInjection
-from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.shapes import Ellipsoid, Sphere
+from foamprb import settings as settings_module
+from foamprb.cloud.distribution import DISTRIBUTIONS, General, Normal, RosinRammler, Scaled, Uniform
+from foamprb.cloud.injection import (
+    INJECTIONS,
+    CellZoneInjection,
+    ConeInjection,
+    ManualInjection,
+    PatchInjection,
+)
+from foamprb.cloud.patches import INTERACTIONS, Escape, Rebound, Stick
+from foamprb.cloud.shapes import SHAPES, Ellipsoid, Sphere
+from foamprb.cloudfunctions import (
+    FUNCTIONS,
+    ParticleCollector,
+    ParticleHistogram,
+    ParticleTracks,
+    PatchPostProcessing,
+)
 from foamprb.dictionary import Dictionary, Stream, read_dictionary
 from foamprb.errors import InputError
 from foamprb.positions import read_positions
 from foamprb.records import read_entries
-from foamprb.settings import Fluid, PatchRule, Settings, match_patches, read_settings
+from foamprb.settings import INTERACTION_MODELS, Fluid, PatchRule, Settings, match_patches, read_settings
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 
@@ -189,7 +204,7 @@ MISTAKES = [
     ),
     ("deltaT ", "integrationSchemes { shape papre; } deltaT ", "Did you mean 'paper'?"),
     ("rhoInf          1.208;", "", "constantProperties/rhoInf is missing"),
-    ("2560", "-1", "constantProperties/rho0 is '-1'. Allowed: a number > 0."),
+    ("2560", "-1", "constantProperties/rho0 is '-1'. Allowed: a number > 0, or a dictionary"),
     (
         "poissonsRatio 0.4",
         "poissonsRatio 0.5",
@@ -214,7 +229,7 @@ MISTAKES = [
         "subModels { tractionModel rosco;",
         "subModels/tractionModel is 'rosco'. Did you mean 'roscoe'?",
     ),
-    ("patchInjection", "coneInjection", "injectionModels/inlet/type is 'coneInjection'"),
+    ("patchInjection", "conicalInjection", "inlet/type is 'conicalInjection'. Did you mean 'coneInjection'?"),
     (
         "parcelsPerSecond 1000",
         "parcelsPerSecond 0",
@@ -246,11 +261,16 @@ MISTAKES = [
     ("patchInjection", 'manualInjection; positionsFile "no"', "inlet/patch is not known"),
     ("value 5e-6;", "", "inlet/sizeDistribution/fixedValueDistribution/value is missing"),
     ("fixedValueDistribution { value 5e-6; }", "", "sizeDistribution/fixedValueDistribution is missing"),
-    ("type fixedValue;", "type normal;", "inlet/sizeDistribution/type is 'normal'. Allowed: fixedValue."),
+    ("type fixedValue;", "type norml;", "inlet/sizeDistribution/type is 'norml'. Did you mean 'normal'?"),
+    (
+        "type fixedValue;",
+        "type normal;",
+        "inlet/sizeDistribution/fixedValueDistribution is not known. Did you",
+    ),
     (
         "localInteraction;",
         "standardWallInteraction;",
-        "patchInteractionModel is 'standardWallInteraction'. Did",
+        "subModels/standardWallInteractionCoeffs is missing. Allowed: a dictionary",
     ),
     ("type escape", "type escpae", "patches/(inlet|outlet)/type is 'escpae'. Did you mean 'escape'?"),
     ("type stick", "type rebound; e 2", "patches/wall/e is '2'. Allowed: a number from 0 to 1."),
@@ -260,7 +280,7 @@ MISTAKES = [
     (
         "FoamFile",
         "cloudFunctions { facePostProcessing { } } FoamFile",
-        "cloudFunctions/facePostProcessing is not k",
+        "cloudFunctions/facePostProcessing/type is missing. Allowed: particleCollector, ",
     ),
     ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
     ("solution\n{", "solution 3; other {", "line 3: other is not known"),
@@ -316,7 +336,7 @@ def test_stiffness(read: Reader, stiffness: str, mu: float, rate: float | None) 
     solid = read(("shearModulus 1000;", stiffness)).injections[0].solid
     assert solid.type == "neoHooke"
     assert solid.shear_modulus == pytest.approx(mu, rel=1e-14)
-    assert solid.lame == pytest.approx(2.0 * mu * 0.4 / (1.0 - 2.0 * 0.4), rel=1e-14)
+    assert solid.poissons_ratio == 0.4
     assert solid.reference_shear_rate == rate
 
 
@@ -328,19 +348,135 @@ def test_an_injection_models_solid_replaces_entries_of_the_clouds(read: Reader) 
         )
         assert settings.injections[0].rho == 900.0
         result = settings.injections[0].solid
-        return result.shear_modulus, result.lame / result.shear_modulus, result.reference_shear_rate
+        return result.shear_modulus, result.poissons_ratio, result.reference_shear_rate
 
     mu = Fluid(1.208, 1.5e-5).mu
     common = "poissonsRatio 0.4; referenceShearRate 100; "
-    assert solid(common + "Ca 1;", "Ca 0.25;") == pytest.approx((400.0 * mu, 4.0, 100.0))
-    assert solid(common + "shearModulus 5;", "Ca 0.25;") == pytest.approx((400.0 * mu, 4.0, 100.0))
-    assert solid(common + "Ca 1;", "shearModulus 7;") == pytest.approx((7.0, 4.0, 100.0))
-    assert solid(common + "Ca 1;", "poissonsRatio 0.25;") == pytest.approx((100.0 * mu, 1.0, 100.0))
-    assert solid(common, "Ca 2; referenceShearRate 50;") == pytest.approx((25.0 * mu, 4.0, 50.0))
+    assert solid(common + "Ca 1;", "Ca 0.25;") == pytest.approx((400.0 * mu, 0.4, 100.0))
+    assert solid(common + "shearModulus 5;", "Ca 0.25;") == pytest.approx((400.0 * mu, 0.4, 100.0))
+    assert solid(common + "Ca 1;", "shearModulus 7;") == pytest.approx((7.0, 0.4, 100.0))
+    assert solid(common + "Ca 1;", "poissonsRatio 0.25;") == pytest.approx((100.0 * mu, 0.25, 100.0))
+    assert solid(common, "Ca 2; referenceShearRate 50;") == pytest.approx((25.0 * mu, 0.4, 50.0))
     with pytest.raises(InputError, match="injectionModels/inlet/solid/referenceShearRate is missing"):
         solid("poissonsRatio 0.4; shearModulus 5;", "Ca 2;")
     with pytest.raises(InputError, match="injectionModels/inlet/solid gives shearModulus and youngsModulus"):
         solid(common + "Ca 1;", "youngsModulus 1; shearModulus 7;")
+
+
+# Populations
+
+NORMAL = "type normal; normalDistribution { expectation 1000; variance 200; minValue 300; maxValue 3000; }"
+EXPECTED = Normal(minValue=300.0, maxValue=3000.0, expectation=1000.0, variance=200.0)
+
+
+def test_stiffness_and_density_may_be_distributed(read: Reader) -> None:
+    fixed = "type fixedValue;"
+    (inlet,) = read(("shearModulus 1000;", f"shearModulus {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == EXPECTED
+    (inlet,) = read(("shearModulus 1000;", f"youngsModulus {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == Scaled(EXPECTED, pytest.approx(1.0 / 2.8))
+    (inlet,) = read(("shearModulus 1000;", f"referenceShearRate 50; Ca {{ {NORMAL} }}")).injections
+    assert inlet.solid.shear_modulus == Scaled(EXPECTED, pytest.approx(50.0 * 1.208 * 1.5e-5), -1)
+    (inlet,) = read(("rho0            2560;", f"rho0 {{ {NORMAL} }}")).injections
+    assert inlet.rho == EXPECTED
+    (inlet,) = read(("patch inlet;", f"patch inlet; rho0 {{ {NORMAL} }}")).injections
+    assert inlet.rho == EXPECTED
+    (inlet,) = read(("poissonsRatio", f"viscosity {{ {NORMAL} }} surfaceTension 3; poissonsRatio")).injections
+    assert (inlet.solid.viscosity, inlet.solid.surface_tension) == (EXPECTED, 3.0)
+    (inlet,) = read((f"{fixed} fixedValueDistribution {{ value 5e-6; }}", NORMAL)).injections
+    assert inlet.size == EXPECTED
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"),
+    [
+        ("type uniform; uniformDistribution { minValue 1; maxValue 2; }", Uniform(1.0, 2.0)),
+        (
+            "type RosinRammler; RosinRammlerDistribution { minValue 1; maxValue 2; d 3; n 0.5; }",
+            RosinRammler(1.0, 2.0, 3.0, 0.5),
+        ),
+        (
+            "type general; generalDistribution { distribution ( (1 0.5) (2 3) ); }",
+            General(((1.0, 0.5), (2.0, 3.0))),
+        ),
+        (
+            "type general; generalDistribution { distribution 2((1 0.5)(2 3)); }",
+            General(((1.0, 0.5), (2.0, 3.0))),
+        ),
+    ],
+)
+def test_distributions(read: Reader, size: str, expected: object) -> None:
+    old = "type fixedValue; fixedValueDistribution { value 5e-6; }"
+    assert read((old, size)).injections[0].size == expected
+
+
+@pytest.mark.parametrize(
+    ("size", "message"),
+    [
+        ("type uniform; uniformDistribution { minValue 2; maxValue 1; }", "minValue 2, which is not below"),
+        (
+            "type uniform; uniformDistribution { minValue 0; maxValue 1; }",
+            "begins at 0. Allowed: values > 0.",
+        ),
+        ("type fixedValue; fixedValueDistribution { value -1; }", "begins at -1. Allowed: values > 0."),
+        ("type uniform; uniformDistribution { minValue 2; }", "uniformDistribution/maxValue is missing"),
+        ("type uniform;", "sizeDistribution/uniformDistribution is missing. Allowed: a dictionary"),
+        (
+            "type normal; normalDistribution { minValue 1; maxValue 2; expectation 1; variance 0; }",
+            "variance is '0'. Allowed: a number > 0.",
+        ),
+        (
+            "type general; generalDistribution { distribution ((1 2 3)); }",
+            "distribution is '((1 2 3))'. Allowed: a list of pairs",
+        ),
+        ("type general; generalDistribution { distribution ((1 2)); }", "needs two pairs"),
+        ("type general; generalDistribution { distribution 3; }", "Allowed: a list of pairs"),
+        ("type general; generalDistribution { distribution ((1 2)) (; }", "no closing )"),
+    ],
+)
+def test_a_wrong_distribution_has_its_message(read: Reader, size: str, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read(("type fixedValue; fixedValueDistribution { value 5e-6; }", size))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+# Injection models
+
+PATCH_INJECTION = "patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;"
+CONE = (
+    "coneInjection; SOI 0.5; duration 2; parcelsPerInjector 20; flowRateProfile constant 1; "
+    "positionAxis ( ((0.3 0.35 1.45) (0 0 -1)) ((0.6 0.35 1.45) (0 1 0)) ); "
+    "Umag constant 3.0; thetaInner 0; thetaOuter constant 45;"
+)
+
+
+def test_cell_zone_injection(read: Reader) -> None:
+    zone = "cellZoneInjection; cellZone drop; numberDensity 1e9; U0 (0 0 1); SOI 0.25;"
+    model = read((PATCH_INJECTION, zone)).injections[0].model
+    assert model == CellZoneInjection("drop", 1e9, U0=(0.0, 0.0, 1.0), SOI=0.25)
+
+
+def test_cone_injection(read: Reader) -> None:
+    axes = (((0.3, 0.35, 1.45), (0.0, 0.0, -1.0)), ((0.6, 0.35, 1.45), (0.0, 1.0, 0.0)))
+    model = read((PATCH_INJECTION, CONE)).injections[0].model
+    assert model == ConeInjection(axes, 2.0, 20.0, 3.0, 0.0, 45.0, SOI=0.5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("Umag constant 3.0", "Umag table ((0 1) (1 2))", "Allowed: a number >= 0, constant in time."),
+        ("thetaInner 0", "thetaInner -1", "an angle from 0 to 180 degrees"),
+        ("(0 1 0)) )", "(0 1)) )", "a list of positions with an axis"),
+        ("(0 1 0)) )", "(0 0 0)) )", "inlet has an axis (0 0 0) in positionAxis."),
+        ("flowRateProfile constant 1", "flowRateProfile constant 2", "Allowed: constant 1 ("),
+        ("SOI 0.5", "SOI -1", "inlet/SOI is '-1'. Allowed: a number >= 0"),
+    ],
+)
+def test_a_wrong_cone_has_its_message(read: Reader, old: str, new: str, message: str) -> None:
+    assert CONE.count(old) == 1
+    with pytest.raises(InputError, match=re.escape(message)):
+        read((PATCH_INJECTION, CONE.replace(old, new)))
 
 
 def test_viscosity_and_surface_tension(read: Reader) -> None:
@@ -634,6 +770,38 @@ def test_patches_of_a_constraint_type() -> None:
     assert match_patches([PatchRule("left", Escape())], [Patch("left", "cyclicAMI")]) == [Escape()]
 
 
+def test_standard_wall_interaction(read: Reader) -> None:
+    """Walls do what the entries say, open patches let through, constraint types keep their meaning."""
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read(
+        (
+            text,
+            "patchInteractionModel standardWallInteraction; localInteractionCoeffs { } "
+            "standardWallInteractionCoeffs { type rebound; e 0.97; mu 0.09; touching centre; }",
+        )
+    )
+    assert (settings.interaction, settings.touching) == ("standardWallInteraction", "centre")
+    patches = [
+        Patch("wall"),
+        Patch("side", "wall"),
+        Patch("mid", "symmetryPlane"),
+        Patch("out", "mappedPatch"),
+    ]
+    bounce = Rebound(e=0.97, mu=0.09)
+    assert match_patches(settings.patches, patches) == [Escape(), bounce, Rebound(), Escape()]
+    with pytest.raises(InputError, match="cannot yet pass through"):
+        match_patches(settings.patches, [Patch("left", "cyclic")])
+
+
+def test_rebound_from_every_patch(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.8; }"))
+    patches = [Patch("in"), Patch("side", "wall"), Patch("mid", "symmetryPlane")]
+    assert match_patches(settings.patches, patches) == [Rebound(e=pytest.approx(0.6))] * 3
+    with pytest.raises(InputError, match=r"UFactor is '0\.4'\. Allowed: a number from 0\.5 to 1"):
+        read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.4; }"))
+
+
 @pytest.mark.parametrize(
     ("rule", "message"),
     [
@@ -779,3 +947,82 @@ def test_a_wrong_third_parameter_has_its_message(read: Reader, solid: str, messa
     with pytest.raises(InputError) as caught:
         read(("type neoHooke;", solid))
     assert message in str(caught.value)
+
+
+# Cloud functions
+
+
+def test_cloud_functions(read: Reader) -> None:
+    assert read().functions == {}
+    block = """
+    cloudFunctions
+    {
+        paths { type particleTracks; trackInterval 5; maxSamples 100; maxTracks 7; }
+        hits { type patchPostProcessing; patches (wall "out let"); maxStoredParcels 20; }
+        gate { type particleCollector; mode plane; origin (1 2 3); normal (0 0 1); resetOnWrite yes; }
+        spread { type particleHistogram; fields (shearExposure); nBins 7; }
+    }
+    solution"""
+    assert read(("solution", block)).functions == {
+        "paths": ParticleTracks(trackInterval=5, maxSamples=100, maxTracks=7),
+        "hits": PatchPostProcessing(patches=("wall", "out let"), maxStoredParcels=20),
+        "gate": ParticleCollector("plane", (1.0, 2.0, 3.0), (0.0, 0.0, 1.0), resetOnWrite=True),
+        "spread": ParticleHistogram(fields=("shearExposure",), nBins=7, sampleInterval=10),
+    }
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        ("f { type particleTrack; }", "f/type is 'particleTrack'. Did you mean 'particleTracks'?"),
+        (
+            "f { type particleTracks; maxSamples 5; }",
+            "f/trackInterval is missing. Allowed: a whole number >= 1.",
+        ),
+        (
+            "f { type particleTracks; trackInterval 0; maxSamples 5; }",
+            "is '0'. Allowed: a whole number >= 1.",
+        ),
+        ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: a whole number"),
+        ("f { type patchPostProcessing; patches wall; }", "patches is 'wall'. Allowed: a list of words"),
+        (
+            "f { type particleCollector; mode polygon; origin (0 0 0); normal (1 0 0); }",
+            "mode is 'polygon'. Allowed: plane.",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (1 0 0); removeCollected yes; }",
+            "removeCollected is 'yes'. Allowed: false (the particles go on).",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (0 0 0); }",
+            "has a normal (0 0 0).",
+        ),
+        (
+            "f { type particleHistogram; fields (age); }",
+            "cloudFunctions/f has the field age. Allowed: maxDef",
+        ),
+        ('"a/b" { type particleHistogram; }', "cloudFunctions/a/b is no name of a folder"),
+        ("f;", "cloudFunctions/f/type is missing"),
+    ],
+)
+def test_a_wrong_cloud_function_has_its_message(read: Reader, function: str, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read(("solution", f"cloudFunctions {{ {function} }} solution"))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+def test_the_documentation_names_every_entry() -> None:
+    text = (PIPE.parents[1] / "docs/settings.md").read_text()
+    code = re.findall(r"`([^`]+)`", text.replace("```", "`"))
+    words = set(re.findall(r"[A-Za-z]\w*", " ".join(code)))
+    private = [r for name, r in vars(settings_module).items() if name.startswith("_")]
+    records = [r for r in private if isinstance(r, type) and is_dataclass(r)]
+    registries = (DISTRIBUTIONS, FUNCTIONS, INJECTIONS, INTERACTIONS, SHAPES)
+    for registry in registries:
+        records += registry.values()
+    entries = {field.name for record in records for field in fields(record)}
+    entries |= {name for registry in (*registries, INTERACTION_MODELS) for name in registry}
+    # The coefficients of the patch interaction models stand under one name.
+    missing = {name for name in entries - words if not name.endswith("Coeffs")}
+    assert missing == set()
+    assert len(entries) > 90

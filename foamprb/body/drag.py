@@ -11,7 +11,7 @@ from math import pi
 import numpy as np
 
 from foamprb.body.ellipsoid import Integrals, integrals
-from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, select, vector_dot
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, reciprocals, select, vector_dot
 
 
 def oberbeck(semi_axes: Vector, g: Integrals) -> Vector:
@@ -26,11 +26,8 @@ def oberbeck(semi_axes: Vector, g: Integrals) -> Vector:
     a, b, c = semi_axes
     alpha, beta, gamma = g.alpha
     k = 16.0 * pi
-    return (
-        k / (g.chi + alpha * a * a),
-        k / (g.chi + beta * b * b),
-        k / (g.chi + gamma * c * c),
-    )
+    r = reciprocals((g.chi + alpha * a * a, g.chi + beta * b * b, g.chi + gamma * c * c))
+    return k * r[0], k * r[1], k * r[2]
 
 
 def brenner_prolate(semi_axes: Vector, _g: Integrals) -> Vector:
@@ -130,10 +127,11 @@ def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: 
         v[2] + dt * acceleration[2],
     )
     load_p, u_p = dot_vector(Q, load), dot_vector(Q, u)
+    r = reciprocals((1.0 + dt * rate[0], 1.0 + dt * rate[1], 1.0 + dt * rate[2]))
     new = (
-        (load_p[0] + dt * rate[0] * u_p[0]) / (1.0 + dt * rate[0]),
-        (load_p[1] + dt * rate[1] * u_p[1]) / (1.0 + dt * rate[1]),
-        (load_p[2] + dt * rate[2] * u_p[2]) / (1.0 + dt * rate[2]),
+        (load_p[0] + dt * rate[0] * u_p[0]) * r[0],
+        (load_p[1] + dt * rate[1] * u_p[1]) * r[1],
+        (load_p[2] + dt * rate[2] * u_p[2]) * r[2],
     )
     return vector_dot(new, Q)
 

@@ -30,6 +30,7 @@ from foamprb.body.tensor import (
     ddot,
     det,
     dot,
+    reciprocals,
     scale,
     select,
     trace,
@@ -122,27 +123,25 @@ def tangent(n: Newton, X: Tensor) -> Tensor:
 
 
 def _pair(
-    kappa: Scalar, Bi: Scalar, Bj: Scalar, Si: Scalar, Sj: Scalar, rij: Scalar, rji: Scalar
+    d: Scalar, Bi: Scalar, Bj: Scalar, q: Scalar, s: Scalar, rij: Scalar, rji: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """X_ij and X_ji from B_j X_ij + κ S_i X_ji = r_ij and B_i X_ji + κ S_j X_ij = r_ji."""
-    q, s = kappa * Si, kappa * Sj
-    d = 1.0 / (Bj * Bi - q * s)
+    """X_ij and X_ji from B_j X_ij + q X_ji = r_ij and B_i X_ji + s X_ij = r_ji, d the inverse determinant."""
     return d * (Bi * rij - q * rji), d * (Bj * rji - s * rij)
 
 
 def solve_diagonal(n: Newton, r: Tensor) -> Tensor:
     """X for the right side r with the off-diagonal components of B, S and D left out, in closed form."""
     B1, B2, B3 = n.B[0], n.B[4], n.B[8]
-    S1, S2, S3 = n.S[0], n.S[4], n.S[8]
-    e1 = 1.0 / (B1 + n.kappa * S1)
-    e2 = 1.0 / (B2 + n.kappa * S2)
-    e3 = 1.0 / (B3 + n.kappa * S3)
+    s1, s2, s3 = n.kappa * n.S[0], n.kappa * n.S[4], n.kappa * n.S[8]
+    e1, e2, e3 = reciprocals((B1 + s1, B2 + s2, B3 + s3))
+    d12, d13, d23 = reciprocals((B1 * B2 - s1 * s2, B1 * B3 - s1 * s3, B2 * B3 - s2 * s3))
     D1, D2, D3 = n.kappa * n.D[0] * e1, n.kappa * n.D[4] * e2, n.kappa * n.D[8] * e3
     x1, x2, x3 = r[0] * e1, r[4] * e2, r[8] * e3
-    tr = (x1 + x2 + x3) / (1.0 - D1 - D2 - D3)
-    X12, X21 = _pair(n.kappa, B1, B2, S1, S2, r[1], r[3])
-    X13, X31 = _pair(n.kappa, B1, B3, S1, S3, r[2], r[6])
-    X23, X32 = _pair(n.kappa, B2, B3, S2, S3, r[5], r[7])
+    dilation_factor = 1.0 / (1.0 - D1 - D2 - D3)
+    tr = (x1 + x2 + x3) * dilation_factor
+    X12, X21 = _pair(d12, B1, B2, s1, s2, r[1], r[3])
+    X13, X31 = _pair(d13, B1, B3, s1, s3, r[2], r[6])
+    X23, X32 = _pair(d23, B2, B3, s2, s3, r[5], r[7])
     return (x1 + D1 * tr, X12, X13, X21, x2 + D2 * tr, X23, X31, X32, x3 + D3 * tr)
 
 

@@ -27,7 +27,7 @@ from foamprb.body.material import neo_hooke_derivatives as derivatives
 from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, inverse
 
 GAMMA = 1.0 + 1.0 / sqrt(2.0)
-_DIFFERENCE = 1e-6
+_DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
 
 
 class Elasticity(NamedTuple):
@@ -94,7 +94,7 @@ def elasticity(
     """
     x, y, z = squares
     tau = _principal_kirchhoff((x, y, z), J, mu, lame, k)
-    h = _DIFFERENCE
+    h, per = _DIFFERENCE, _PER_DIFFERENCE
     g = 1.0 + 2.0 * h + 2.0 * h * h
     Jh = J * (1.0 + h + 0.5 * h * h)
     tx = _principal_kirchhoff((x * g, y, z), Jh, mu, lame, k)
@@ -102,9 +102,9 @@ def elasticity(
     tz = _principal_kirchhoff((x, y, z * g), Jh, mu, lame, k)
     normal, cross = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
     slopes = (
-        (tx[0] - tau[0]) / h + normal, (ty[0] - tau[0]) / h + cross, (tz[0] - tau[0]) / h + cross,
-        (tx[1] - tau[1]) / h + cross, (ty[1] - tau[1]) / h + normal, (tz[1] - tau[1]) / h + cross,
-        (tx[2] - tau[2]) / h + cross, (ty[2] - tau[2]) / h + cross, (tz[2] - tau[2]) / h + normal,
+        (tx[0] - tau[0]) * per + normal, (ty[0] - tau[0]) * per + cross, (tz[0] - tau[0]) * per + cross,
+        (tx[1] - tau[1]) * per + cross, (ty[1] - tau[1]) * per + normal, (tz[1] - tau[1]) * per + cross,
+        (tx[2] - tau[2]) * per + cross, (ty[2] - tau[2]) * per + cross, (tz[2] - tau[2]) * per + normal,
     )  # fmt: skip
     I1, I2 = _principal_invariants((x, y, z))
     w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)

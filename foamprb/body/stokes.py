@@ -11,7 +11,17 @@ from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.rosenbrock import Elasticity, disturbance_normal, solve_pair
-from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, inverse, scale
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    add_identity,
+    dot,
+    dot_vector,
+    inverse,
+    reciprocals,
+    scale,
+)
 
 
 class Mobility(NamedTuple):
@@ -19,8 +29,8 @@ class Mobility(NamedTuple):
 
     normal: Tensor
     """d_s,aa for unit changes of (σ_cc − traction of the fluid)/μ_f; traceless for any stress."""
-    resistance: Vector
-    """2/(abc α₀°(b² + c²)) − 1 + η_s/μ_f and its cyclic companions, for 23, 13 and 12."""
+    compliance: Vector
+    """1/(2/(abc α₀°(b² + c²)) − 1 + η_s/μ_f) and its cyclic companions, for 23, 13 and 12."""
     slip: Vector
     """(b² − c²)/(b² + c²), (a² − c²)/(a² + c²), (a² − b²)/(a² + b²)."""
     own: Scalar
@@ -62,12 +72,11 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     )  # fmt: skip
     x, y, z = a * a, b * b, c * c
     k = 2.0 / (a * b * c)
-    resistance = (
-        k / (g.ring[0] * (y + z)) - own,
-        k / (g.ring[1] * (x + z)) - own,
-        k / (g.ring[2] * (x + y)) - own,
-    )
-    return Mobility(normal, resistance, ((y - z) / (y + z), (x - z) / (x + z), (x - y) / (x + y)), own)
+    p1, p2, p3 = g.ring[0] * (y + z), g.ring[1] * (x + z), g.ring[2] * (x + y)
+    r = reciprocals((k - own * p1, k - own * p2, k - own * p3))
+    s = reciprocals((y + z, x + z, x + y))
+    slip = ((y - z) * s[0], (x - z) * s[1], (x - y) * s[2])
+    return Mobility(normal, (p1 * r[0], p2 * r[1], p3 * r[2]), slip, own)
 
 
 def velocity_gradient(semi_axes: Vector, g: Integrals, m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
@@ -85,18 +94,18 @@ def velocity_gradient(semi_axes: Vector, g: Integrals, m: Mobility, sigma: Tenso
     third = (l_f[0] + l_f[4] + l_f[8]) * (1.0 / 3.0)
     s, _ = disturbance_normal(semi_axes, g, (l_f[0] - third, l_f[4] - third, l_f[8] - third))
     d = dot_vector(m.normal, (sigma[0] - s[0], sigma[4] - s[1], sigma[8] - s[2]))
-    l23, l32 = _off_diagonal(m.resistance[0], m.slip[0], m.own, sigma[5], l_f[5], l_f[7])
-    l13, l31 = _off_diagonal(m.resistance[1], m.slip[1], m.own, sigma[2], l_f[2], l_f[6])
-    l12, l21 = _off_diagonal(m.resistance[2], m.slip[2], m.own, sigma[1], l_f[1], l_f[3])
+    l23, l32 = _off_diagonal(m.compliance[0], m.slip[0], m.own, sigma[5], l_f[5], l_f[7])
+    l13, l31 = _off_diagonal(m.compliance[1], m.slip[1], m.own, sigma[2], l_f[2], l_f[6])
+    l12, l21 = _off_diagonal(m.compliance[2], m.slip[2], m.own, sigma[1], l_f[1], l_f[3])
     return (d[0], l12, l13, l21, d[1], l23, l31, l32, d[2])
 
 
 def _off_diagonal(
-    resistance: Scalar, slip: Scalar, own: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
+    compliance: Scalar, slip: Scalar, own: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
 ) -> tuple[Scalar, Scalar]:
     """l_s,ij and l_s,ji: free of torque, and σ̃_ij − 2 η_s d_s,ij = σ_ij."""
     d_f, w_ji = 0.5 * (lf_ij + lf_ji), 0.5 * (lf_ji - lf_ij)
-    delta = (0.5 * sigma - own * d_f) / resistance
+    delta = (0.5 * sigma - own * d_f) * compliance
     d_s, ws_ji = d_f - delta, w_ji + slip * delta
     return d_s - ws_ji, d_s + ws_ji
 
@@ -118,9 +127,9 @@ def solve_inertialess(m: Mobility, e: Elasticity, gh: Scalar, mu_f: Scalar, r: T
     M = add_identity(scale(-h, dot(m.normal, e.slopes)), 1.0)
     d = dot_vector(inverse(M), (r[0], r[4], r[8]))
     x, y, z = e.squares
-    Y23, Y32 = _solve_pair(0.5 * h * e.shear[0] / m.resistance[0], m.slip[0], y, z, r[5], r[7])
-    Y13, Y31 = _solve_pair(0.5 * h * e.shear[1] / m.resistance[1], m.slip[1], x, z, r[2], r[6])
-    Y12, Y21 = _solve_pair(0.5 * h * e.shear[2] / m.resistance[2], m.slip[2], x, y, r[1], r[3])
+    Y23, Y32 = _solve_pair(0.5 * h * e.shear[0] * m.compliance[0], m.slip[0], y, z, r[5], r[7])
+    Y13, Y31 = _solve_pair(0.5 * h * e.shear[1] * m.compliance[1], m.slip[1], x, z, r[2], r[6])
+    Y12, Y21 = _solve_pair(0.5 * h * e.shear[2] * m.compliance[2], m.slip[2], x, y, r[1], r[3])
     return (d[0], Y12, Y13, Y21, d[1], Y23, Y31, Y32, d[2])
 
 

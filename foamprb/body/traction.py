@@ -9,16 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dev, skew, sym, trace
+from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dev, reciprocals, skew, sym, trace
 
 
 def _pair(
-    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, d21: Scalar, w21: Scalar
+    f: Scalar, a2: Scalar, b2: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, d21: Scalar, w21: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """H and H° (B.8) of the axes a, b; (B.6) and (B.7) are its cyclic permutations."""
-    a2, b2 = a * a, b * b
-    f = 0.5 / (ring * (a2 * alpha + b2 * beta))
-    return f * (alpha * d21 - b2 * ring * w21), f * (beta * d21 + a2 * ring * w21)
+    """H and H° (B.8) of the axes a, b with f = 1/(γ₀°(a²α₀ + b²β₀)); (B.6), (B.7) are cyclic permutations."""
+    h = 0.5 * f
+    return h * (alpha * d21 - b2 * ring * w21), h * (beta * d21 + a2 * ring * w21)
 
 
 def disturbance(semi_axes: Vector, g: Integrals, d: Tensor, w: Tensor) -> tuple[Tensor, Scalar]:
@@ -36,9 +35,17 @@ def disturbance(semi_axes: Vector, g: Integrals, d: Tensor, w: Tensor) -> tuple[
     n = 1.0 / (6.0 * (alpha_s * beta_s + beta_s * gamma_s + gamma_s * alpha_s))
     x, y, z = alpha_s * d[0], beta_s * d[4], gamma_s * d[8]
     A, B, C = n * (2.0 * x - y - z), n * (2.0 * y - z - x), n * (2.0 * z - x - y)
-    F, F_ring = _pair(b, c, beta, gamma, alpha_r, d[7], w[7])
-    G, G_ring = _pair(c, a, gamma, alpha, beta_r, d[2], w[2])
-    H, H_ring = _pair(a, b, alpha, beta, gamma_r, d[3], w[3])
+    a2, b2, c2 = a * a, b * b, c * c
+    f, g_, h = reciprocals(
+        (
+            alpha_r * (b2 * beta + c2 * gamma),
+            beta_r * (c2 * gamma + a2 * alpha),
+            gamma_r * (a2 * alpha + b2 * beta),
+        )
+    )
+    F, F_ring = _pair(f, b2, c2, beta, gamma, alpha_r, d[7], w[7])
+    G, G_ring = _pair(g_, c2, a2, gamma, alpha, beta_r, d[2], w[2])
+    H, H_ring = _pair(h, a2, b2, alpha, beta, gamma_r, d[3], w[3])
     k = 8.0 / (a * b * c)
     s = (k * A, k * H, k * G_ring, k * H_ring, k * B, k * F, k * G, k * F_ring, k * C)
     return s, 4.0 * (alpha * A + beta * B + gamma * C)

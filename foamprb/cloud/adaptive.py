@@ -39,7 +39,9 @@ from foamprb.body.tensor import (
     exponential,
     from_frame,
     inverse,
+    reciprocals,
     scale,
+    select,
     to_frame,
     transpose,
     vector_dot,
@@ -56,6 +58,7 @@ from foamprb.cloud.block import (
     AT_L,
     AT_LAME,
     AT_M,
+    AT_MOVING,
     AT_MU,
     AT_NEW_A,
     AT_NEW_F,
@@ -70,7 +73,10 @@ from foamprb.cloud.block import (
     AT_V,
     AT_X,
     LANES,
+    NOT_CONVERGED,
     Medium,
+    accept_stage,
+    choose,
     frame_stage,
     idle,
     integrals_stage,
@@ -78,20 +84,22 @@ from foamprb.cloud.block import (
     load9,
     load_integrals,
     load_particle,
+    new_frames,
     save_particle,
     store3,
     store9,
     store_fluid,
+    straighten_lane,
+    stretch_stage,
 )
 from foamprb.cloud.block import ROWS as FIRST_ROW
 from foamprb.cloud.motion import (
     ACTIVE,
-    NOT_CONVERGED,
     PENDING,
     SHORTEST_STEP,
     PatchTable,
-    accept_shape,
     fail,
+    is_sound,
     reach_end,
     release,
 )
@@ -154,7 +162,8 @@ def _drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
 def _drift(Q: Tensor, rate: Vector, a: Vector) -> Vector:
     """Velocity relative to the fluid at which drag balances the acceleration, m/s."""
     g = dot_vector(Q, a)
-    return vector_dot((g[0] / rate[0], g[1] / rate[1], g[2] / rate[2]), Q)
+    r = reciprocals(rate)
+    return vector_dot((g[0] * r[0], g[1] * r[1], g[2] * r[2]), Q)
 
 
 def _combine(y: Tensor, h: Any, k1: Tensor, k2: Tensor) -> Tensor:
@@ -337,9 +346,8 @@ def _acceleration(
 def _damped(Q: Tensor, rate: Vector, gh: Any, r: Vector) -> Vector:
     """Solution k of (1 + γh rate_a) k_a = r_a in the frame Q."""
     w = dot_vector(Q, r)
-    return vector_dot(
-        (w[0] / (1.0 + gh * rate[0]), w[1] / (1.0 + gh * rate[1]), w[2] / (1.0 + gh * rate[2])), Q
-    )
+    d = reciprocals((1.0 + gh * rate[0], 1.0 + gh * rate[1], 1.0 + gh * rate[2]))
+    return vector_dot((w[0] * d[0], w[1] * d[1], w[2] * d[2]), Q)
 
 
 def first_inertialess(block: Any, medium: Medium) -> None:
@@ -361,7 +369,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         store3(block, AT_NEW_X, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
         store9(block, AT_START_Q, i, Q)
         store9(block, AT_STIFF, i, m.normal)
-        store3(block, AT_STIFF + 9, i, m.resistance)
+        store3(block, AT_STIFF + 9, i, m.compliance)
         store3(block, AT_STIFF + 12, i, m.slip)
         store3(block, AT_STIFF + 15, i, e.squares)
         store9(block, AT_STIFF + 18, i, e.slopes)
@@ -396,8 +404,8 @@ def second_inertialess(block: Any, medium: Medium) -> None:
 
 def _load_response(block: Any, i: int) -> tuple[Mobility, Elasticity]:
     """Mobility and elasticity at the start of the step, as stage 1 left them, for the step's equations."""
-    resistance, slip = load3(block, AT_STIFF + 9, i), load3(block, AT_STIFF + 12, i)
-    m = Mobility(load9(block, AT_STIFF, i), resistance, slip, 1.0)
+    compliance, slip = load3(block, AT_STIFF + 9, i), load3(block, AT_STIFF + 12, i)
+    m = Mobility(load9(block, AT_STIFF, i), compliance, slip, 1.0)
     squares, shear = load3(block, AT_STIFF + 15, i), load3(block, AT_STIFF + 27, i)
     return m, Elasticity(squares, load9(block, AT_STIFF + 18, i), shear)
 
@@ -417,7 +425,30 @@ def _balance(
     return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
 
 
-first_slope, second_slope = first_inertial, second_inertial
+def end_inertial(block: Any, medium: Medium) -> None:
+    """A and v at the end belong to the state, which the stages have left in the block."""
+
+
+def end_inertialess(block: Any, medium: Medium) -> None:
+    """A and v of the balance at the end; the stages leave those of the state that the last step predicted."""
+    for i in range(LANES):
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F = load9(block, AT_F, i)
+        m = mobility(stretches, g, block[AT_ETA * LANES + i] / medium.mu)
+        b_e = finger(dot(Q, F), load9(block, AT_M, i))
+        l_s, v = _balance(block, i, medium, Q, stretches, g, m, b_e)
+        moving = block[AT_MOVING * LANES + i] > 0.0
+        A, w = load9(block, AT_A, i), load3(block, AT_V, i)
+        store9(block, AT_A, i, choose(moving, dot(from_frame(Q, l_s), F), A))
+        store3(
+            block,
+            AT_V,
+            i,
+            (select(moving, v[0], w[0]), select(moving, v[1], w[1]), select(moving, v[2], w[2])),
+        )
+
+
+first_slope, second_slope, end_slope = first_inertial, second_inertial, end_inertial
 
 
 def _begin(block: Any, i: int, h: float) -> None:
@@ -484,6 +515,7 @@ def track_adaptive(
         moving = 0
         for i in range(len(members)):
             k = members[i]
+            block[AT_MOVING * LANES + i] = 0.0
             while p.status[k] == PENDING and current[i] < last:
                 if p.t0[k] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
                     clearance[i] = release(flow, patches, p, k, block, i)
@@ -493,6 +525,7 @@ def track_adaptive(
             if p.status[k] != ACTIVE or current[i] >= last:
                 continue
             moving += 1
+            block[AT_MOVING * LANES + i] = 1.0
             rest = start + (current[i] + 1) * dt - p.t[k]
             # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
             h = rest if p.h[k] >= rest - SHORTEST_STEP * dt else min(p.h[k], 0.5 * rest)
@@ -502,7 +535,7 @@ def track_adaptive(
         if moving == 0:
             break
 
-        frame_stage(block)
+        new_frames(block)
         integrals_stage(block)
         first_slope(block, medium)
         for i in range(len(members)):
@@ -512,9 +545,10 @@ def track_adaptive(
                 t_new = p.t[k] + block[AT_H * LANES + i]
                 u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
                 store_fluid(block, i, u, l_f, u_t)
-        frame_stage(block)
+        new_frames(block)
         integrals_stage(block)
         second_slope(block, medium)
+        accept_stage(block, tolerance)
 
         for i in range(len(members)):
             k = members[i]
@@ -529,7 +563,7 @@ def track_adaptive(
                 if size < _SMALLEST * dt:
                     fail(p, k, NOT_CONVERGED)
                 continue
-            if not accept_shape(p, k, block, i, tolerance):
+            if not is_sound(p, k, block, i):
                 continue
             whole = p.t[k] + h >= t_end - SHORTEST_STEP * dt
             # A step cut short by the end of Δt says nothing against the size before it.
@@ -540,16 +574,32 @@ def track_adaptive(
             if whole:
                 current[i] += 1
     for i in range(len(members)):
+        k = members[i]
+        block[AT_MOVING * LANES + i] = 0.0
+        if p.status[k] == ACTIVE:
+            block[AT_MOVING * LANES + i] = 1.0
+            store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            store_fluid(block, i, u, l_f, u_t)
+    new_frames(block)
+    integrals_stage(block)
+    end_slope(block, medium)
+    for i in range(len(members)):
         save_particle(p, members[i], block, i)
     return recovered
 
 
 ADAPTIVE_STAGES = (
     frame_stage,
+    stretch_stage,
+    straighten_lane,
     integrals_stage,
+    accept_stage,
     first_inertial,
     second_inertial,
     first_inertialess,
     second_inertialess,
+    end_inertial,
+    end_inertialess,
 )
 """Parts of the loop that do not depend on the flow, compiled once for all flows."""

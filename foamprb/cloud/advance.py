@@ -35,6 +35,7 @@ from foamprb.cloud.block import (
     AT_L,
     AT_LAME,
     AT_M,
+    AT_MOVING,
     AT_MU,
     AT_NEW_A,
     AT_NEW_F,
@@ -50,6 +51,7 @@ from foamprb.cloud.block import (
     AT_X,
     LANES,
     Medium,
+    accept_stage,
     frame_stage,
     idle,
     integrals_stage,
@@ -57,12 +59,16 @@ from foamprb.cloud.block import (
     load9,
     load_integrals,
     load_particle,
+    new_frames,
+    resume_frames,
     save_particle,
     store3,
     store9,
     store_fluid,
+    straighten_lane,
+    stretch_stage,
 )
-from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, accept_shape, reach_end, release
+from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, is_sound, reach_end, release
 from foamprb.cloud.state import Particles
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import sample_linear as sample
@@ -229,7 +235,7 @@ def track_block(
         clearance[i] = math.inf
         if p.status[k] == ACTIVE:
             clearance[i], _, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
-    frame_stage(block)
+    resume_frames(block)
     integrals_stage(block)
 
     for n in range(step, step + steps):
@@ -237,11 +243,13 @@ def track_block(
         moving = 0
         for i in range(len(members)):
             k = members[i]
+            block[AT_MOVING * LANES + i] = 0.0
             # A first step of no length would divide round-off by nothing in Aⁿ⁺¹.
             if p.status[k] == PENDING and p.t0[k] < t_end - SHORTEST_STEP * dt:
                 clearance[i] = release(flow, patches, p, k, block, i)
             if p.status[k] == ACTIVE:
                 moving += 1
+                block[AT_MOVING * LANES + i] = 1.0
                 block[AT_DT * LANES + i] = t_end - max(start + n * dt, p.t0[k])
                 u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
@@ -255,13 +263,14 @@ def track_block(
         for i in range(len(members)):
             if p.status[members[i]] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
                 dense_newton(block, i)
-        frame_stage(block)
+        new_frames(block)
         integrals_stage(block)
         barycentre_stage(block, medium)
+        accept_stage(block, RELATIVE_TOLERANCE)
 
         for i in range(len(members)):
             k = members[i]
-            if p.status[k] != ACTIVE or not accept_shape(p, k, block, i, RELATIVE_TOLERANCE):
+            if p.status[k] != ACTIVE or not is_sound(p, k, block, i):
                 continue
             h = block[AT_DT * LANES + i]
             x, v = load3(block, AT_X, i), load3(block, AT_V, i)
@@ -272,5 +281,15 @@ def track_block(
     return recovered
 
 
-STAGES = (frame_stage, integrals_stage, traction_stage, newton_stage, barycentre_stage, dense_newton)
+STAGES = (
+    frame_stage,
+    stretch_stage,
+    straighten_lane,
+    integrals_stage,
+    traction_stage,
+    newton_stage,
+    barycentre_stage,
+    accept_stage,
+    dense_newton,
+)
 """Parts of the loop that do not depend on the flow, compiled once for all flows."""

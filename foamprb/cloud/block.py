@@ -8,12 +8,23 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from foamprb.body.ellipsoid import Integrals, integrals
 from foamprb.body.material import metric_at_rest
-from foamprb.body.tensor import Tensor, Vector, dot_vector, principal_frame
-from foamprb.cloud.state import Particles
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    dot_vector,
+    refined_frame,
+    select,
+    stretches_in_frame,
+)
+from foamprb.cloud.state import Particles, Reason
 
 LANES = 32
+
+LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
 
 # First row of each quantity in a block; a row holds one component of every lane.
 AT_X, AT_V, AT_F, AT_A, AT_Q, AT_STRETCH = 0, 3, 6, 15, 24, 33
@@ -23,7 +34,13 @@ AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
 AT_NEW_X, AT_K = 104, 107
 AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
-ROWS = 122
+AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT = 122, 131, 132, 133
+ROWS = 134
+
+# Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
+_SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
+_MOST_REPEATS = 10
+_MIN_J, _MAX_J = 0.125, 8.0
 
 
 class Medium(NamedTuple):
@@ -89,12 +106,92 @@ def load_integrals(block: Any, i: int) -> Integrals:
     )
 
 
-def frame_stage(block: Any) -> None:
-    """Particle frame and stretches of the new deformation gradient."""
+def new_frames(block: Any) -> None:
+    """Particle frame and stretches of the new deformation gradient, from the frame of the last one."""
+    frame_stage(block)
+    stretch_stage(block)
+    straighten(block, _SKEWNESS)
+
+
+def resume_frames(block: Any) -> None:
+    """Particle frames and stretches as they were when the block's particles were last saved."""
     for i in range(LANES):
-        Q, stretches = principal_frame(load9(block, AT_NEW_F, i))
-        store9(block, AT_Q, i, Q)
+        store9(block, AT_Q, i, load9(block, AT_FRAME, i))
+    # One compiled stage serves both: elsewhere the compiler may contract sums in another way.
+    stretch_stage(block)
+    # For a particle that never moved, or whose F somebody set.
+    straighten(block, _STORED_SKEWNESS)
+
+
+def frame_stage(block: Any) -> None:
+    """Particle frame of the new deformation gradient, from the frame of the last one."""
+    for i in range(LANES):
+        store9(block, AT_Q, i, refined_frame(load9(block, AT_NEW_F, i), load9(block, AT_FRAME, i)))
+
+
+def stretch_stage(block: Any) -> None:
+    """Stretches of the new deformation gradient along its frame, and how skew that still is."""
+    for i in range(LANES):
+        stretches, skewness = stretches_in_frame(load9(block, AT_NEW_F, i), load9(block, AT_Q, i))
         store3(block, AT_STRETCH, i, stretches)
+        block[AT_SKEWNESS * LANES + i] = skewness
+
+
+def straighten(block: Any, allowed: float) -> None:
+    """Refine the frames further that have turned too far for one pass."""
+    found = 0
+    for i in range(LANES):
+        if block[AT_SKEWNESS * LANES + i] > allowed:
+            found += 1
+            straighten_lane(block, i)
+    if found:
+        stretch_stage(block)
+
+
+def straighten_lane(block: Any, i: int) -> None:
+    """Refine the frame of lane i until it is principal to round-off."""
+    F, Q = load9(block, AT_NEW_F, i), load9(block, AT_Q, i)
+    for _ in range(_MOST_REPEATS):
+        Q = refined_frame(F, Q)
+        _, skewness = stretches_in_frame(F, Q)
+        if not skewness > _SKEWNESS:
+            break
+    store9(block, AT_Q, i, Q)
+
+
+def accept_stage(block: Any, tolerance: float) -> None:
+    """Judge the new shapes and velocities, and take over those that are sound, of the lanes that move."""
+    for i in range(LANES):
+        F, A, v = load9(block, AT_NEW_F, i), load9(block, AT_NEW_A, i), load3(block, AT_NEW_V, i)
+        total = (
+            (v[0] + v[1] + v[2] + F[0] + F[1] + F[2] + F[3] + F[4] + F[5] + F[6] + F[7] + F[8])
+            + (A[0] + A[1] + A[2] + A[3] + A[4] + A[5] + A[6] + A[7] + A[8])
+        )  # fmt: skip
+        J = block[AT_J * LANES + i]
+        verdict = select(block[AT_ERROR * LANES + i] <= tolerance, 0.0, float(NOT_CONVERGED))
+        verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
+        verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
+        block[AT_VERDICT * LANES + i] = verdict
+        sound = (verdict == 0.0) & (block[AT_MOVING * LANES + i] > 0.0)
+        store9(block, AT_F, i, choose(sound, F, load9(block, AT_F, i)))
+        store9(block, AT_A, i, choose(sound, A, load9(block, AT_A, i)))
+        store9(block, AT_FRAME, i, choose(sound, load9(block, AT_Q, i), load9(block, AT_FRAME, i)))
+        w = load3(block, AT_V, i)
+        store3(
+            block,
+            AT_V,
+            i,
+            (select(sound, v[0], w[0]), select(sound, v[1], w[1]), select(sound, v[2], w[2])),
+        )
+
+
+def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
+    """S where the condition holds, else T."""
+    return (
+        select(condition, S[0], T[0]), select(condition, S[1], T[1]), select(condition, S[2], T[2]),
+        select(condition, S[3], T[3]), select(condition, S[4], T[4]), select(condition, S[5], T[5]),
+        select(condition, S[6], T[6]), select(condition, S[7], T[7]), select(condition, S[8], T[8]),
+    )  # fmt: skip
 
 
 def integrals_stage(block: Any) -> None:
@@ -116,6 +213,7 @@ def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
         block[(AT_F + c) * LANES + i] = p.F[k, c]
         block[(AT_NEW_F + c) * LANES + i] = p.F[k, c]
         block[(AT_A + c) * LANES + i] = p.A[k, c]
+        block[(AT_FRAME + c) * LANES + i] = p.Q[k, c]
     block[AT_R * LANES + i] = p.R[k]
     block[AT_RHO * LANES + i] = p.rho[k]
     block[AT_MU * LANES + i] = p.mu[k]
@@ -139,6 +237,7 @@ def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
     for c in range(9):
         p.F[k, c] = block[(AT_F + c) * LANES + i]
         p.A[k, c] = block[(AT_A + c) * LANES + i]
+        p.Q[k, c] = block[(AT_FRAME + c) * LANES + i]
 
 
 def idle(block: Any, i: int, dt: float) -> None:
@@ -155,6 +254,9 @@ def idle(block: Any, i: int, dt: float) -> None:
         AT_M,
         AT_M + 4,
         AT_M + 8,
+        AT_FRAME,
+        AT_FRAME + 4,
+        AT_FRAME + 8,
         AT_R,
         AT_RHO,
         AT_MU,

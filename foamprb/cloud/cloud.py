@@ -20,6 +20,8 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
     ADAPTIVE_STAGES,
+    end_inertial,
+    end_inertialess,
     first_inertial,
     first_inertialess,
     second_inertial,
@@ -28,6 +30,7 @@ from foamprb.cloud.adaptive import (
 )
 from foamprb.cloud.advance import STAGES, track_block
 from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
@@ -61,8 +64,14 @@ _SECOND_ORDER = (track_adaptive, ADAPTIVE_STAGES, ADAPTIVE_ROWS, True)
 
 LOOPS: dict[str, Loop] = {
     "paper": Loop(track_block, STAGES, ROWS, False, {}),
-    "rosenbrock": Loop(*_SECOND_ORDER, {"first_slope": first_inertial, "second_slope": second_inertial}),
-    "stokes": Loop(*_SECOND_ORDER, {"first_slope": first_inertialess, "second_slope": second_inertialess}),
+    "rosenbrock": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertial, "second_slope": second_inertial, "end_slope": end_inertial},
+    ),
+    "stokes": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertialess, "second_slope": second_inertialess, "end_slope": end_inertialess},
+    ),
 }
 """The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
 
@@ -104,6 +113,11 @@ class Cloud:
         Number of steps done.
     start
         Time at step 0, on the axis of the flow's and the injections' times, s.
+    recovered
+        Number of walks so far that failed and were mended by the tree.
+    reach
+        Distance, m, to which walls are listed: it grows with the longest particle so far, and is a part of
+        the state, as a step that ends on a wall may depend on whether the wall was listed before.
 
     Raises
     ------
@@ -123,6 +137,7 @@ class Cloud:
     step: int = 0
     recovered: int = 0
     start: float = 0.0
+    reach: float = 0.0
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -152,8 +167,7 @@ class Cloud:
         self._rows = loop.rows
         self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
-        self._reach = 0.0
-        self._arrays: Any = None
+        self._arrays: tuple[float, Any] = (-1.0, None)
 
     @property
     def time(self) -> float:
@@ -188,16 +202,26 @@ class Cloud:
                 self.recovered += sum(pool.map(work, shares))
         self.step += steps
 
+    def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
+        bindings = dict(self.flow.kernels)
+        if self.models.touching == "centre":
+            bindings["gap"] = gap_free
+        normals = np.empty((len(rows), 3))
+        link(contact_normals, bindings)(self._flow_arrays(), self.particles, rows, normals)
+        return normals
+
     def _flow_arrays(self) -> Any:
         """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
         longest = _longest_semi_axis(self.particles)
-        if self._arrays is None or longest * _REACH_MARGIN > self._reach:
-            self._reach = 2.0 * _REACH_MARGIN * longest
+        if longest * _REACH_MARGIN > self.reach:
+            self.reach = 2.0 * _REACH_MARGIN * longest
+        if self._arrays[0] != self.reach:
             touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
             if self.models.touching == "centre":
                 touchable = []
-            self._arrays = self.flow.arrays(self._reach, touchable)
-        return self._arrays
+            self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
+        return self._arrays[1]
 
 
 def _check(models: Models) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, empty
-from foamprb.entries import NonNegative, Positive, Vector3
+from foamprb.entries import Angle, Axes, Constant, NonNegative, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 
@@ -29,20 +29,8 @@ class Places(NamedTuple):
     """(n,), the pieces of the flow that hold them; −1 outside the flow."""
     t: Floats
     """(n,), s."""
-
-
-@dataclass(frozen=True)
-class FixedValue:
-    """Every particle has the same diameter, m."""
-
-    value: Annotated[float, Positive]
-
-    def sample(self, n: int, random: np.random.Generator) -> Floats:  # noqa: ARG002
-        """N diameters, m."""
-        return np.full(n, self.value)
-
-
-SIZE_DISTRIBUTIONS: dict[str, type[FixedValue]] = {"fixedValue": FixedValue}
+    v: Floats | Vector3 | None = None
+    """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +68,8 @@ class ManualInjection:
         if outside.any():
             log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
                         self.positionsFile, outside.sum(), len(x))  # fmt: skip
-        return Places(x[~outside], hosts[~outside], np.full(np.count_nonzero(~outside), self.SOI))
+        t = np.full(np.count_nonzero(~outside), self.SOI)
+        return Places(x[~outside], hosts[~outside], t, self.U0)
 
 
 @dataclass(frozen=True)
@@ -119,7 +108,114 @@ class PatchInjection:
             raise InputError(f"patchInjection on {self.patch}: no fluid enters through this patch.")
         chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
         x = _in_triangles(faces.vertices[chosen], inflow[chosen], random)
-        return Places(x, faces.hosts[chosen], self.SOI + np.arange(n) / self.parcelsPerSecond)
+        t = self.SOI + np.arange(n) / self.parcelsPerSecond
+        return Places(x, faces.hosts[chosen], t, self.U0)
+
+
+@dataclass(frozen=True)
+class CellZoneInjection:
+    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``."""
+
+    cellZone: str
+    numberDensity: Annotated[float, Positive]
+    U0: Vector3 | None = None
+    SOI: Annotated[float, NonNegative] = 0.0
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,
+        read: Callable[[Path], Floats],  # noqa: ARG002
+    ) -> Places:
+        """Random places in the zone: as many in each part of it as its volume asks for, give or take two.
+
+        Raises
+        ------
+        InputError
+            If there is no such zone, or its volume asks for no particle.
+        """
+        zone = flow.cell_zone(self.cellZone)
+        # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
+        volumes = np.maximum(zone.volumes, 0.0)
+        total = np.cumsum(volumes)
+        n = round(self.numberDensity * total[-1]) if len(total) else 0
+        if n == 0:
+            volume = total[-1] if len(total) else 0.0
+            raise InputError(
+                f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
+                f"volume {volume:g} m3 of {len(volumes)} tetrahedra gives no particle."
+            )
+        # One random number for each n-th part of the volume, counted along the cells.
+        sought = (np.arange(n) + random.random(n)) / n * total[-1]
+        chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
+        weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
+        x = np.einsum("nv,nvi->ni", weights, zone.vertices[chosen])
+        return Places(x, zone.hosts[chosen], np.full(n, self.SOI), self.U0)
+
+
+@dataclass(frozen=True)
+class ConeInjection:
+    """Sprays: at each position ``parcelsPerInjector`` particles in a cone about an axis, from ``SOI`` on.
+
+    As in OpenFOAM, the angle between velocity and axis is uniform between ``thetaInner`` and ``thetaOuter``,
+    degrees (not uniform over the sphere), and so is the angle about the axis; ``Umag`` is the speed, m/s.
+    """
+
+    positionAxis: Axes
+    duration: Annotated[float, Positive]
+    parcelsPerInjector: Annotated[float, Positive]
+    Umag: Annotated[Constant, NonNegative]
+    thetaInner: Annotated[Constant, Angle]
+    thetaOuter: Annotated[Constant, Angle]
+    SOI: Annotated[float, NonNegative] = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.positionAxis:
+            raise InputError("has an empty list positionAxis")
+        if any(not np.any(axis) for _, axis in self.positionAxis):
+            raise InputError("has an axis (0 0 0) in positionAxis")
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,
+        read: Callable[[Path], Floats],  # noqa: ARG002
+    ) -> Places:
+        """The positions in turn, at even intervals in time, with a random direction each.
+
+        Raises
+        ------
+        InputError
+            If a position lies outside the flow, or nothing is injected.
+        """
+        positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
+        hosts = flow.locate(positions)
+        if (hosts < 0).any():
+            first = "({:g} {:g} {:g})".format(*positions[hosts < 0][0])
+            raise InputError(f"coneInjection: the position {first} lies outside the mesh.")
+        n = round(self.parcelsPerInjector) * len(positions)
+        if n == 0:
+            raise InputError(
+                f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} gives no particle."
+            )
+        which = np.arange(n) % len(positions)
+        theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
+        v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
+        t = self.SOI + self.duration * np.arange(n) / n
+        return Places(positions[which], hosts[which], t, v)
+
+
+def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
+    """Unit vectors (n, 3) at the angles theta from the axes (n, 3), turned about them, rad."""
+    along = axes / np.linalg.norm(axes, axis=1)[:, None]
+    # The coordinate axis farthest from parallel gives a normal.
+    other = np.eye(3)[np.argmin(np.abs(along), axis=1)]
+    first = np.cross(along, other)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(along, first)
+    aside = np.cos(turn)[:, None] * first + np.sin(turn)[:, None] * second
+    directions: Floats = np.cos(theta)[:, None] * along + np.sin(theta)[:, None] * aside
+    return directions
 
 
 def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator) -> Floats:
@@ -137,20 +233,14 @@ def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator
 
 
 def release(
-    model: Injection,
-    flow: Flow,
-    size: FixedValue,
-    random: np.random.Generator,
-    read: Callable[[Path], Floats],
+    model: Injection, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]
 ) -> Particles:
-    """Pending spheres at rest where an injection model puts them; density and stiffness are left at zero.
+    """Pending spheres where an injection model puts them; size, density and stiffness are left at zero.
 
     Parameters
     ----------
     model, flow
         The injection model, and the flow into which it injects.
-    size
-        Distribution of diameters.
     random
         Source of every random number that is used.
     read
@@ -167,14 +257,15 @@ def release(
     p.x[:] = p.x0[:] = places.x
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
-    p.R[:] = 0.5 * size.sample(n, random)
-    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if model.U0 is None else model.U0
+    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if places.v is None else places.v
     return p
 
 
-Injection = ManualInjection | PatchInjection
+Injection = ManualInjection | PatchInjection | CellZoneInjection | ConeInjection
 
 INJECTIONS: dict[str, type[Injection]] = {
+    "cellZoneInjection": CellZoneInjection,
+    "coneInjection": ConeInjection,
     "manualInjection": ManualInjection,
     "patchInjection": PatchInjection,
 }

@@ -14,35 +14,29 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
 from foamprb.cloud.block import (
-    AT_A,
-    AT_ERROR,
     AT_F,
-    AT_J,
-    AT_NEW_A,
-    AT_NEW_F,
-    AT_NEW_V,
     AT_R,
     AT_V,
+    AT_VERDICT,
     AT_X,
     LANES,
+    LOST,
     load3,
     load9,
     store3,
 )
 from foamprb.cloud.patches import ESCAPE, STICK, rebound_velocity
-from foamprb.cloud.state import Particles, Reason, Status
+from foamprb.cloud.state import Particles, Status
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import recover_free as recover
 from foamprb.flow.analytic import walk_free as walk
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
-LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
 
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
 _MAX_BOUNCES = 10
-_MIN_J, _MAX_J = 0.125, 8.0
 
 
 class PatchTable(NamedTuple):
@@ -187,28 +181,9 @@ def release(flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i:
     return clearance
 
 
-def _is_finite(block: Any, i: int) -> bool:
-    total = 0.0
-    for c in range(AT_NEW_V, AT_NEW_A + 9):
-        total += block[c * LANES + i]
-    return math.isfinite(total)
-
-
-def accept_shape(p: Particles, k: int, block: Any, i: int, tolerance: float) -> bool:
-    """Take over the new shape and velocity if they are sound; fail the particle if not."""
-    if not _is_finite(block, i):
-        fail(p, k, NOT_FINITE)
-        return False
-    J = block[AT_J * LANES + i]
-    if not (_MIN_J <= J <= _MAX_J):
-        fail(p, k, VOLUME_RATIO)
-        return False
-    if not block[AT_ERROR * LANES + i] <= tolerance:
-        fail(p, k, NOT_CONVERGED)
-        return False
-    for c in range(9):
-        block[(AT_F + c) * LANES + i] = block[(AT_NEW_F + c) * LANES + i]
-        block[(AT_A + c) * LANES + i] = block[(AT_NEW_A + c) * LANES + i]
-    for c in range(3):
-        block[(AT_V + c) * LANES + i] = block[(AT_NEW_V + c) * LANES + i]
-    return True
+def is_sound(p: Particles, k: int, block: Any, i: int) -> bool:
+    """Whether the new shape of particle k was taken over; if not, the particle fails."""
+    verdict = int(block[AT_VERDICT * LANES + i])
+    if verdict:
+        fail(p, k, verdict)
+    return verdict == 0

@@ -61,6 +61,7 @@ class Particles(NamedTuple):
     v: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the barycentre")]
     F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient from that sphere, row by row")]
     A: Annotated[Array, Variable((9,), "f8", "1/s", "material velocity gradient dF/dt, row by row")]
+    Q: Annotated[Array, Variable((9,), "f8", "1", "particle frame, axes as rows; any frame for a new F")]
     R: Annotated[Array, Variable((), "f8", "m", "radius at rest, of the sphere of the same volume")]
     rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest")]
     mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid")]
@@ -103,7 +104,7 @@ VARIABLES: dict[str, Variable] = {
 def empty(n: int) -> Particles:
     """N pending spheres at rest, at the origin, with zero size and stiffness."""
     arrays = {name: np.zeros((n, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
-    arrays["F"][:] = arrays["F0"][:] = np.eye(3).ravel()
+    arrays["F"][:] = arrays["F0"][:] = arrays["Q"][:] = np.eye(3).ravel()
     arrays["patch"][:] = -1
     arrays["host"][:] = -1
     return Particles(**arrays)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces
+from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.patch import Patch
 
 _FREE = -1
@@ -179,6 +179,16 @@ class AnalyticFlow:
             Always.
         """
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Refuse: a flow in closed form has no cells.
+
+        Raises
+        ------
+        InputError
+            Always.
+        """
+        raise InputError(f"cellZone {name}: a flow in closed form has no cells to inject into.")
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Infinite: there are no cells."""

@@ -29,6 +29,17 @@ class PatchFaces(NamedTuple):
     """(n,) the host behind each triangle."""
 
 
+class Tetrahedra(NamedTuple):
+    """The tetrahedra of a zone of cells, for placing particles in it."""
+
+    vertices: Floats
+    """(n, 4, 3): tetrahedron, vertex, coordinate; m."""
+    volumes: Floats
+    """(n,), m³; negative for a tetrahedron turned inside out."""
+    hosts: Ints
+    """(n,) the host that each is."""
+
+
 class Flow(Protocol):
     """A flow: u and ∇u at a point and a time, and what bounds it.
 
@@ -63,3 +74,6 @@ class Flow(Protocol):
 
     def patch_faces(self, name: str) -> PatchFaces:
         """Triangles of a patch; InputError when there is no such patch, or it has none."""
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Tetrahedra of a zone of cells; InputError when there is no such zone."""

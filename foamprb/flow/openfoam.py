@@ -10,7 +10,7 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pyvista
+from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
@@ -25,6 +26,7 @@ from foamprb.errors import InputError
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
+from foamprb.flow.zones import parse_cell_zones
 
 __all__ = [
     "CaseInfo",
@@ -175,12 +177,13 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    mesh, cells, boundary, name = read_fields(Path(case), time, velocity)
+    case = Path(case)
+    mesh, cells, boundary, name = read_fields(case, time, velocity)
     u, l = Reconstruction(mesh)(cells, boundary)
     notes = [_PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    return MeshFlow(mesh, u, l, notes)
+    return MeshFlow(mesh, u, l, notes, zones=lambda: _read_cell_zones(_mesh_folder(case, name)))
 
 
 def read_fields(
@@ -389,6 +392,11 @@ def _read_boundary(folder: Path) -> tuple[PatchInfo, ...]:
             f"{path}: {len(patches)} patches could be read, not {count[0] if count else '(no number)'}."
         )
     return tuple(patches)
+
+
+def _read_cell_zones(folder: Path) -> Mapping[str, NDArray[np.int64]]:
+    path = _existing(folder / "cellZones")
+    return {} if path is None else parse_cell_zones(_read_bytes(path), path)
 
 
 def _noted_counts(folder: Path) -> dict[str, int]:

@@ -7,15 +7,16 @@ is met exactly where it is crossed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
 from foamprb.compile import link
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import PatchFaces
+from foamprb.flow.base import PatchFaces, Tetrahedra
 from foamprb.flow.locator import TOLERANCE, MeshArrays, build_tree, cell_boxes, frame, locate, weights
 from foamprb.flow.mesh import Floats, Ints, Mesh
 
@@ -302,6 +303,8 @@ class MeshFlow:
         (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres.
     notes
         What the user should know about the flow, sentence by sentence.
+    zones
+        Reads the cells of each zone of cells, by name, when somebody asks for one.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -313,8 +316,16 @@ class MeshFlow:
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
 
-    def __init__(self, mesh: Mesh, u: Floats, l: Floats, notes: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        mesh: Mesh,
+        u: Floats,
+        l: Floats,
+        notes: Iterable[str] = (),
+        zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+    ) -> None:
         self.mesh = mesh
+        self._zones = zones
         self.patches = mesh.patches
         self.notes = tuple(notes)
         if mesh.inverted:
@@ -401,6 +412,26 @@ class MeshFlow:
             velocity=self._arrays.nodes[triangles, 3:6],
             hosts=mesh.triangle_tet[at],
         )
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Tetrahedra of the zone of cells ``name``, cell after cell.
+
+        Raises
+        ------
+        InputError
+            There is no such zone, or it names cells that the mesh does not have.
+        """
+        zones = self._zones()
+        if name not in zones:
+            raise InputError(f"cellZone {name} is not in the mesh. {suggestion(name, zones)}")
+        cells = zones[name]
+        if len(cells) and not (cells.min() >= 0 and cells.max() < self.mesh.n_cells):
+            raise InputError(f"cellZone {name} names cells beyond the mesh's {self.mesh.n_cells}.")
+        start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
+        hosts = np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
+        vertices = self._arrays.nodes[self.mesh.tets[hosts], :3]
+        edges = vertices[:, 1:] - vertices[:, :1]
+        return Tetrahedra(vertices, np.linalg.det(edges) / 6.0, hosts)
 
 
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
+import re
 import secrets
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-_SUFFIX = ".tmp"
+from foamprb.errors import InputError
+
+_TOKEN_BYTES = 4
+_TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
 
 
 @contextmanager
@@ -26,28 +31,56 @@ def atomic_write(path: Path) -> Iterator[Path]:
     Raises
     ------
     OSError
-        If the file cannot be written or renamed.
+        If the file cannot be written or renamed; it names ``path``.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(4)}{_SUFFIX}")
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(_TOKEN_BYTES)}.tmp")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         temporary.touch(exist_ok=False)
         yield temporary
         _flush(temporary, os.O_RDWR)
         temporary.replace(path)
-    except BaseException:
+        # Without this the new name itself may be lost when the power fails.
+        _flush(path.parent, os.O_RDONLY)
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno and error.filename in (None, temporary, str(temporary)):
+            # A write does not know its file, and the temporary one means nothing to the user.
+            raise OSError(error.errno, error.strerror, str(path)) from error
         raise
-    # Without this the new name itself may be lost when the power fails.
-    _flush(path.parent, os.O_RDONLY)
 
 
-def remove_unfinished(path: Path) -> None:
-    """Remove the temporary files that killed processes left for ``path``."""
-    start, end = f".{path.name}.", _SUFFIX
-    for file in path.parent.iterdir() if path.parent.is_dir() else ():
-        if file.name.startswith(start) and file.name.endswith(end):
+def remove_unfinished(folder: Path) -> None:
+    """Remove the temporary files that killed processes left in a folder, if there is one."""
+    for file in tuple(folder.iterdir()) if folder.is_dir() else ():
+        if _TEMPORARY.fullmatch(file.name):
             file.unlink(missing_ok=True)
+
+
+@contextmanager
+def only_writer(folder: Path) -> Iterator[None]:
+    """Keep other processes from writing to a folder, which is made if it is absent; a killed one lets go.
+
+    Raises
+    ------
+    InputError
+        If another process holds the folder.
+    OSError
+        If there can be no such folder.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise InputError(f"{folder}: another run is writing here.") from error
+        except OSError:
+            # Some network file systems have no locks; the run is as good without.
+            pass
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def _flush(path: Path, flags: int) -> None:

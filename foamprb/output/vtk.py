@@ -81,8 +81,13 @@ def write_snapshot(path: Path, snapshot: Snapshot) -> None:
     OSError
         If the file cannot be written.
     """
+    _write(path, _poly_data(snapshot))
+
+
+def _write(path: Path, data: vtkPolyData) -> None:
+    """Write PolyData in one step."""
     writer = vtkXMLPolyDataWriter()
-    writer.SetInputData(_poly_data(snapshot))
+    writer.SetInputData(data)
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     # Mantissas of doubles hardly compress: zlib would gain 8 % in size for 25 times the time.
@@ -95,6 +100,56 @@ def write_snapshot(path: Path, snapshot: Snapshot) -> None:
         if writer.Write() != 1 or writer.GetErrorCode():
             reason = vtkErrorCode.GetStringFromErrorCode(writer.GetErrorCode())
             raise OSError(f"{path}: VTK could not write this file ({reason}).")
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Paths of m particles, one after the other.
+
+    Parameters
+    ----------
+    points
+        Positions, shape (n, 3), m, path after path.
+    start
+        Where each path begins among the points, and n, shape (m + 1,).
+    values
+        Arrays by name, (n,) or (n, k): at the points.
+    tracks
+        Arrays by name, (m,): of the paths.
+    units, names
+        As of a :class:`Snapshot`.
+    """
+
+    points: NDArray[np.float64]
+    start: NDArray[np.int64]
+    values: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    tracks: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+
+def write_tracks(path: Path, tracks: Tracks) -> None:
+    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    data = vtkPolyData()
+    points = vtkPoints()
+    points.SetData(_vtk_array("Points", np.asarray(tracks.points, dtype=np.float64)))
+    data.SetPoints(points)
+    lines = vtkCellArray()
+    order = np.arange(len(tracks.points), dtype=np.int64)
+    lines.SetData(_vtk_array("offsets", tracks.start), _vtk_array("connectivity", order))
+    data.SetLines(lines)
+    for name, array in tracks.values.items():
+        data.GetPointData().AddArray(_vtk_array(name, array))
+    for name, array in tracks.tracks.items():
+        data.GetCellData().AddArray(_vtk_array(name, array))
+    _add_texts(data, tracks.units, tracks.names)
+    _write(path, data)
 
 
 class Entry(NamedTuple):
@@ -115,27 +170,30 @@ class Series:
         Where the files are; made when the first is written.
     name
         The cloud's name.
-    resume
-        False to begin a new run: the files of an old run, as its ``.pvd`` names them, are removed. True to
-        go on with the run that is there, if any.
+    after
+        Time, s, from which the run goes on: what was written for a later time is dropped, as it will be
+        written anew. By default everything: the run is a new one. Files named like those of the series that
+        its ``.pvd`` does not list, left behind by killed runs, are removed as well.
 
     Raises
     ------
     InputError
         If there is a ``.pvd`` that cannot be read.
     OSError
-        If old files cannot be removed.
+        If the list cannot be rewritten, or old files not removed.
     """
 
-    def __init__(self, folder: Path, name: str, *, resume: bool = False) -> None:
+    def __init__(self, folder: Path, name: str, *, after: float = -np.inf) -> None:
         self.folder = folder
         self.name = name
         self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
-        if not resume:
-            self.truncate(after=-np.inf)
-        remove_unfinished(self.pvd)
-        # The file that a killed process was writing has the next index.
-        remove_unfinished(self._next_file())
+        kept = tuple(entry for entry in self.entries if entry.time <= after)
+        if not kept:
+            self.pvd.unlink(missing_ok=True)
+            self.entries = ()
+        elif len(kept) < len(self.entries):
+            self._list(kept)
+        self._remove_unlisted()
 
     @property
     def pvd(self) -> Path:
@@ -164,25 +222,14 @@ class Series:
         self._list((*self.entries, Entry(time, file.name)))
         return file
 
-    def truncate(self, after: float) -> None:
-        """Drop the entries at or after a time, s, and their files: a resumed run writes them anew.
-
-        Raises
-        ------
-        OSError
-            If the files cannot be rewritten or removed.
-        """
-        kept = tuple(entry for entry in self.entries if entry.time < after)
-        dropped = self.entries[len(kept) :]
-        if not dropped:
-            return
-        if kept:
-            self._list(kept)
-        else:
-            self.pvd.unlink(missing_ok=True)
-            self.entries = ()
-        for entry in dropped:
-            (self.folder / entry.file).unlink(missing_ok=True)
+    def _remove_unlisted(self) -> None:
+        """Remove the files that the list does not name, and those that killed processes were writing."""
+        listed = {entry.file for entry in self.entries}
+        own = re.compile(re.escape(self.name) + r"_\d{6,}\.vtp")
+        for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
+            if own.fullmatch(file.name) and file.name not in listed:
+                file.unlink(missing_ok=True)
+        remove_unfinished(self.folder)
 
     def _next_file(self) -> Path:
         last = re.search(r"_(\d+)\.vtp$", self.entries[-1].file) if self.entries else None
@@ -239,11 +286,17 @@ def _poly_data(snapshot: Snapshot) -> vtkPolyData:
         data.GetPointData().AddArray(_vtk_array(name, array))
     fields = data.GetFieldData()
     fields.AddArray(_vtk_array("TimeValue", np.array([snapshot.time], dtype=np.float64)))
-    if snapshot.units:
-        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in snapshot.units.items()]))
-    for name, meanings in snapshot.names.items():
-        fields.AddArray(_text_array(f"{name}Names", meanings))
+    _add_texts(data, snapshot.units, snapshot.names)
     return data
+
+
+def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
+    """Add the units of the arrays, and what codes mean."""
+    fields = data.GetFieldData()
+    if units:
+        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in units.items()]))
+    for name, meanings in names.items():
+        fields.AddArray(_text_array(f"{name}Names", meanings))
 
 
 def _vertices(n: int) -> vtkCellArray:

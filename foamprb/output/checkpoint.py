@@ -1,0 +1,184 @@
+"""Checkpoints: a header and arrays in files that tell whether they are whole.
+
+A file is one line that names format and version, the header as one line of JSON, the arrays as numpy's
+``.npy`` one after the other in the order of the header's ``arrays``, and the SHA-256 of all that. The last
+two files are kept, so that there is one to go on from when the other is damaged.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.output.atomic import atomic_write, remove_unfinished
+
+log = logging.getLogger("foamprb")
+
+VERSION = 1
+KEPT = 2
+
+_FORMAT = b"foamprb checkpoint "
+_NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
+_DIGEST_BYTES = hashlib.sha256().digest_size
+# Bytes copied at a time.
+_CHUNK = 1 << 20
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """A state at a time, s: a header of what JSON can hold, and arrays by name."""
+
+    time: float
+    header: Mapping[str, Any]
+    arrays: Mapping[str, NDArray[Any]]
+
+
+class DamagedError(Exception):
+    """A file that is not, or no longer, a whole checkpoint; the message says how it shows."""
+
+
+class Checkpoints:
+    """The files ``<time>.checkpoint`` in a folder.
+
+    Parameters
+    ----------
+    folder
+        Where the files are; made when the first is written.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        remove_unfinished(folder)
+
+    def files(self) -> dict[float, Path]:
+        """The files by their times, s, whole or not, the latest last."""
+        found = tuple(self.folder.iterdir()) if self.folder.is_dir() else ()
+        times = {float(match[1]): file for file in found if (match := _NAME.fullmatch(file.name))}
+        return dict(sorted(times.items()))
+
+    def write(self, checkpoint: Checkpoint) -> Path:
+        """Write a checkpoint, and remove those before the last two.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+        """
+        path = self.folder / f"{checkpoint.time:.12g}.checkpoint"
+        write_checkpoint(path, checkpoint)
+        for file in list(self.files().values())[:-KEPT]:
+            file.unlink(missing_ok=True)
+        return path
+
+    def latest(self) -> Checkpoint | None:
+        """Read the latest that is whole, and remove the damaged that are later; None if there is none.
+
+        Raises
+        ------
+        InputError
+            If all are damaged, or the latest whole one is of another version.
+        """
+        files = self.files()
+        for time, file in sorted(files.items(), reverse=True):
+            try:
+                checkpoint = read_checkpoint(file)
+            except DamagedError as error:
+                log.warning("%s is damaged: %s. The checkpoint before it is used.", file, error)
+                continue
+            self.truncate(after=time)
+            return checkpoint
+        if files:
+            raise InputError(
+                f"{self.folder}: none of the {len(files)} checkpoints is whole. Begin anew: -overwrite, or "
+                "startFrom startTime."
+            )
+        return None
+
+    def truncate(self, after: float) -> None:
+        """Remove the checkpoints of later times, s."""
+        for time, file in self.files().items():
+            if time > after:
+                file.unlink(missing_ok=True)
+
+
+def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
+    """Write a checkpoint in one step.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    header = {"time": checkpoint.time, "arrays": list(checkpoint.arrays), **checkpoint.header}
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        digest = _Digest(file)
+        digest.write(_FORMAT + b"%d\n" % VERSION)
+        digest.write(json.dumps(header, allow_nan=False).encode() + b"\n")
+        for array in checkpoint.arrays.values():
+            np.lib.format.write_array(digest, array, allow_pickle=False)
+        file.write(digest.sha256.digest())
+
+
+def read_checkpoint(path: Path) -> Checkpoint:
+    """Read a checkpoint, after making sure that every byte is as it was written.
+
+    Raises
+    ------
+    DamagedError
+        If not.
+    InputError
+        If it is whole, but of another version.
+    """
+    with path.open("rb") as file:
+        _check(file)
+        first = file.readline().removeprefix(_FORMAT).strip()
+        if first != b"%d" % VERSION:
+            raise InputError(
+                f"{path}: a checkpoint of format {first.decode(errors='replace')}; this version of foamprb "
+                f"reads format {VERSION}."
+            )
+        header = json.loads(file.readline())
+        arrays = {name: np.lib.format.read_array(file, allow_pickle=False) for name in header.pop("arrays")}
+    return Checkpoint(header.pop("time"), header, arrays)
+
+
+class _Digest:
+    """Writes to a file and sums up what went through."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.file = file
+        self.sha256 = hashlib.sha256()
+
+    def write(self, data: bytes) -> None:
+        self.sha256.update(data)
+        self.file.write(data)
+
+
+def _check(file: IO[bytes]) -> None:
+    """Compare the digest at the end with the bytes before it; leave the file at its beginning."""
+    if file.read(len(_FORMAT)) != _FORMAT:
+        raise DamagedError("it does not begin as a checkpoint does")
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0)
+    rest = size - _DIGEST_BYTES
+    sha256 = hashlib.sha256()
+    while rest > 0:
+        data = file.read(min(rest, _CHUNK))
+        if not data:
+            raise DamagedError("it became shorter while it was read")
+        sha256.update(data)
+        rest -= len(data)
+    if file.read() != sha256.digest():
+        raise DamagedError("its contents do not match its checksum")
+    file.seek(0)

@@ -1,0 +1,112 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from foamprb.errors import InputError
+from foamprb.output.checkpoint import (
+    VERSION,
+    Checkpoint,
+    Checkpoints,
+    DamagedError,
+    read_checkpoint,
+    write_checkpoint,
+)
+
+
+def checkpoint(time: float = 0.1) -> Checkpoint:
+    random = np.random.default_rng(0)
+    arrays = {
+        "x": random.random((5, 3)),
+        "status": np.arange(5, dtype=np.int8),
+        "none": np.zeros((0, 9)),
+        "special": np.array([np.nan, -0.0, np.inf, 5e-324]),
+    }
+    return Checkpoint(time, {"step": 7, "series": [[0.1 + 0.2, "a b.vtp"]]}, arrays)
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("whole") / "0.1.checkpoint"
+    write_checkpoint(path, checkpoint())
+    return path.read_bytes()
+
+
+def test_round_trip_is_exact(tmp_path: Path) -> None:
+    written = checkpoint(0.1 + 0.2)
+    write_checkpoint(tmp_path / "a", written)
+    read = read_checkpoint(tmp_path / "a")
+    assert read.time == written.time
+    assert read.header == written.header
+    assert read.arrays.keys() == written.arrays.keys()
+    for name, array in written.arrays.items():
+        assert read.arrays[name].dtype == array.dtype
+        assert read.arrays[name].shape == array.shape
+        assert read.arrays[name].tobytes() == array.tobytes()
+        assert read.arrays[name].flags.writeable
+
+
+@given(data=st.data())
+def test_every_changed_byte_and_every_cut_shows(
+    whole: bytes, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    path = tmp_path_factory.getbasetemp() / "damaged"
+    at = data.draw(st.integers(0, len(whole) - 1))
+    changed = bytearray(whole)
+    changed[at] ^= data.draw(st.integers(1, 255))
+    for damaged in (bytes(changed), whole[:at], whole + b"\0"):
+        path.write_bytes(damaged)
+        with pytest.raises(DamagedError):
+            read_checkpoint(path)
+
+
+def test_another_version_is_refused_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = Checkpoints(tmp_path)
+    with monkeypatch.context() as patch:
+        patch.setattr("foamprb.output.checkpoint.VERSION", VERSION + 1)
+        store.write(checkpoint())
+    with pytest.raises(InputError, match=f"of format {VERSION + 1}; .* reads format {VERSION}"):
+        store.latest()
+
+
+def test_the_last_two_are_kept(tmp_path: Path) -> None:
+    store = Checkpoints(tmp_path / "new")
+    assert store.latest() is None
+    # In the order of their times, which is not that of their names.
+    times = [1e-5, 0.5, 2.0, 10.0]
+    for time in times:
+        store.write(checkpoint(time))
+    assert [file.name for file in store.files().values()] == ["2.checkpoint", "10.checkpoint"]
+    found = store.latest()
+    assert found is not None
+    assert found.time == 10.0
+
+
+def test_a_damaged_one_gives_way_to_the_one_before(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("foamprb.output.checkpoint.log.propagate", True)
+    store = Checkpoints(tmp_path)
+    for time in (0.1, 0.2):
+        store.write(checkpoint(time))
+    (tmp_path / "0.2.checkpoint").write_bytes(b"")
+    found = store.latest()
+    assert found is not None
+    assert found.time == 0.1
+    assert "0.2.checkpoint is damaged" in caplog.text
+    assert list(store.files()) == [0.1]
+
+    (tmp_path / "0.1.checkpoint").write_bytes(b"foamprb checkpoint 1\n")
+    with pytest.raises(InputError, match="none of the 1 checkpoints is whole"):
+        store.latest()
+
+
+def test_what_a_killed_writer_left_is_removed_and_other_files_are_not(tmp_path: Path) -> None:
+    for name in (".0.1.checkpoint.0123abcd.tmp", "notes.txt", "x.checkpoint"):
+        (tmp_path / name).touch()
+    store = Checkpoints(tmp_path)
+    store.write(checkpoint())
+    store.truncate(after=-1.0)
+    assert {file.name for file in tmp_path.iterdir()} == {"notes.txt", "x.checkpoint"}
