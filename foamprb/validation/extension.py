@@ -123,8 +123,12 @@ def volume(quick: bool) -> Outcome:
         ],
     )
     remarks = [
-        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: without "
-        "inertia the volume would grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I, the exact "
-        "flow around an expanding sphere, which is the same where the particle keeps its volume."
+        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: +2/3 tr(d_s) on "
+        "each axis where the exact flow around an expanding sphere has −4/3 tr(d_s), so that without inertia "
+        "the volume would grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I, which is the same "
+        "where the particle keeps its volume.",
+        "Two more formulas are misprinted: the elastic stress (24) is μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ, and the "
+        "traction as a Piola stress J σ̃ F⁻ᵀ, where the paper has F⁻¹. With F⁻¹ neither is a stress: P·Fᵀ "
+        "would not be symmetric, nor σ̃ the traction on the deformed surface.",
     ]
     return Outcome(rows, [] if quick else [figure], remarks)
