@@ -207,6 +207,6 @@ _REMARKS = [
     "viscosity of sufficiently soft particles.",
     "The stress of a stiff body is its strain over Ca, so that an error ε of a step is one of ε/Ca in S. "
     f"What is shown of rigid spheroids is of Ca = {STIFF:g}, in the limit of short steps: the integrator "
-    "`stokes` gives the stress of a stiff body to the first order in the step, with an error of about 2 γ̇Δt "
-    "for r = 2.",
+    "`stokes` gives the stress of a stiff body to the first order in the step, with an error of about "
+    "γ̇Δt for r = 2.",
 ]
