@@ -20,7 +20,7 @@ import platformdirs
 
 from foamprb.body.tensor import select
 
-__all__ = ["cache_directory", "link"]
+__all__ = ["cache_directory", "is_compiled", "link"]
 
 # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
 _FAST_MATH = ("contract", "nsz")
@@ -29,6 +29,9 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "nogil": True,
     "fastmath": set(_FAST_MATH),
+    # No function allocates or keeps an array; counting references to those it is given would take more time
+    # than all else.
+    "_nrt": False,
 }
 
 
@@ -60,7 +63,13 @@ def link(
     A numba dispatcher. Equal code with equal bindings is compiled once per process and kept on disk in
     :func:`cache_directory`, under a key made of the code of every function that was linked.
     """
-    return _link(entry, dict(bindings or {}), frozenset(separate), inline=False).dispatcher
+    return _link(entry, dict(bindings or {}), frozenset(separate), _ENTRY).dispatcher
+
+
+def is_compiled(dispatcher: Any) -> bool:
+    """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
+    folder = _folders.get(id(dispatcher))
+    return bool(dispatcher.signatures) or (folder is not None and any(folder.glob("*.nbc")))
 
 
 class _Part(NamedTuple):
@@ -75,7 +84,13 @@ def _select_scalar(condition: Any, a: Any, b: Any) -> Any:
     return a if condition else b
 
 
-_parts: dict[tuple[str, bool], _Part] = {}
+_ENTRY: dict[str, Any] = {}
+# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
+_SEPARATE: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_INLINE: dict[str, Any] = {"forceinline": True, **_SEPARATE}
+
+_parts: dict[str, _Part] = {}
+_folders: dict[int, Path] = {}
 _SELECT = _Part(_select_scalar, "select")
 
 
@@ -83,35 +98,34 @@ def _link(
     function: Callable[..., Any],
     bindings: dict[str, Callable[..., Any]],
     separate: frozenset[Callable[..., Any]],
-    inline: bool,
+    role: dict[str, Any],
 ) -> _Part:
     """Compile a function after its callees; a part that has been compiled before is used again."""
     if function is select:
         return _SELECT
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    digest = hashlib.sha256(
-        f"{numba.__version__} {_FAST_MATH} {function.__module__} {function.__qualname__}".encode()
-    )
+    own = f"{numba.__version__} {_OPTIONS} {role} {function.__module__} {function.__qualname__}"
+    digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     for name in sorted(_global_names(function.__code__)):
         value = bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
-            part = _link(value, bindings, separate, inline=value not in separate)
+            part = _link(value, bindings, separate, _SEPARATE if value in separate else _INLINE)
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
             digest.update(f"{name}={value!r};".encode())
     key = digest.hexdigest()[:24]
-    if (key, inline) not in _parts:
+    if key not in _parts:
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
         clone.__qualname__ = function.__qualname__
         clone.__module__ = function.__module__
-        dispatcher = numba.njit(forceinline=inline, **_OPTIONS)(clone)
-        if not inline:
+        dispatcher = numba.njit(**role, **_OPTIONS)(clone)
+        if role is not _INLINE:
             _enable_cache(dispatcher, key)
-        _parts[key, inline] = _Part(dispatcher, key)
-    return _parts[key, inline]
+        _parts[key] = _Part(dispatcher, key)
+    return _parts[key]
 
 
 def _global_names(code: CodeType) -> set[str]:
@@ -128,7 +142,7 @@ def _fingerprint(code: CodeType) -> bytes:
 
 
 def _enable_cache(dispatcher: Any, key: str) -> None:
-    folder = cache_directory() / key
+    folder = _folders[id(dispatcher)] = cache_directory() / key
     previous = numba.config.CACHE_DIR
     try:
         folder.mkdir(parents=True, exist_ok=True)

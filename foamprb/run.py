@@ -26,6 +26,7 @@ from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
+from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
@@ -39,7 +40,7 @@ from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patch
 
 log = logging.getLogger("foamprb")
 
-_CHUNK_OF_WORK = 1_000_000
+_CHUNK_OF_WORK = 10_000_000
 _MAX_LISTED_FAILURES = 10
 _HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
@@ -277,6 +278,8 @@ def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -
     started, cpu = clock.perf_counter(), clock.process_time()
     reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
     failing = _failing(job)
+    if not cloud.compiled:
+        log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
     log.info("\nStarting time loop\n")
     with _progress(solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:

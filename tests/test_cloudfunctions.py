@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from test_run import copy_of_pipe, edit
 
-from foamprb import analytic
+import foamprb.run
+from foamprb import analytic, execute, prepare
 from foamprb.body.tensor import principal_frame
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
@@ -29,7 +31,7 @@ from foamprb.cloudfunctions import (
     PatchPostProcessing,
     SuspensionStress,
 )
-from foamprb.errors import InputError
+from foamprb.errors import InputError, RunStopped
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 RADIUS, MEAN, D = 2.1e-3, 0.485, 5e-6
@@ -400,6 +402,30 @@ def cases(tmp_path_factory):
         assert main(["run", "-case", str(case)]) == 0
         cases.append(case / "postProcessing/softCloud")
     return cases
+
+
+def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch):
+    """Stopped between two looks and between two writings: the same files as of a run never stopped."""
+    block = BLOCK.replace("0.02 0 0", "0.001 0 0")
+    results = []
+    for name in ("whole", "parts"):
+        case = copy_of_pipe(tmp_path / name)
+        edit(case, r"cloudFunctions\s*\{\}", block)
+        edit(case, r"endTime\s+\S+;", "endTime 0.012;")
+        edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
+        if name == "parts":
+            monkeypatch.setattr(foamprb.run, "_CHUNK_OF_WORK", 1000)
+            job = prepare(case, threads=1)
+            with pytest.raises(RunStopped):
+                execute(job, stop=lambda job=job: job.cloud.step > 261)
+            assert 261 < job.cloud.step < 270
+        assert main(["run", "-case", str(case), "-resume"]) == 0
+        folder = case / "postProcessing/softCloud"
+        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".vtp")]
+        results.append({str(file.relative_to(folder)): file.read_bytes() for file in found})
+    assert {"plane/crossings.csv", "spread/exposure.csv", "tracks/tracks.vtp"} <= results[0].keys()
+    assert len(results[0]["plane/crossings.csv"].splitlines()) > 1
+    assert results[0] == results[1]
 
 
 class TestRun:

@@ -58,6 +58,19 @@ class Medium(NamedTuple):
     """Coefficient of the virtual mass force; ½ for a sphere."""
 
 
+class Scratch(NamedTuple):
+    """Working memory of a loop."""
+
+    block: Any
+    """Rows × LANES numbers, flat."""
+    clearance: Any
+    """LANES numbers: the clearance of each particle at the end of its last step, m."""
+    step: Any
+    """LANES whole numbers: the step at which each particle is."""
+    matrix: Any
+    """9 × 10 numbers: one particle's equations."""
+
+
 def load3(block: Any, row: int, i: int) -> Vector:
     """The vector in three rows of lane i."""
     k = row * LANES + i

@@ -29,12 +29,12 @@ from foamprb.cloud.adaptive import (
     track_adaptive,
 )
 from foamprb.cloud.advance import STAGES, track_block
-from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import link
+from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
@@ -170,6 +170,11 @@ class Cloud:
         self._arrays: tuple[float, Any] = (-1.0, None)
 
     @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
+        return is_compiled(self._track)
+
+    @property
     def time(self) -> float:
         """Time to which the cloud has come, s."""
         return self.start + self.step * self.dt
@@ -184,12 +189,16 @@ class Cloud:
         flow_arrays = self._flow_arrays()
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
-            block = np.empty(self._rows * LANES)
-            clearance = np.empty(LANES)
+            scratch = Scratch(
+                np.empty(self._rows * LANES),
+                np.empty(LANES),
+                np.empty(LANES, dtype=np.int64),
+                np.empty((9, 10)),
+            )
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, self.start, block, clearance, *self._options,
+                    self.step, steps, self.dt, self.start, scratch, *self._options,
                 )
                 for members in share
             )  # fmt: skip
