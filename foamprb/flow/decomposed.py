@@ -143,7 +143,7 @@ class Rebuilt:
         self._parts = [_read_part(folder) for folder in self._folders]
         self._patches, self._ranges = _whole_patches(case, self._parts)
         self.folder = Path(tempfile.mkdtemp(prefix="foamprb-"))
-        self._removal = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
         for name in self.times:
             (self.folder / name).mkdir()
         (self.folder / "system").mkdir()
@@ -188,12 +188,14 @@ class Rebuilt:
             raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
 
     def noted(self, flow: AFlow) -> AFlow:
-        """The flow, with a note that it comes from here."""
-        # The folder goes with the flow, which may yet read its zones of cells.
-        self._removal.detach()
-        weakref.finalize(flow, shutil.rmtree, self.folder, ignore_errors=True)
+        """The flow, with a note that it comes from here; the folder lives as long as the flow."""
+        weakref.finalize(flow, _let_go, self)
         flow.notes = (f"The flow was put together from {len(self._parts)} processor folders.", *flow.notes)
         return flow
+
+
+def _let_go(whole: Rebuilt) -> None:
+    """Hold the folder until this is called."""
 
 
 def read_decomposed_case(case: Path, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
