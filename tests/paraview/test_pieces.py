@@ -49,4 +49,4 @@ def test_paraview_reads_a_series_with_and_without_pieces(tmp_path):
     ):
         assert (time, kind, n, name) == (expected.time, "vtkPolyData", 6, "active")
         assert point == expected.points[row].tolist()
-        assert F == expected.arrays["deformationGradient"][row].tolist()
+        assert expected.arrays["deformationGradient"][row].tolist() == F
