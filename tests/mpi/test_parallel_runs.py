@@ -17,6 +17,7 @@ import pytest
 import pyvista
 from test_run import PIPE, edit
 from test_run_restart import short_case
+from test_run_series import write_transient_case
 
 from foamprb.cli import main
 from foamprb.output.pieces import XMLPPolyDataReader
@@ -244,6 +245,16 @@ def test_ctrl_c_to_mpirun_ends_the_run_in_order(case):
     assert process.returncode != 0
     assert err.count("foamprb stopped at t = ") == 1, out + err
     assert "Traceback" not in err
+
+
+def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
+    case = write_transient_case(tmp_path / "case")
+    alone = Path(shutil.copytree(case, tmp_path / "alone"))
+    assert main(["run", "-case", str(alone)]) == 0
+    # However small, every array is shared.
+    done = run(2, case, script=after_hook(tmp_path, "from foamprb import shared; shared._SMALLEST = 1"))
+    assert done.returncode == 0, done.stderr
+    assert_same(case, alone, functions=False)
 
 
 LANDING = """
