@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import math
+import re
 import time as clock
 import zlib
 from collections.abc import Callable, Iterator
@@ -23,25 +25,28 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models, available_threads
 from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
-from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
+from foamprb.cloud.measures import context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
-from foamprb.flow.openfoam import read_case
+from foamprb.flow.source import Source, read_flow, read_transient_flow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
-from foamprb.output.vtk import Series, Snapshot
+from foamprb.output.vtk import Series
 from foamprb.positions import read_positions
 from foamprb.restart import Fingerprint, fingerprint, restore, save
-from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patches, read_settings
+from foamprb.settings import InjectionSettings, Settings, Solution, StartFrom, match_patches, read_settings
+from foamprb.team import Serial, Team, View
 
 log = logging.getLogger("foamprb")
 
 _CHUNK_OF_WORK = 10_000_000
 _MAX_LISTED_FAILURES = 10
+TIME_TOLERANCE = 1e-9
+"""Relative error of a time that has been written and read."""
 _HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
 FATES = "fates.csv"
@@ -61,7 +66,12 @@ class Job:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return self.settings.case / "postProcessing" / self.settings.name
+        return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
+
+    @property
+    def steps(self) -> int:
+        """Number of steps from the start to the end of the run."""
+        return _steps(self.settings.solution, self.cloud.start)
 
     @property
     def patch_names(self) -> tuple[str, ...]:
@@ -71,9 +81,10 @@ class Job:
 
 def prepare(
     case: Path | str,
-    time: float | str = "latestTime",
+    time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
+    source: Source | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -82,11 +93,14 @@ def prepare(
     case
         An OpenFOAM case folder.
     time
-        Time of the flow: a value, or ``"latestTime"``.
+        Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
+        :func:`foamprb.flow.series.select_times` has them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
+    source
+        The mesh file or region to read, and the names of its fields, if they are not the usual ones.
 
     Raises
     ------
@@ -94,12 +108,27 @@ def prepare(
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
     case = Path(case)
-    settings = read_settings(case, dictionary)
-    log.info("Reading flow of case %s", case)
-    flow = read_case(case, time)
+    source = source or Source()
+    settings = read_settings(case, dictionary, source.region)
+    log.info("Reading flow of case %s", case if source.file is None else source.file)
+    flow = _read_flow(settings, time, source)
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)
+
+
+def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
+    solution = settings.solution
+    if solution.transient:
+        return read_transient_flow(
+            settings.case, None if time is None else str(time), solution.period, source
+        )
+    if isinstance(time, str) and re.search(r"[:,\s]", time):
+        raise InputError(
+            f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
+            "transient yes, or select one time."
+        )
+    return read_flow(settings.case, "latestTime" if time is None else time, source)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
@@ -118,6 +147,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         float(settings.pressure_gradient),
         settings.virtual_mass,
     )
+    start = _start(settings, flow)
     parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
     particles = concatenate(parts)
     solids = sorted({injection.solid.type for injection in settings.injections})
@@ -126,7 +156,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     solution = settings.solution
     integrator = solution.shape
     if integrator == "auto":
-        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, 0.0))
+        integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, start))
     models = Models(
         settings.traction,
         settings.drag,
@@ -137,7 +167,14 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     )
     try:
         cloud = Cloud(
-            particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
+            particles,
+            flow,
+            medium,
+            interactions,
+            solution.deltaT,
+            models,
+            threads or available_threads(),
+            start=start,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -147,6 +184,35 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions)
+
+
+def _start(settings: Settings, flow: Flow) -> float:
+    """The first time of the flow, s, if it has one; raise InputError if the run goes beyond the flow."""
+    solution, (first, last) = settings.solution, flow.span
+    start = first if math.isfinite(first) else 0.0
+    if solution.endTime <= start:
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}. Allowed: after {start:g}, the first "
+            "time of the flow."
+        )
+    end = start + _steps(solution, start) * solution.deltaT
+    if end > last + TIME_TOLERANCE * abs(last):
+        raise InputError(
+            f"{settings.file}: solution/endTime is {solution.endTime:g}; the last step ends at {end:g}, "
+            f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."
+        )
+    for injection in settings.injections:
+        if injection.model.SOI < start:  # noqa: SIM300
+            raise InputError(
+                f"{settings.file}: injection model {injection.name}: SOI is {injection.model.SOI:g}. "
+                f"Allowed: from {start:g} on, the first time of the flow."
+            )
+    return start
+
+
+def _steps(solution: Solution, start: float) -> int:
+    """Number of steps from the start to the end of the run."""
+    return max(1, round((solution.endTime - start) / solution.deltaT))
 
 
 def _shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
@@ -231,7 +297,10 @@ def _log_groups(g: Groups) -> None:
 
 
 def execute(
-    job: Job, start_from: StartFrom | None = None, stop: Callable[[], bool] = lambda: False
+    job: Job,
+    start_from: StartFrom | None = None,
+    stop: Callable[[], bool] = lambda: False,
+    team: Team | None = None,
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
@@ -248,6 +317,8 @@ def execute(
         but not in place of an unfinished one.
     stop
         Asked every second or so: true to write a checkpoint and end the run.
+    team
+        The processes that share the particles; this one alone by default.
 
     Returns
     -------
@@ -263,14 +334,16 @@ def execute(
     """
     try:
         with only_writer(job.folder):
-            return _execute(job, start_from or job.settings.solution.startFrom, stop)
+            return _execute(job, start_from or job.settings.solution.startFrom, stop, team or Serial())
     except OSError as error:
         raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
 
 
-def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:
+def _execute(
+    job: Job, start_from: StartFrom | None, stop: Callable[[], bool], team: Team
+) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
-    last = max(1, round(solution.endTime / solution.deltaT))
+    last = job.steps
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
     marks = fingerprint(job.settings, cloud)
     checkpoints = Checkpoints(job.folder / CHECKPOINTS)
@@ -280,14 +353,17 @@ def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -
     failing = _failing(job)
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+    team.take(cloud)
     log.info("\nStarting time loop\n")
-    with _progress(solution.endTime) as show:
+    with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            if not _advance_to(job, target, show, stop):
+            reached = _advance_to(job, target, show, stop)
+            cloud.gather()
+            if not reached:
                 checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
                 raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
-            series.append(snapshot(job))
+            team.write(series, cloud, view(job))
             job.functions.write(job.folder)
             checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
@@ -347,7 +423,7 @@ def _failing(job: Job) -> str:
 
 
 def _moving(cloud: Cloud) -> bool:
-    counts = cloud.particles.counts()
+    counts = cloud.counts()
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
@@ -357,7 +433,7 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
     while cloud.step < target and _moving(cloud):
         if stop():
             return False
-        counts = cloud.particles.counts()
+        counts = cloud.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
         until = job.functions.next_look(target)
         cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
@@ -369,35 +445,28 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
 
 
 @contextmanager
-def _progress(end: float) -> Iterator[Callable[[float], None]]:
+def _progress(start: float, end: float) -> Iterator[Callable[[float], None]]:
     """A progress bar on a terminal, nothing elsewhere."""
     console = Console(stderr=True)
     columns = (
-        TextColumn("Time = {task.completed:g} of {task.total:g}"),
+        TextColumn("{task.completed:g} of {task.total:g} s"),
         BarColumn(None),
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("", total=end)
-        yield lambda t: progress.update(task, completed=min(t, end))
+        task = progress.add_task("", total=end - start)
+        yield lambda t: progress.update(task, completed=min(t, end) - start)
 
 
-def snapshot(job: Job) -> Snapshot:
-    """The injected particles as they are now, with everything that is reported of them."""
-    cloud = job.cloud
-    c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
-    return Snapshot(
-        cloud.time,
-        c.particles.x,
-        measure(c),
-        {name: m.unit for name, m in MEASURES.items()},
-        {
-            "status": STATUS_NAMES,
-            "reason": tuple(REASONS[reason] for reason in Reason),
-            "patch": job.patch_names,
-            "injector": tuple(injection.name for injection in job.settings.injections),
-        },
-    )
+def view(job: Job) -> View:
+    """What it takes to report a job's particles."""
+    names: dict[str, tuple[str, ...]] = {
+        "status": STATUS_NAMES,
+        "reason": tuple(REASONS[reason] for reason in Reason),
+        "patch": job.patch_names,
+        "injector": tuple(injection.name for injection in job.settings.injections),
+    }
+    return View(names, job.cloud.medium.mu)
 
 
 def _log_time(job: Job, cpu: float, wall: float) -> None:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,17 +31,19 @@ from foamprb.cloud.adaptive import (
 from foamprb.cloud.advance import STAGES, track_block
 from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.motion import PatchTable
-from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
+from foamprb.cloud.motion import RARE, PatchTable
+from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
-__all__ = ["Cloud", "Models", "available_threads"]
+__all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
 
 _REACH_MARGIN = 2.0
+_ROUND_OFF = 1e-6
+"""Share of a step by which it may end after the time until which the flow is ready."""
 
 
 def available_threads() -> int:
@@ -87,6 +89,140 @@ class Models:
     integrator: str = "paper"
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
+
+
+class Tracker:
+    """The compiled loop over particles with everything that acts on them, but neither particles nor flow.
+
+    Parameters
+    ----------
+    models
+        Names of the models.
+    kernels
+        The functions of the flow, as :class:`~foamprb.flow.base.Flow` has them.
+    medium, interactions, dt, start
+        As of a :class:`Cloud`.
+    shaped, tense
+        Whether some particle is no sphere at rest; whether some has surface tension.
+    """
+
+    def __init__(
+        self,
+        models: Models,
+        kernels: Mapping[str, Callable[..., Any]],
+        medium: Medium,
+        interactions: Sequence[Interaction],
+        dt: float,
+        start: float,
+        shaped: bool,
+        tense: bool,
+    ) -> None:
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense
+        bindings = dict(kernels)
+        if models.touching == "centre":
+            bindings["gap"] = gap_free
+        bindings["traction"] = TRACTIONS[models.traction]
+        bindings["drag"] = DRAGS[models.drag]
+        material = MATERIALS[models.material]
+        bindings["derivatives"] = material.derivatives
+        if material.dilation is not None:
+            bindings["dilation"] = material.dilation
+        if shaped:
+            bindings["finger"] = finger_of_ellipsoid
+        if tense:
+            bindings["interface"] = laplace_stress
+        loop = LOOPS[models.integrator]
+        bindings.update(loop.bindings)
+        # The walk and the wall test are long and called from several places: inlined they would multiply.
+        parts = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
+        self.kernels = kernels
+        self._track = link(loop.entry, bindings, separate=parts)
+        self._rows = loop.rows
+        self._options = (models.tolerance,) if loop.adaptive else ()
+        self._table = _patch_table(interactions)
+        self._medium, self._dt, self._start = medium, dt, start
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Another process compiles for itself.
+        return Tracker, self._made_of
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled already."""
+        return is_compiled(self._track)
+
+    def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
+        """Carry particles from step ``step`` through ``steps`` steps, in place.
+
+        Parameters
+        ----------
+        flow
+            What the flow's kernels read.
+
+        Returns
+        -------
+        The number of walks that failed and were mended by the tree.
+        """
+        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
+        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
+        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
+
+        def work(share: Sequence[NDArray[np.int64]]) -> int:
+            scratch = Scratch(
+                np.empty(self._rows * LANES),
+                np.empty(LANES),
+                np.empty(LANES, dtype=np.int64),
+                np.empty((9, 10)),
+            )
+            return sum(
+                self._track(
+                    flow, self._table, self._medium, p, members,
+                    step, steps, self._dt, self._start, scratch, *self._options,
+                )
+                for members in share
+            )  # fmt: skip
+
+        if threads == 1 or len(blocks) < 2:
+            return work(blocks)
+        with ThreadPoolExecutor(threads) as pool:
+            return sum(pool.map(work, [blocks[i::threads] for i in range(threads)]))
+
+
+class Crew(Protocol):
+    """Who carries the particles of a cloud through their steps, and knows the state of each until asked."""
+
+    def advance(self, flow: Any, steps: int) -> int:
+        """Take steps with what the flow's kernels read; return the number of walks mended by the tree."""
+
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status."""
+
+    def longest(self) -> float:
+        """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
+
+    def gather(self) -> None:
+        """Put the state of every particle into the cloud's arrays."""
+
+
+class _Threads:
+    """The crew of a cloud by itself: the threads of this process, in the cloud's own arrays."""
+
+    def __init__(self, cloud: Cloud) -> None:
+        self._cloud = cloud
+
+    def advance(self, flow: Any, steps: int) -> int:
+        cloud = self._cloud
+        return cloud.tracker.advance(flow, cloud.particles, cloud.step, steps, cloud.threads)
+
+    def counts(self) -> dict[Status, int]:
+        return self._cloud.particles.counts()
+
+    def longest(self) -> float:
+        return longest_semi_axis(self._cloud.particles)
+
+    def gather(self) -> None:
+        """They are there."""
 
 
 @dataclass
@@ -143,36 +279,28 @@ class Cloud:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         _check(self.models)
+        _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
-        bindings = dict(self.flow.kernels)
-        if self.models.touching == "centre":
-            bindings["gap"] = gap_free
-        bindings["traction"] = TRACTIONS[self.models.traction]
-        bindings["drag"] = DRAGS[self.models.drag]
-        material = MATERIALS[self.models.material]
-        bindings["derivatives"] = material.derivatives
-        if material.dilation is not None:
-            bindings["dilation"] = material.dilation
         p = self.particles
-        if (np.eye(3).ravel() != p.F0).any():
-            bindings["finger"] = finger_of_ellipsoid
-        if (p.gamma != 0.0).any():
+        tense = bool((p.gamma != 0.0).any())
+        if tense:
             _refuse_tension(self.models)
-            bindings["interface"] = laplace_stress
-        loop = LOOPS[self.models.integrator]
-        bindings.update(loop.bindings)
-        # The walk and the wall test are long and called from several places: inlined they would multiply.
-        parts = (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
-        self._track = link(loop.entry, bindings, separate=parts)
-        self._rows = loop.rows
-        self._options = (self.models.tolerance,) if loop.adaptive else ()
-        self._table = _patch_table(self.interactions)
-        self._arrays: tuple[float, Any] = (-1.0, None)
+        self.tracker = Tracker(
+            self.models,
+            self.flow.kernels,
+            self.medium,
+            self.interactions,
+            self.dt,
+            self.start,
+            shaped=bool((np.eye(3).ravel() != p.F0).any()),
+            tense=tense,
+        )
+        self.crew: Crew = _Threads(self)
 
     @property
     def compiled(self) -> bool:
         """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
-        return is_compiled(self._track)
+        return self.tracker.compiled
 
     @property
     def time(self) -> float:
@@ -180,36 +308,38 @@ class Cloud:
         return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
-        """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
-        p = self.particles
-        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
-        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
-        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
-        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
-        flow_arrays = self._flow_arrays()
+        """Take ``steps`` time steps, whatever becomes of single particles.
 
-        def work(share: Sequence[NDArray[np.int64]]) -> int:
-            scratch = Scratch(
-                np.empty(self._rows * LANES),
-                np.empty(LANES),
-                np.empty(LANES, dtype=np.int64),
-                np.empty((9, 10)),
-            )
-            return sum(
-                self._track(
-                    flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, self.start, scratch, *self._options,
-                )
-                for members in share
-            )  # fmt: skip
+        Where others than this process' own threads carry the particles, :meth:`gather` brings the result.
 
-        shares = [blocks[i :: self.threads] for i in range(self.threads)]
-        if self.threads == 1 or len(blocks) < 2:
-            self.recovered += work(blocks)
-        else:
-            with ThreadPoolExecutor(self.threads) as pool:
-                self.recovered += sum(pool.map(work, shares))
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
+        """
+        last = self.step + steps
+        while self.step < last:
+            until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+            ready = (until - self.time) / self.dt + _ROUND_OFF
+            self._advance(last - self.step if ready > last - self.step else max(1, int(ready)))
+
+    def _advance(self, steps: int) -> None:
+        """Take steps for which the flow is ready."""
+        self._grow_reach()
+        self.recovered += self.crew.advance(self.flow_arrays(), steps)
         self.step += steps
+
+    def hand_over(self, crew: Crew) -> None:
+        """Let others carry the particles, which know them and the flow."""
+        self.crew = crew
+
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status, whether they were gathered or not."""
+        return self.crew.counts()
+
+    def gather(self) -> None:
+        """Make sure that :attr:`particles` are as they were left by the last step."""
+        self.crew.gather()
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
@@ -217,20 +347,20 @@ class Cloud:
         if self.models.touching == "centre":
             bindings["gap"] = gap_free
         normals = np.empty((len(rows), 3))
-        link(contact_normals, bindings)(self._flow_arrays(), self.particles, rows, normals)
+        self._grow_reach()
+        link(contact_normals, bindings)(self.flow_arrays(), self.particles, rows, normals)
         return normals
 
-    def _flow_arrays(self) -> Any:
-        """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
-        longest = _longest_semi_axis(self.particles)
+    def flow_arrays(self) -> Any:
+        """What the flow's kernels read, with walls listed to :attr:`reach`."""
+        touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
+        return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
+
+    def _grow_reach(self) -> None:
+        """Let the reach be well beyond the longest particle."""
+        longest = self.crew.longest()
         if longest * _REACH_MARGIN > self.reach:
             self.reach = 2.0 * _REACH_MARGIN * longest
-        if self._arrays[0] != self.reach:
-            touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
-            if self.models.touching == "centre":
-                touchable = []
-            self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
-        return self._arrays[1]
 
 
 def _check(models: Models) -> None:
@@ -249,6 +379,15 @@ def _refuse_tension(models: Models) -> None:
         raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
 
 
+def _refuse_early(p: Particles, start: float) -> None:
+    early = np.flatnonzero((p.status == Status.PENDING) & (p.t0 < start))
+    if len(early):
+        raise InputError(
+            f"{len(early)} of {p.size} particles would appear before the start of the run at {start:g} s, "
+            f"the first at {p.t0[early].min():g} s"
+        )
+
+
 def _find_hosts(p: Particles, flow: Flow) -> None:
     homeless = np.flatnonzero((p.host < 0) & (p.status <= Status.ACTIVE))
     if len(homeless) == 0:
@@ -260,7 +399,8 @@ def _find_hosts(p: Particles, flow: Flow) -> None:
         raise InputError(f"{len(outside)} of {p.size} particles lie outside the flow: {first}")
 
 
-def _longest_semi_axis(p: Particles) -> float:
+def longest_semi_axis(p: Particles) -> float:
+    """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
     live = (p.status == Status.PENDING) | (p.status == Status.ACTIVE)
     if not live.any():
         return 0.0

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.flow.patch import Patch
 
@@ -24,7 +24,7 @@ class PatchFaces(NamedTuple):
     normals: Floats
     """(n, 3), unit, into the fluid."""
     velocity: Floats
-    """(n, 3, 3): triangle, vertex, component; m/s."""
+    """(n, 3, 3): triangle, vertex, component; m/s, at the time that was asked for."""
     hosts: Ints
     """(n,) the host behind each triangle."""
 
@@ -40,7 +40,14 @@ class Tetrahedra(NamedTuple):
     """(n,) the host that each is."""
 
 
-class Flow(Protocol):
+class Sampled(Protocol):
+    """Something that has a velocity and its gradient at points."""
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at time t, s."""
+
+
+class Flow(Sampled, Protocol):
     """A flow: u and ∇u at a point and a time, and what bounds it.
 
     The ``kernels`` are plain functions that :func:`foamprb.compile.link` compiles into the loop; ``flow`` is
@@ -53,27 +60,50 @@ class Flow(Protocol):
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall, infinite when none is near;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
+    * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
+      coupled patch at x, and the rotation of everything that has a direction;
     * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
     """
 
+    span: tuple[float, float]
+    """First and last time of the flow, s; from −∞ to ∞ when it is steady or in closed form."""
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
     notes: tuple[str, ...]
 
+    def load(self, start: float, end: float) -> float:
+        """Make the flow ready from time ``start`` to ``end`` (s), at least; return until when it then is.
+
+        The end of a tracking step may lie beyond that by a millionth of the step. The arrays that were given
+        before know nothing of it: ask for :meth:`arrays` afterwards.
+
+        Raises
+        ------
+        InputError
+            If the flow does not reach so far, or cannot be read.
+        """
+
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
-        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
+        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell.
+
+        It is a tuple with names, perhaps with others in it. Where the contents of a large array, of many kB,
+        have changed in place, a number or a small array has changed as well.
+        """
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """Put what the kernels read, as far as it is large and does not change, where ``place`` copies it."""
 
     def locate(self, points: Floats) -> Ints:
         """Host of each point of shape (n, 3), −1 outside."""
 
-    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at time t, s."""
-
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""
 
-    def patch_faces(self, name: str) -> PatchFaces:
-        """Triangles of a patch; InputError when there is no such patch, or it has none."""
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """Triangles of a patch at time t, s; InputError when there is no such patch, or it has none."""
 
     def cell_zone(self, name: str) -> Tetrahedra:
         """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """What tells the flow from another, by name: to know it again when a run is taken up."""
