@@ -5,8 +5,8 @@ the edges of what goes straight on and of what turns off, found to a tenth of a 
 places, as many as liquid flows there. Writes ``tJunction.csv``, ``tJunctionEdges.csv`` and, with matplotlib,
 ``tJunction.png``; prints the numbers of ``tJunction.md``.
 
-    cases/tJunction/Allrun medium medium
-    python tools/t_junction.py medium --output docs
+    cases/tJunction/Allrun coarse coarse
+    python tools/t_junction.py coarse --output docs
 """
 
 from __future__ import annotations
@@ -37,6 +37,8 @@ LOOK, LATE, LATE_LOOK = 5, 0.2, 100
 """Steps between two looks at the shapes, and how many they are after so many s: who is still there creeps."""
 CUTS, ROUNDS = 16, 5
 """An edge's bracket is cut into so many, so many times: 76 µm come down to 0.07 nm."""
+BODY_ROUNDS = 3
+"""The same where ellipsoids touch: to 19 nm, as they are larger than cells and feel for many walls each."""
 
 
 class Fates(NamedTuple):
@@ -114,6 +116,7 @@ def edges(
     excess: float = 0.0,
     touching: Literal["ellipsoid", "centre"] = "centre",
     dt: float = DT,
+    rounds: int = ROUNDS,
 ) -> Floats:
     """Edges of both branches in the plane z = 0 for each Ca, (n, 2), m.
 
@@ -123,7 +126,7 @@ def edges(
     found = []
     for straight in (True, False):
         low, high = (np.full(len(Ca), sign * (HALF_WIDTH - 0.6 * DIAMETER)) for sign in (-1.0, 1.0))
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             y = np.linspace(low, high, CUTS + 1, axis=1)
             starts = np.column_stack([y.ravel(), np.zeros(y.size)])
             patch = send(job, starts, np.repeat(Ca, CUTS + 1), excess=excess, touching=touching, dt=dt).patch
@@ -184,16 +187,20 @@ def main() -> None:
     even = grid(HALF_WIDTH, 60, 60)
     patch, weights = send(job, even, CAPILLARY[0]).patch, speeds(job, even)
     shares = {name or "undecided": weights @ (patch == name) / weights.sum() for name in np.unique(patch)}
-    print(f"\nby flux on an even grid of {len(even)}:", {name: round(v, 4) for name, v in shares.items()})
+    print(
+        f"\nby flux on an even grid of {len(even)}:",
+        ", ".join(f"{v:.4f} {name}" for name, v in shares.items()),
+    )
 
     columns = by_start(job, 39, 19)
     write_table(options.output / "tJunction.csv", columns)
 
     point, heavy = edges(job, CAPILLARY), edges(job, CAPILLARY, excess=EXCESS)
+    print(f"edges of points, um:\n{1e6 * point}\nof heavy ones less those, nm:\n{1e9 * (heavy - point)}")
     extremes = CAPILLARY[[0, -1]]
     change = edges(job, extremes, dt=DT / 2) - point[[0, -1]]
     print(f"edges at half the time step, less those at {DT:g} s, nm:\n{1e9 * change}")
-    body = edges(job, CAPILLARY, touching="ellipsoid")
+    body = edges(job, CAPILLARY, touching="ellipsoid", rounds=BODY_ROUNDS)
     D = columns["D"].reshape(len(CAPILLARY), -1)
     y = columns["y"].reshape(D.shape)[0]
     table: dict[str, Floats] = {"Ca": CAPILLARY}
