@@ -5,8 +5,8 @@ the edges of what goes straight on and of what turns off, found to a tenth of a 
 places, as many as liquid flows there. Writes ``tJunction.csv``, ``tJunctionEdges.csv`` and, with matplotlib,
 ``tJunction.png``; prints the numbers of ``tJunction.md``.
 
-    cases/tJunction/Allrun coarse coarse
-    python tools/t_junction.py coarse --output docs
+    cases/tJunction/Allrun coarse
+    python tools/t_junction.py cases/tJunction/coarse --output docs
 """
 
 from __future__ import annotations
@@ -232,7 +232,8 @@ def plot(columns: dict[str, Floats], table: dict[str, Floats], file: Path) -> No
         D.semilogy(y, columns["D"][chosen], **style)
     share.set(xlabel="start y, µm", ylabel="share to the side branch")
     D.set(xlabel="start y, µm (z = 0)", ylabel="largest D in the junction")
-    D.legend(frameon=False, fontsize="small")
+    D.set_ylim(top=5.0)
+    D.legend(frameon=False, fontsize="small", ncols=2, loc="upper center")
     for name, label, colour in (
         ("point", "centre on the wall", "0.5"),
         ("body", "ellipsoid on the wall", "tab:red"),
@@ -242,7 +243,8 @@ def plot(columns: dict[str, Floats], table: dict[str, Floats], file: Path) -> No
         edge.plot(CAPILLARY, below, color=colour, label=label)
         edge.plot(CAPILLARY, above, color=colour)
     edge.set(xscale="log", xlabel="Ca", ylabel="edges of the branches, y at z = 0, µm")
-    edge.legend(frameon=False, fontsize="small")
+    edge.set_ylim(bottom=-2.5)
+    edge.legend(frameon=False, fontsize="small", loc="lower left")
     figure.savefig(file, dpi=130)
 
 
