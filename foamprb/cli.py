@@ -18,6 +18,7 @@ import foamprb
 from foamprb.errors import InputError, RankError, RunStopped, suggestion
 
 if TYPE_CHECKING:
+    from foamprb.flow.source import Source
     from foamprb.parallel import Root
     from foamprb.settings import StartFrom
 
@@ -57,6 +58,19 @@ def _parser() -> argparse.ArgumentParser:
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         command.add_argument("--decomposed", action="store_true", help="read the processor folders")
+        command.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+        command.add_argument(
+            "--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's"
+        )
+        command.add_argument("--velocity", default="U", metavar="NAME", help="velocity field [U]")
+        command.add_argument("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+        divided = command.add_mutually_exclusive_group()
+        divided.add_argument(
+            "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
+        )
+        divided.add_argument(
+            "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
+        )
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -93,7 +107,7 @@ def _run(arguments: argparse.Namespace, team: Root | None) -> int:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     threads = arguments.threads or (team.threads if team else None)
     time = "latestTime" if arguments.latestTime else arguments.time
-    job = prepare(arguments.case, time, arguments.dict, threads, arguments.decomposed)
+    job = prepare(arguments.case, time, arguments.dict, threads, _source(arguments))
     describe(job)
     if arguments.dry_run:
         steps = job.steps
@@ -143,13 +157,39 @@ def _stopped_by_signals() -> Iterator[list[int]]:
         restore()
 
 
+def _source(arguments: argparse.Namespace) -> Source:
+    from foamprb.flow.meshfile import Division
+    from foamprb.flow.source import Source
+
+    angle = arguments.featureAngle
+    if angle is not None and not 0.0 < angle < 180.0:
+        raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
+    divided = arguments.patchArray or angle is not None
+    return Source(
+        arguments.flow,
+        arguments.region,
+        arguments.velocity,
+        arguments.gradient,
+        Division(arguments.patchArray, angle) if divided else None,
+        arguments.decomposed,
+    )
+
+
 def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.flow.decomposed import describe_decomposed, is_only_decomposed
+    from foamprb.flow.meshfile import describe_file
     from foamprb.flow.openfoam import describe
 
-    decomposed = arguments.decomposed or is_only_decomposed(arguments.case)
-    info = (describe_decomposed if decomposed else describe)(arguments.case)
-    print("\n".join(info.lines()))
+    source = _source(arguments)
+    if source.file is not None:
+        lines = describe_file(source.file, source.velocity, source.division)
+    elif source.decomposed or is_only_decomposed(arguments.case):
+        if source.region:
+            raise InputError(f"{arguments.case}: region {source.region} is not read from a decomposed case.")
+        lines = describe_decomposed(arguments.case).lines()
+    else:
+        lines = describe(arguments.case, source.region).lines()
+    print("\n".join(lines))
     return 0
 
 

@@ -31,9 +31,7 @@ from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
-from foamprb.flow.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
-from foamprb.flow.openfoam import read_case
-from foamprb.flow.series import read_series
+from foamprb.flow.source import Source, read_flow, read_transient_flow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
@@ -68,7 +66,7 @@ class Job:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return self.settings.case / "postProcessing" / self.settings.name
+        return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
 
     @property
     def steps(self) -> int:
@@ -86,7 +84,7 @@ def prepare(
     time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
-    decomposed: bool = False,
+    source: Source | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -101,8 +99,8 @@ def prepare(
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
-    decomposed
-        Read the flow from the processor folders even if there is one beside them.
+    source
+        The mesh file or region to read, and the names of its fields, if they are not the usual ones.
 
     Raises
     ------
@@ -110,27 +108,27 @@ def prepare(
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
     case = Path(case)
-    settings = read_settings(case, dictionary)
-    log.info("Reading flow of case %s", case)
-    flow = _read_flow(settings, time, decomposed or is_only_decomposed(case))
+    source = source or Source()
+    settings = read_settings(case, dictionary, source.region)
+    log.info("Reading flow of case %s", case if source.file is None else source.file)
+    flow = _read_flow(settings, time, source)
     for note in flow.notes:
         log.info("    %s", note)
     return assemble(settings, flow, threads)
 
 
-def _read_flow(settings: Settings, time: float | str | None, decomposed: bool) -> Flow:
-    case, solution = settings.case, settings.solution
+def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
+    solution = settings.solution
     if solution.transient:
-        times = None if time is None else str(time)
-        read = read_decomposed_series if decomposed else read_series
-        return read(case, times, solution.period)
+        return read_transient_flow(
+            settings.case, None if time is None else str(time), solution.period, source
+        )
     if isinstance(time, str) and re.search(r"[:,\s]", time):
         raise InputError(
             f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
             "transient yes, or select one time."
         )
-    read_one = read_decomposed_case if decomposed else read_case
-    return read_one(case, "latestTime" if time is None else time)
+    return read_flow(settings.case, "latestTime" if time is None else time, source)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:

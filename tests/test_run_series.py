@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from test_flow_openfoam import header, write_case
+from foam_writer import header, write_case
 
 from foamprb.cli import main
 from foamprb.flow.openfoam import read_case

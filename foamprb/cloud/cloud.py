@@ -31,8 +31,8 @@ from foamprb.cloud.adaptive import (
 from foamprb.cloud.advance import STAGES, track_block
 from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.motion import PatchTable
-from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
+from foamprb.cloud.motion import RARE, PatchTable
+from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
@@ -134,7 +134,7 @@ class Tracker:
         loop = LOOPS[models.integrator]
         bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
-        parts = (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
+        parts = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
         self.kernels = kernels
         self._track = link(loop.entry, bindings, separate=parts)
         self._rows = loop.rows
@@ -353,7 +353,7 @@ class Cloud:
 
     def flow_arrays(self) -> Any:
         """What the flow's kernels read, with walls listed to :attr:`reach`."""
-        touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+        touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
         return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
 
     def _grow_reach(self) -> None:

@@ -60,6 +60,8 @@ class Flow(Sampled, Protocol):
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall, infinite when none is near;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
+    * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
+      coupled patch at x, and the rotation of everything that has a direction;
     * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
     """
 

@@ -32,6 +32,7 @@ from foamprb.flow.openfoam import (
 )
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.walk import MeshFlow, corners, interpolate, inward, sample_with, shape
+from foamprb.flow.walk import cross as still_cross
 from foamprb.flow.walk import gap as still_gap
 from foamprb.flow.walk import walk as still_walk
 
@@ -97,6 +98,11 @@ def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG
     return inward(flow.mesh, triangle)
 
 
+def cross(flow: SeriesArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
+    """:func:`foamprb.flow.walk.cross`."""
+    return still_cross(flow.mesh, triangle, x)
+
+
 def recover(flow: SeriesArrays, x: Vector) -> int:
     """:func:`foamprb.flow.walk.recover`."""
     return locate(flow.mesh, x)
@@ -135,6 +141,7 @@ class SeriesFlow:
         "walk": walk,
         "gap": gap,
         "normal": normal,
+        "cross": cross,
         "recover": recover,
     }
 
