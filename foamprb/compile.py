@@ -84,6 +84,10 @@ def _select_scalar(condition: Any, a: Any, b: Any) -> Any:
     return a if condition else b
 
 
+# A set has another order in every process.
+_COMPILER = (
+    f"{numba.__version__} {_FAST_MATH} {[_OPTIONS[name] for name in sorted(_OPTIONS) if name != 'fastmath']}"
+)
 _ENTRY: dict[str, Any] = {}
 # Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
 _SEPARATE: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -105,7 +109,7 @@ def _link(
         return _SELECT
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    own = f"{numba.__version__} {_OPTIONS} {role} {function.__module__} {function.__qualname__}"
+    own = f"{_COMPILER} {role} {function.__module__} {function.__qualname__}"
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     for name in sorted(_global_names(function.__code__)):

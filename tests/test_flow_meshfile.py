@@ -95,9 +95,9 @@ def test_patches_by_an_array_on_surface_cells(tmp_path):
     shape.save(tmp_path / "flow.vtu")
     flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityIds"))
     assert {patch.name for patch in flow.patches} == {"boundary", "boundary1", "boundary2"}
-    assert np.all(flow.patch_faces("boundary1").vertices[..., 2] == 0.0)
-    assert np.all(flow.patch_faces("boundary2").vertices[..., 2] == 1.0)
-    assert len(flow.patch_faces("boundary").areas) == 32
+    assert np.all(flow.patch_faces("boundary1", 0.0).vertices[..., 2] == 0.0)
+    assert np.all(flow.patch_faces("boundary2", 0.0).vertices[..., 2] == 1.0)
+    assert len(flow.patch_faces("boundary", 0.0).areas) == 32
     with pytest.raises(InputError, match=r"no cell array CellEntityId\. Did you mean 'CellEntityIds'"):
         read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityId"))
     with pytest.raises(InputError, match="cell array U is not one of whole numbers"):
