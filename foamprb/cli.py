@@ -65,6 +65,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
     run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
+    run.add_argument(
+        "--device",
+        choices=("cpu", "cuda"),
+        default="cpu",
+        help="what advances the particles: cpu, cuda [cpu]",
+    )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
         "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
@@ -82,7 +88,8 @@ def _run(arguments: argparse.Namespace) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    job = prepare(arguments.case, arguments.time or "latestTime", arguments.dict, arguments.threads)
+    time = arguments.time or "latestTime"
+    job = prepare(arguments.case, time, arguments.dict, arguments.threads, arguments.device)
     describe(job)
     if arguments.dry_run:
         steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)

@@ -26,6 +26,7 @@ from foamprb.cloud.injection import release
 from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
+from foamprb.compile import Target
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
 from foamprb.flow.openfoam import read_case
@@ -39,7 +40,7 @@ from foamprb.settings import InjectionSettings, Settings, StartFrom, match_patch
 
 log = logging.getLogger("foamprb")
 
-_CHUNK_OF_WORK = 1_000_000
+_CHUNK_OF_WORK: dict[Target, int] = {"cpu": 1_000_000, "cuda": 1_000_000_000}
 _MAX_LISTED_FAILURES = 10
 _HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
@@ -73,6 +74,7 @@ def prepare(
     time: float | str = "latestTime",
     dictionary: Path | None = None,
     threads: int | None = None,
+    device: Target = "cpu",
 ) -> Job:
     """Read a case and place its particles.
 
@@ -86,6 +88,8 @@ def prepare(
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
+    device
+        What advances the particles, as :class:`~foamprb.cloud.cloud.Cloud` has it.
 
     Raises
     ------
@@ -98,10 +102,10 @@ def prepare(
     flow = read_case(case, time)
     for note in flow.notes:
         log.info("    %s", note)
-    return assemble(settings, flow, threads)
+    return assemble(settings, flow, threads, device)
 
 
-def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
+def assemble(settings: Settings, flow: Flow, threads: int | None = None, device: Target = "cpu") -> Job:
     """Put the particles that the settings ask for into a flow.
 
     Raises
@@ -136,7 +140,14 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     )
     try:
         cloud = Cloud(
-            particles, flow, medium, interactions, solution.deltaT, models, threads or available_threads()
+            particles,
+            flow,
+            medium,
+            interactions,
+            solution.deltaT,
+            models,
+            threads or available_threads(),
+            device=device,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -190,6 +201,7 @@ def describe(job: Job) -> list[str]:
              ", gravity" if any(settings.gravity) else "",
              ", pressureGradient" if settings.pressure_gradient else "",
              f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
+    log.info("Selecting device %s", cloud.device_name)
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
@@ -281,7 +293,8 @@ def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -
     with _progress(solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            if not _advance_to(job, target, show, stop):
+            following = min(last, target + per_write)
+            if not _advance_to(job, target, following, show, stop):
                 checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
                 raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
             series.append(snapshot(job))
@@ -348,21 +361,31 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Callable[[], bool]) -> bool:
-    """Advance to a step; whether it was reached before ``stop`` said so."""
+def _advance_to(
+    job: Job, target: int, following: int, show: Callable[[float], None], stop: Callable[[], bool]
+) -> bool:
+    """Advance to a step, from which the run goes on to the following; whether it was reached before a stop."""
     cloud = job.cloud
     while cloud.step < target and _moving(cloud):
         if stop():
+            cloud.fetch()
             return False
-        counts = cloud.particles.counts()
-        work = counts[Status.PENDING] + counts[Status.ACTIVE]
         until = job.functions.next_look(target)
-        cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        cloud.advance(_next_chunk(job, until))
         if cloud.step == until:
+            cloud.fetch()
             job.functions.see()
         show(cloud.time)
     cloud.step = target
+    cloud.fetch(ahead=_next_chunk(job, job.functions.next_look(following)) if _moving(cloud) else 0)
     return True
+
+
+def _next_chunk(job: Job, until: int) -> int:
+    """Number of steps that the cloud takes at once on its way to a step."""
+    counts = job.cloud.particles.counts()
+    work = counts[Status.PENDING] + counts[Status.ACTIVE]
+    return min(until - job.cloud.step, max(1, _CHUNK_OF_WORK[job.cloud.device] // work))
 
 
 @contextmanager

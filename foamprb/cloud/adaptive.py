@@ -74,6 +74,7 @@ from foamprb.cloud.block import (
     LANES,
     NOT_CONVERGED,
     Medium,
+    Scratch,
     accept_stage,
     frame_stage,
     idle,
@@ -456,15 +457,14 @@ def track_adaptive(
     steps: int,
     dt: float,
     start: float,
-    block: NDArray[np.float64],
-    clearance: NDArray[np.float64],
+    scratch: Scratch,
     tolerance: float,
 ) -> int:
     """Carry up to LANES particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
 
     Parameters
     ----------
-    As :func:`foamprb.cloud.advance.track_block`, with a block of ADAPTIVE_ROWS × LANES, and
+    As :func:`foamprb.cloud.advance.track_block`, with a block of ADAPTIVE_ROWS, and
     tolerance
         Largest error of a step in the deformation gradient, and in the direction of the path.
 
@@ -474,11 +474,11 @@ def track_adaptive(
     """
     recovered = 0
     last = step + steps
-    current = np.full(LANES, step)
-    hosts = np.zeros(LANES, dtype=np.int32)
+    block, clearance, current = scratch.block, scratch.clearance, scratch.step
     for i in range(LANES):
         idle(block, i, dt)
         block[AT_H * LANES + i] = dt
+        current[i] = step
     for i in range(len(members)):
         k = members[i]
         load_particle(p, k, block, i)
@@ -516,9 +516,9 @@ def track_adaptive(
         for i in range(len(members)):
             k = members[i]
             if p.status[k] == ACTIVE and current[i] < last:
-                hosts[i] = _predicted_host(flow, p.host[k], block, i)
+                host = _predicted_host(flow, p.host[k], block, i)
                 t_new = p.t[k] + block[AT_H * LANES + i]
-                u, l_f, u_t = sample(flow, hosts[i], load3(block, AT_NEW_X, i), t_new)
+                u, l_f, u_t = sample(flow, host, load3(block, AT_NEW_X, i), t_new)
                 store_fluid(block, i, u, l_f, u_t)
         new_frames(block)
         integrals_stage(block)

@@ -51,6 +51,7 @@ from foamprb.cloud.block import (
     AT_X,
     LANES,
     Medium,
+    Scratch,
     accept_stage,
     frame_stage,
     idle,
@@ -159,12 +160,11 @@ def _eliminate(M: Any, n: int) -> bool:
     return True
 
 
-def dense_newton(block: Any, i: int) -> None:
-    """The new deformation gradient of lane i by Newton's method with the full 9×9 tangent (50)."""
+def dense_newton(block: Any, i: int, M: Any) -> None:
+    """The new deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
     predictor, stress = load9(block, AT_PREDICTOR, i), load9(block, AT_STRESS, i)
     mu, lame, kappa = block[AT_MU * LANES + i], block[AT_LAME * LANES + i], _kappa(block, i)
     rest = load9(block, AT_M, i)
-    M = np.empty((9, 10))
     G = predictor
     size = math.inf
     for _ in range(_DENSE_STEPS):
@@ -204,8 +204,7 @@ def track_block(
     steps: int,
     dt: float,
     start: float,
-    block: NDArray[np.float64],
-    clearance: NDArray[np.float64],
+    scratch: Scratch,
 ) -> int:
     """Carry up to :data:`LANES` particles from step ``step`` through ``steps`` steps of Δt.
 
@@ -219,14 +218,15 @@ def track_block(
         Rows of particles, pending or active.
     step
         Number of the first step: it goes from t = start + step Δt to start + (step + 1) Δt.
-    block, clearance
-        Scratch of ROWS × LANES and LANES numbers.
+    scratch
+        With a block of ROWS.
 
     Returns
     -------
     The number of walks that failed and were mended by the tree.
     """
     recovered = 0
+    block, clearance = scratch.block, scratch.clearance
     for i in range(LANES):
         idle(block, i, dt)
     for i in range(len(members)):
@@ -262,7 +262,7 @@ def track_block(
         newton_stage(block)
         for i in range(len(members)):
             if p.status[members[i]] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
-                dense_newton(block, i)
+                dense_newton(block, i, scratch.matrix)
         new_frames(block)
         integrals_stage(block)
         barycentre_stage(block, medium)

@@ -23,6 +23,7 @@ from foamprb.body.tensor import (
 from foamprb.cloud.state import Particles, Reason
 
 LANES = 32
+"""On a CUDA device, where each thread has a block of its own, 1 is bound in its place."""
 
 LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
 
@@ -56,6 +57,19 @@ class Medium(NamedTuple):
     """1 with the force of the undisturbed flow's pressure gradient, else 0."""
     virtual_mass: float = 0.0
     """Coefficient of the virtual mass force; ½ for a sphere."""
+
+
+class Scratch(NamedTuple):
+    """Working memory of a loop."""
+
+    block: Any
+    """Rows × LANES numbers, flat."""
+    clearance: Any
+    """LANES numbers: the clearance of each particle at the end of its last step, m."""
+    step: Any
+    """LANES whole numbers: the step at which each particle is."""
+    matrix: Any
+    """9 × 10 numbers: one particle's equations."""
 
 
 def load3(block: Any, row: int, i: int) -> Vector:

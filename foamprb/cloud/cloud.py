@@ -6,7 +6,10 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import Any, Literal, NamedTuple
+from importlib import import_module
+from importlib.util import find_spec
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,15 +30,18 @@ from foamprb.cloud.adaptive import (
     track_adaptive,
 )
 from foamprb.cloud.advance import STAGES, track_block
-from foamprb.cloud.block import LANES, ROWS, Medium
+from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import link
+from foamprb.compile import Target, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
+
+if TYPE_CHECKING:
+    from foamprb.cloud.device import Device
 
 __all__ = ["Cloud", "Models", "available_threads"]
 
@@ -101,6 +107,10 @@ class Cloud:
         Names of traction, drag, material and wall test.
     threads
         Number of threads; the answer does not depend on it.
+    device
+        ``"cuda"`` has a GPU advance the particles. They stay in its memory: see :meth:`advance` and
+        :meth:`fetch`. What is changed in the arrays of ``particles`` after the first step is not seen there,
+        but ``particles`` may be replaced by others.
     step
         Number of steps done.
     start
@@ -114,7 +124,8 @@ class Cloud:
     Raises
     ------
     InputError
-        If a particle without a host lies outside the flow, or the models do not go together.
+        If a particle without a host lies outside the flow, the models do not go together, or there is no such
+        device.
     ValueError
         If there is not one interaction for each patch.
     """
@@ -130,6 +141,7 @@ class Cloud:
     recovered: int = 0
     start: float = 0.0
     reach: float = 0.0
+    device: Target = "cpu"
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -155,10 +167,17 @@ class Cloud:
         bindings.update(loop.bindings)
         # The walk and the wall test are long and called from several places: inlined they would multiply.
         parts = (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
-        self._track = link(loop.entry, bindings, separate=parts)
         self._rows = loop.rows
         self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
+        self._device: Device | None = None
+        if self.device == "cuda":
+            made = _device_module().Device
+            self._device = made(
+                loop.entry, loop.rows, bindings, parts, self.medium, self._table, self._options
+            )
+        else:
+            self._track = link(loop.entry, bindings, separate=parts)
         self._arrays: tuple[float, Any] = (-1.0, None)
 
     @property
@@ -166,8 +185,47 @@ class Cloud:
         """Time to which the cloud has come, s."""
         return self.start + self.step * self.dt
 
+    @property
+    def device_name(self) -> str:
+        """What advances the particles."""
+        return "cpu" if self._device is None else f"cuda ({self._device.name})"
+
     def advance(self, steps: int) -> None:
-        """Take ``steps`` time steps, with all threads, whatever becomes of single particles."""
+        """Take ``steps`` time steps, with all threads, whatever becomes of single particles.
+
+        On a CUDA device, of the particles here only ``status`` follows; :meth:`fetch` brings the rest.
+        """
+        if self._device is None:
+            self._advance_here(steps)
+        else:
+            if self._device.ahead != steps:
+                self._launch(self._device, steps)
+            self.recovered += self._device.finish()
+        self.step += steps
+
+    def fetch(self, ahead: int = 0) -> None:
+        """Bring the particles here up to date; nothing to do unless they are on a CUDA device.
+
+        Parameters
+        ----------
+        ahead
+            Number of steps that the device may start meanwhile. They count when :meth:`advance` is called
+            with just this number, and are dropped otherwise.
+        """
+        device = self._device
+        if device is None:
+            return
+        device.hold(self.particles)
+        device.keep()
+        if ahead and not device.ahead:
+            self._launch(device, ahead)
+        device.deliver()
+
+    def _launch(self, device: Device, steps: int) -> None:
+        device.hold(self.particles)
+        device.launch(self._flow_arrays(), self.step, steps, self.dt, self.start)
+
+    def _advance_here(self, steps: int) -> None:
         p = self.particles
         rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
@@ -176,12 +234,12 @@ class Cloud:
         flow_arrays = self._flow_arrays()
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
-            block = np.empty(self._rows * LANES)
-            clearance = np.empty(LANES)
+            block, matrix = np.empty(self._rows * LANES), np.empty((9, 10))
+            scratch = Scratch(block, np.empty(LANES), np.empty(LANES, dtype=np.int64), matrix)
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, self.start, block, clearance, *self._options,
+                    self.step, steps, self.dt, self.start, scratch, *self._options,
                 )
                 for members in share
             )  # fmt: skip
@@ -192,7 +250,6 @@ class Cloud:
         else:
             with ThreadPoolExecutor(self.threads) as pool:
                 self.recovered += sum(pool.map(work, shares))
-        self.step += steps
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
@@ -205,7 +262,8 @@ class Cloud:
 
     def _flow_arrays(self) -> Any:
         """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
-        longest = _longest_semi_axis(self.particles)
+        device, p = self._device, self.particles
+        longest = _longest_semi_axis(p) if device is None else device.longest_semi_axis()
         if longest * _REACH_MARGIN > self.reach:
             self.reach = 2.0 * _REACH_MARGIN * longest
         if self._arrays[0] != self.reach:
@@ -214,6 +272,14 @@ class Cloud:
                 touchable = []
             self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
         return self._arrays[1]
+
+
+def _device_module() -> ModuleType:
+    if find_spec("numba_cuda") is None:
+        raise InputError(
+            "device cuda: the package numba-cuda is missing; pip install 'foamprb[cuda]' brings it"
+        )
+    return import_module("foamprb.cloud.device")
 
 
 def _check(models: Models) -> None:
