@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from foamprb.flow import analytic
     from foamprb.flow.meshfile import read_mesh_file
     from foamprb.flow.openfoam import read_case
+    from foamprb.flow.series import read_series
     from foamprb.run import execute, prepare
 
 __version__ = version("foamprb")
@@ -41,6 +42,7 @@ _HOMES = {
     "prepare": "foamprb.run",
     "read_case": "foamprb.flow.openfoam",
     "read_mesh_file": "foamprb.flow.meshfile",
+    "read_series": "foamprb.flow.series",
     "set_rest_shape": "foamprb.cloud.state",
     "spheres": "foamprb.cloud.state",
 }
@@ -65,6 +67,7 @@ __all__ = [
     "prepare",
     "read_case",
     "read_mesh_file",
+    "read_series",
     "set_rest_shape",
     "spheres",
 ]

@@ -55,9 +55,12 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+        command.add_argument("--decomposed", action="store_true", help="read the processor folders")
     when = run.add_mutually_exclusive_group()
-    when.add_argument("--time", metavar="TIME", help="time of the flow")
-    when.add_argument("--latestTime", action="store_true", help="the latest time of the flow (the default)")
+    when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
+    when.add_argument(
+        "--latestTime", action="store_true", help="the latest time of the flow (the default of a steady one)"
+    )
     run.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
     start = run.add_mutually_exclusive_group()
     start.add_argument(
@@ -69,7 +72,7 @@ def _parser() -> argparse.ArgumentParser:
         "--device",
         choices=("cpu", "cuda"),
         default="cpu",
-        help="what advances the particles: cpu, cuda [cpu]",
+        help="what advances the particles [cpu]",
     )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
@@ -88,11 +91,13 @@ def _run(arguments: argparse.Namespace) -> int:
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    time = arguments.time or "latestTime"
-    job = prepare(arguments.case, time, arguments.dict, arguments.threads, arguments.device)
+    time = "latestTime" if arguments.latestTime else arguments.time
+    job = prepare(
+        arguments.case, time, arguments.dict, arguments.threads, arguments.decomposed, arguments.device
+    )
     describe(job)
     if arguments.dry_run:
-        steps = round(job.settings.solution.endTime / job.settings.solution.deltaT)
+        steps = job.steps
         logging.getLogger("foamprb").info(
             "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
         )
@@ -138,9 +143,12 @@ def _stopped_by_signals() -> Iterator[list[int]]:
 
 
 def _info(arguments: argparse.Namespace) -> int:
+    from foamprb.flow.decomposed import describe_decomposed, is_only_decomposed
     from foamprb.flow.openfoam import describe
 
-    print("\n".join(describe(arguments.case).lines()))
+    decomposed = arguments.decomposed or is_only_decomposed(arguments.case)
+    info = (describe_decomposed if decomposed else describe)(arguments.case)
+    print("\n".join(info.lines()))
     return 0
 
 

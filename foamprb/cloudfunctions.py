@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.tensor import dev, sym
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import MEASURES, Context, context
 from foamprb.cloud.patches import REBOUND
@@ -469,11 +470,71 @@ _EXPOSURES: dict[str, Callable[[Memory, Particles], Floats]] = {
     "shearExposure": lambda memory, _: memory["sumShearRate"],
 }
 
-FUNCTIONS: dict[str, type[ParticleTracks | PatchPostProcessing | ParticleCollector | ParticleHistogram]] = {
+
+@dataclass(frozen=True)
+class SuspensionStress:
+    """What the moving particles add to the fluid's stress in a dilute suspension: ``suspensionStress.csv``.
+
+    Of each injection model its number of particles and their volume V, m³; the sum of the stresslets over
+    that of the volumes, Pa, which times the volume fraction φ is the particles' stress; and the intrinsic
+    viscosity Σ S:d_f/(2 μ_f Σ V d_f:d_f), 5/2 for rigid spheres: what they add to the dissipation, per φ.
+    """
+
+    @property
+    def interval(self) -> int:
+        """The write times are enough."""
+        return 0
+
+    def begin(self, look: Look) -> Memory:  # noqa: ARG002
+        """Nothing has been written."""
+        return {"history": np.empty((0, 11))}
+
+    def see(self, memory: Memory, look: Look) -> None:
+        """Leave it to the write times."""
+
+    def write(self, memory: Memory, look: Look, folder: Path) -> None:
+        """Add a row for each injection model."""
+        p = look.particles
+        lines = []
+        for index in range(len(look.injectors)):
+            rows = np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == index))
+            lines.append([look.time, index, len(rows), *_suspension(look.context(rows))])
+        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 11))])
+        time, index, n, *values = memory["history"].T
+        names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
+        write_table(
+            folder / "suspensionStress.csv",
+            {
+                "time": time,
+                "injector": _names(look.injectors, index.astype(np.int64)),
+                "parcels": n.astype(np.int64),
+                **dict(zip(names, values, strict=True)),
+            },
+        )
+
+
+def _suspension(c: Context) -> list[float]:
+    """Volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity; the latter NaN of nothing."""
+    volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
+    S = np.asarray(MEASURES["stresslet"].value(c))
+    d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
+    # The components off the diagonal count twice.
+    weight = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    with np.errstate(invalid="ignore"):
+        stress = S.sum(axis=0) / volume.sum()
+        added = (weight * S * d).sum() / (2.0 * c.mu * (volume[:, None] * weight * d * d).sum())
+    return [float(volume.sum()), *map(float, stress), float(added)]
+
+
+FUNCTIONS: dict[
+    str,
+    type[ParticleTracks | PatchPostProcessing | ParticleCollector | ParticleHistogram | SuspensionStress],
+] = {
     "particleCollector": ParticleCollector,
     "particleHistogram": ParticleHistogram,
     "particleTracks": ParticleTracks,
     "patchPostProcessing": PatchPostProcessing,
+    "suspensionStress": SuspensionStress,
 }
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable, Collection, Mapping
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from types import CodeType, FunctionType
@@ -23,7 +24,7 @@ import platformdirs
 
 from foamprb.body.tensor import select
 
-__all__ = ["Target", "cache_directory", "link"]
+__all__ = ["Target", "cache_directory", "is_compiled", "link"]
 
 Target: TypeAlias = Literal["cpu", "cuda"]
 
@@ -34,6 +35,9 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "nogil": True,
     "fastmath": set(_FAST_MATH),
+    # No function allocates or keeps an array; counting references to those it is given would take more time
+    # than all else.
+    "_nrt": False,
 }
 
 
@@ -72,6 +76,12 @@ def link(
     return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
 
 
+def is_compiled(dispatcher: Any) -> bool:
+    """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
+    folder = _folders.get(id(dispatcher))
+    return bool(dispatcher.signatures) or (folder is not None and any(folder.glob("*.nbc")))
+
+
 class _Linkage(NamedTuple):
     """What holds for all functions of one linking."""
 
@@ -89,12 +99,21 @@ class _Part(NamedTuple):
 
 _Role: TypeAlias = Literal["entry", "separate", "inlined"]
 
+# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
+_UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_ROLES: dict[_Role, dict[str, Any]] = {
+    "entry": {},
+    "separate": _UNWRAPPED,
+    "inlined": {"forceinline": True, **_UNWRAPPED},
+}
+
 
 def _branch(condition: Any, a: Any, b: Any) -> Any:
     return a if condition else b
 
 
-_parts: dict[tuple[Target, _Role, str], _Part] = {}
+_parts: dict[str, _Part] = {}
+_folders: dict[int, Path] = {}
 
 
 def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part:
@@ -104,9 +123,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
         return _link_select(target)
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    digest = hashlib.sha256(
-        f"{_version(target)} {_FAST_MATH} {function.__module__} {function.__qualname__}".encode()
-    )
+    own = f"{_compiler(target)} {role} {function.__module__} {function.__qualname__}"
+    digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
@@ -120,32 +138,34 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
     if target == "cuda":
         scope |= _for_cuda(scope)
     key = digest.hexdigest()[:24]
-    if (target, role, key) not in _parts:
+    if key not in _parts:
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
         clone.__qualname__ = function.__qualname__
         clone.__module__ = function.__module__
         compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
-        _parts[target, role, key] = _Part(compile_part(clone, role, key), key)
-    return _parts[target, role, key]
+        _parts[key] = _Part(compile_part(clone, role, key), key)
+    return _parts[key]
 
 
 def _link_select(target: Target) -> _Part:
     """The branch that ``select`` is of scalars."""
-    if (target, "inlined", "select") not in _parts:
-        if target == "cpu":
-            dispatcher = numba.njit(inline="always")(_branch)
-        else:
-            dispatcher = _compile_for_cuda(_branch, "inlined", "select")
-        _parts[target, "inlined", "select"] = _Part(dispatcher, "select")
-    return _parts[target, "inlined", "select"]
+    key = f"select {target}"
+    if key not in _parts:
+        cpu = target == "cpu"
+        inlined = numba.njit(inline="always") if cpu else partial(_compile_for_cuda, role="inlined", key=key)
+        _parts[key] = _Part(inlined(_branch), key)
+    return _parts[key]
 
 
-def _version(target: Target) -> str:
-    return numba.__version__ if target == "cpu" else f"cuda {version('numba-cuda')}"
+def _compiler(target: Target) -> str:
+    """What makes the code, and how."""
+    if target == "cpu":
+        return f"{numba.__version__} {_OPTIONS} {_ROLES}"
+    return f"numba-cuda {version('numba-cuda')}"
 
 
-def _compile_for_cpu(function: FunctionType, role: _Role, key: str) -> Any:
-    dispatcher = numba.njit(forceinline=role == "inlined", **_OPTIONS)(function)
+def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
+    dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
     if role != "inlined":
         _enable_cache(dispatcher, key, numba.config)
     return dispatcher
@@ -190,7 +210,7 @@ def _fingerprint(code: CodeType) -> bytes:
 
 def _enable_cache(dispatcher: Any, key: str, config: Any) -> None:
     """Keep the machine code under ``key``; ``config`` is where the compiler looks for the folder."""
-    folder = cache_directory() / key
+    folder = _folders[id(dispatcher)] = cache_directory() / key
     previous = config.CACHE_DIR
     try:
         folder.mkdir(parents=True, exist_ok=True)

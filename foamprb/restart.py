@@ -47,8 +47,8 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}
-    for what, arrays in ((_PARTICLES, cloud.particles), ("flow", cloud.flow.arrays(0.0, ()))):
-        marks |= {f"{what}/{name}": _sums(array) for name, array in arrays._asdict().items()}
+    for what, arrays in ((_PARTICLES, cloud.particles._asdict()), ("flow", cloud.flow.traits())):
+        marks |= {f"{what}/{name}": _sums(array) for name, array in arrays.items()}
     return marks
 
 

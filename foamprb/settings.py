@@ -57,7 +57,7 @@ MULTIPLE_TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Solution:
-    """Time stepping: step, end and write interval, s; the integrator of the shape and its tolerance.
+    """Time stepping: step, end and write interval, s; the flow in time; the integrator and its tolerance.
 
     A run begins at time 0 or goes on from its last checkpoint, as ``startFrom`` says, None if the user does
     not; it stops when more than ``maxFailedFraction`` of the injected particles have failed.
@@ -68,6 +68,10 @@ class Solution:
     writeInterval: float
     shape: str
     tolerance: float
+    transient: bool = False
+    """Whether the flow changes in time; its time is then that of the run."""
+    period: float | None = None
+    """Time after which a transient flow repeats itself, s."""
     startFrom: StartFrom | None = None
     maxFailedFraction: float = 1.0
 
@@ -206,12 +210,16 @@ def _solution(entries: _Solution, root: Dictionary) -> Solution:
             raise root.at("solution/writeInterval").mistake(
                 f"is {interval:g}. Allowed: a multiple of deltaT = {entries.deltaT:g}."
             )
+    if entries.period is not None and not entries.transient:
+        raise root.at("solution/period").mistake("needs a flow that changes in time: transient yes.")
     return Solution(
         deltaT=entries.deltaT,
         endTime=entries.endTime,
         writeInterval=entries.endTime if interval is None else interval,
         shape=entries.integrationSchemes.shape,
         tolerance=entries.integrationSchemes.tolerance,
+        transient=entries.transient,
+        period=entries.period,
         startFrom=entries.startFrom,
         maxFailedFraction=entries.maxFailedFraction,
     )
@@ -510,7 +518,8 @@ class _Solution:
     maxFailedFraction: Annotated[float, Fraction] = 1.0
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
-    transient: Annotated[bool, Only(False, "particles are tracked through steady flows only")] = False
+    transient: bool = False
+    period: Annotated[float, Positive] | None = None
     cellValueSourceCorrection: Annotated[bool, Only(False, "the particles do not act on the flow")] = False
     interpolationSchemes: _InterpolationSchemes = _InterpolationSchemes()
     integrationSchemes: _IntegrationSchemes = _IntegrationSchemes()

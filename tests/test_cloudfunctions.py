@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from test_run import copy_of_pipe, edit
 
-from foamprb import analytic
+import foamprb.run
+from foamprb import analytic, execute, prepare
 from foamprb.body.tensor import principal_frame
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
@@ -27,8 +29,9 @@ from foamprb.cloudfunctions import (
     ParticleHistogram,
     ParticleTracks,
     PatchPostProcessing,
+    SuspensionStress,
 )
-from foamprb.errors import InputError
+from foamprb.errors import InputError, RunStopped
 
 PIPE = Path(__file__).parents[1] / "cases/pipe"
 RADIUS, MEAN, D = 2.1e-3, 0.485, 5e-6
@@ -401,6 +404,30 @@ def cases(tmp_path_factory):
     return cases
 
 
+def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch):
+    """Stopped between two looks and between two writings: the same files as of a run never stopped."""
+    block = BLOCK.replace("0.02 0 0", "0.001 0 0")
+    results = []
+    for name in ("whole", "parts"):
+        case = copy_of_pipe(tmp_path / name)
+        edit(case, r"cloudFunctions\s*\{\}", block)
+        edit(case, r"endTime\s+\S+;", "endTime 0.012;")
+        edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
+        if name == "parts":
+            monkeypatch.setattr(foamprb.run, "_CHUNK_OF_WORK", 1000)
+            job = prepare(case, threads=1)
+            with pytest.raises(RunStopped):
+                execute(job, stop=lambda job=job: job.cloud.step > 261)
+            assert 261 < job.cloud.step < 270
+        assert main(["run", "-case", str(case), "-resume"]) == 0
+        folder = case / "postProcessing/softCloud"
+        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".vtp")]
+        results.append({str(file.relative_to(folder)): file.read_bytes() for file in found})
+    assert {"plane/crossings.csv", "spread/exposure.csv", "tracks/tracks.vtp"} <= results[0].keys()
+    assert len(results[0]["plane/crossings.csv"].splitlines()) > 1
+    assert results[0] == results[1]
+
+
 class TestRun:
     def test_looking_changes_nothing(self, cases):
         plain, observed = cases
@@ -436,3 +463,25 @@ class TestRun:
 
 def test_registry_names_are_openfoams_where_it_has_them():
     assert {"particleTracks", "patchPostProcessing", "particleCollector"} <= FUNCTIONS.keys()
+
+
+def test_suspension_of_rigid_spheres_is_einsteins(tmp_path):
+    """[η] = 5/2 and S = 5 μ_f V d_f, whatever the sizes and the flow."""
+    L = np.array([[0.2, 1.0, 0.0], [0.0, -0.3, 0.5], [0.0, 0.0, 0.1]])
+    radii = np.array([1e-6, 2e-6, 3e-6, 4e-6])
+    p = spheres(np.zeros((4, 3)), d=2 * radii, rho=1e3, mu=WATER.mu * 1e5)
+    p.injector[:] = [0, 0, 1, 1]
+    cloud = Cloud(p, analytic.linear(L), WATER, (), 0.01, Models(integrator="stokes"))
+    observe(cloud, SuspensionStress(), tmp_path, writes=(10, 20))
+    rows = table(tmp_path / "f/suspensionStress.csv")
+    assert [(row["time"], row["injector"], row["parcels"]) for row in rows] == [
+        ("0.1", "one", "2"), ("0.1", "two", "2"), ("0.2", "one", "2"), ("0.2", "two", "2")
+    ]  # fmt: skip
+    d = (L + L.T) / 2
+    for row in rows:
+        np.testing.assert_allclose(float(row["intrinsicViscosity"]), 2.5, rtol=1e-4)
+        found = [float(row[name]) for name in ("Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz")]
+        expected = 5 * WATER.mu * d[[0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
+        np.testing.assert_allclose(found, expected, atol=1e-4 * WATER.mu)
+    own = radii[:2] if rows[0]["injector"] == "one" else radii[2:]
+    np.testing.assert_allclose(float(rows[0]["volume"]), np.sum(4 / 3 * np.pi * own**3), rtol=1e-6)

@@ -289,11 +289,11 @@ def test_cells_and_patches_of_a_flow():
     assert hosts[2] == -1
     assert flow.cell_size(hosts[:2]) == pytest.approx([0.25, 0.25])
     assert np.array_equal(flow.bounds, [[0.0] * 3, [1.0] * 3])
-    lid = flow.patch_faces("lid")
+    lid = flow.patch_faces("lid", 0.0)
     assert np.sum(lid.areas) == pytest.approx(1.0)
     assert np.all(lid.vertices[:, :, 2] == 1.0)
     assert np.allclose(lid.normals, [0.0, 0.0, -1.0])
     assert lid.velocity == pytest.approx(lid.vertices @ GRADIENT.T)
     assert weights(flow, lid.hosts, lid.vertices.mean(axis=1)).min() > -1e-12
     with pytest.raises(InputError, match="patch lidd is not in the mesh\\. Did you mean 'lid'"):
-        flow.patch_faces("lidd")
+        flow.patch_faces("lidd", 0.0)

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from limits import limit_of_file_size
 
-from foamprb.errors import InputError
-from foamprb.output.tables import TimeTable, write_table
+from foamprb.output.tables import write_table
 
 
 def read(path: Path) -> list[list[str]]:
@@ -71,39 +69,3 @@ def test_columns_that_are_no_table(tmp_path: Path, columns: dict[str, object], m
     with pytest.raises(ValueError, match=message):
         write_table(tmp_path / "t.csv", columns)  # type: ignore[arg-type]
     assert not list(tmp_path.iterdir())
-
-
-def test_rows_after_the_time_of_a_restart_are_dropped(tmp_path: Path) -> None:
-    path = tmp_path / "new" / "t.csv"
-    table = TimeTable(path, ["stuck", "patch"])
-    times = [0.1, 0.1 + 0.2, 0.5]
-    for time in times:
-        table.append(time, [3, "a, b"])
-    rows = read(path)
-    assert rows[0] == ["time", "stuck", "patch"]
-    assert [float(row[0]) for row in rows[1:]] == times
-    # As a killed process leaves it.
-    with path.open("a") as file:
-        file.write("0.6,")
-
-    TimeTable(path, ["stuck", "patch"], after=times[1]).append(0.4, [4, "c"])
-    assert read(path) == [*rows[:3], ["0.4", "4", "c"]]
-    TimeTable(path, ["other"])
-    assert read(path) == [["time", "other"]]
-
-
-@pytest.mark.parametrize("text", ["time,b\n0.1,2\n", "", "time,a\nnow,2\n"])
-def test_another_table_is_no_place_to_go_on(tmp_path: Path, text: str) -> None:
-    (tmp_path / "t.csv").write_text(text)
-    with pytest.raises(InputError, match=r"t\.csv"):
-        TimeTable(tmp_path / "t.csv", ["a"], after=0.0)
-
-
-def test_a_row_without_room_leaves_the_table_as_it_was(tmp_path: Path) -> None:
-    path = tmp_path / "t.csv"
-    table = TimeTable(path, ["text"])
-    table.append(0.1, ["a"])
-    before = path.read_text()
-    with limit_of_file_size(60), pytest.raises(OSError, match=r"t\.csv"):
-        table.append(0.2, [100 * "a"])
-    assert path.read_text() == before

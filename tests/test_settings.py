@@ -196,7 +196,8 @@ MISTAKES = [
         "coupled true; deltaT ",
         "solution/coupled is 'true'. Allowed: false (the particles do not act",
     ),
-    ("deltaT ", "transient yes; deltaT ", "solution/transient is 'yes'. Allowed: false"),
+    ("deltaT ", "period 1; deltaT ", "solution/period needs a flow that changes in time: transient yes."),
+    ("deltaT ", "transient yes; period 0; deltaT ", "solution/period is '0'. Allowed: a number > 0."),
     (
         "deltaT ",
         "interpolationSchemes { U cell; } deltaT ",

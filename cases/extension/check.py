@@ -57,7 +57,7 @@ class Track(NamedTuple):
 def axis(job: Job, points: int = 2000) -> Axis:
     """Sample the flow on the axis, as the beads see it."""
     flow, start = job.cloud.flow, job.cloud.particles.x0[0, 0]
-    outlet = flow.patch_faces("outlet").vertices[..., 0].min()
+    outlet = flow.patch_faces("outlet", 0.0).vertices[..., 0].min()
     x = np.linspace(start, outlet - 1e-3 * (outlet - start), points)
     places = np.zeros((points, 3))
     places[:, 0] = x

@@ -41,6 +41,7 @@ from foamprb.body.tensor import (
     inverse,
     reciprocals,
     scale,
+    select,
     to_frame,
     transpose,
     vector_dot,
@@ -76,6 +77,7 @@ from foamprb.cloud.block import (
     Medium,
     Scratch,
     accept_stage,
+    choose,
     frame_stage,
     idle,
     integrals_stage,
@@ -424,7 +426,30 @@ def _balance(
     return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
 
 
-first_slope, second_slope = first_inertial, second_inertial
+def end_inertial(block: Any, medium: Medium) -> None:
+    """A and v at the end belong to the state, which the stages have left in the block."""
+
+
+def end_inertialess(block: Any, medium: Medium) -> None:
+    """A and v of the balance at the end; the stages leave those of the state that the last step predicted."""
+    for i in range(LANES):
+        Q, stretches, g = load9(block, AT_Q, i), load3(block, AT_STRETCH, i), load_integrals(block, i)
+        F = load9(block, AT_F, i)
+        m = mobility(stretches, g, block[AT_ETA * LANES + i] / medium.mu)
+        b_e = finger(dot(Q, F), load9(block, AT_M, i))
+        l_s, v = _balance(block, i, medium, Q, stretches, g, m, b_e)
+        moving = block[AT_MOVING * LANES + i] > 0.0
+        A, w = load9(block, AT_A, i), load3(block, AT_V, i)
+        store9(block, AT_A, i, choose(moving, dot(from_frame(Q, l_s), F), A))
+        store3(
+            block,
+            AT_V,
+            i,
+            (select(moving, v[0], w[0]), select(moving, v[1], w[1]), select(moving, v[2], w[2])),
+        )
+
+
+first_slope, second_slope, end_slope = first_inertial, second_inertial, end_inertial
 
 
 def _begin(block: Any, i: int, h: float) -> None:
@@ -549,6 +574,17 @@ def track_adaptive(
             if whole:
                 current[i] += 1
     for i in range(len(members)):
+        k = members[i]
+        block[AT_MOVING * LANES + i] = 0.0
+        if p.status[k] == ACTIVE:
+            block[AT_MOVING * LANES + i] = 1.0
+            store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            store_fluid(block, i, u, l_f, u_t)
+    new_frames(block)
+    integrals_stage(block)
+    end_slope(block, medium)
+    for i in range(len(members)):
         save_particle(p, members[i], block, i)
     return recovered
 
@@ -563,5 +599,7 @@ ADAPTIVE_STAGES = (
     second_inertial,
     first_inertialess,
     second_inertialess,
+    end_inertial,
+    end_inertialess,
 )
 """Parts of the loop that do not depend on the flow, compiled once for all flows."""

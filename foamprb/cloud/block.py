@@ -187,9 +187,9 @@ def accept_stage(block: Any, tolerance: float) -> None:
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         block[AT_VERDICT * LANES + i] = verdict
         sound = (verdict == 0.0) & (block[AT_MOVING * LANES + i] > 0.0)
-        store9(block, AT_F, i, _choose(sound, F, load9(block, AT_F, i)))
-        store9(block, AT_A, i, _choose(sound, A, load9(block, AT_A, i)))
-        store9(block, AT_FRAME, i, _choose(sound, load9(block, AT_Q, i), load9(block, AT_FRAME, i)))
+        store9(block, AT_F, i, choose(sound, F, load9(block, AT_F, i)))
+        store9(block, AT_A, i, choose(sound, A, load9(block, AT_A, i)))
+        store9(block, AT_FRAME, i, choose(sound, load9(block, AT_Q, i), load9(block, AT_FRAME, i)))
         w = load3(block, AT_V, i)
         store3(
             block,
@@ -199,7 +199,8 @@ def accept_stage(block: Any, tolerance: float) -> None:
         )
 
 
-def _choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
+def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
+    """S where the condition holds, else T."""
     return (
         select(condition, S[0], T[0]), select(condition, S[1], T[1]), select(condition, S[2], T[2]),
         select(condition, S[3], T[3]), select(condition, S[4], T[4]), select(condition, S[5], T[5]),

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.util import find_spec
-from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -23,6 +23,8 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
     ADAPTIVE_STAGES,
+    end_inertial,
+    end_inertialess,
     first_inertial,
     first_inertialess,
     second_inertial,
@@ -35,7 +37,7 @@ from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import Target, link
+from foamprb.compile import Target, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
@@ -43,14 +45,25 @@ from foamprb.flow.base import Flow
 if TYPE_CHECKING:
     from foamprb.cloud.device import Device
 
-__all__ = ["Cloud", "Models", "available_threads"]
+__all__ = ["Cloud", "Models", "available_threads", "require_device"]
 
 _REACH_MARGIN = 2.0
+_ROUND_OFF = 1e-6
+"""Share of a step by which it may end after the time until which the flow is ready."""
 
 
 def available_threads() -> int:
     """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0))
+
+
+def require_device(device: Target) -> None:
+    """Raise InputError if a device cannot be used: say what is missing."""
+    if device == "cpu":
+        return
+    if find_spec("numba_cuda") is None:
+        raise InputError("device cuda: the package numba-cuda is missing. Try: pip install 'foamprb[cuda]'")
+    import_module("foamprb.cloud.device").device_name()
 
 
 class Loop(NamedTuple):
@@ -68,8 +81,14 @@ _SECOND_ORDER = (track_adaptive, ADAPTIVE_STAGES, ADAPTIVE_ROWS, True)
 
 LOOPS: dict[str, Loop] = {
     "paper": Loop(track_block, STAGES, ROWS, False, {}),
-    "rosenbrock": Loop(*_SECOND_ORDER, {"first_slope": first_inertial, "second_slope": second_inertial}),
-    "stokes": Loop(*_SECOND_ORDER, {"first_slope": first_inertialess, "second_slope": second_inertialess}),
+    "rosenbrock": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertial, "second_slope": second_inertial, "end_slope": end_inertial},
+    ),
+    "stokes": Loop(
+        *_SECOND_ORDER,
+        {"first_slope": first_inertialess, "second_slope": second_inertialess, "end_slope": end_inertialess},
+    ),
 }
 """The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
 
@@ -124,8 +143,7 @@ class Cloud:
     Raises
     ------
     InputError
-        If a particle without a host lies outside the flow, the models do not go together, or there is no such
-        device.
+        If a particle without a host lies outside the flow, or the models do not go together.
     ValueError
         If there is not one interaction for each patch.
     """
@@ -147,6 +165,7 @@ class Cloud:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         _check(self.models)
+        _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
@@ -172,36 +191,48 @@ class Cloud:
         self._table = _patch_table(self.interactions)
         self._device: Device | None = None
         if self.device == "cuda":
-            made = _device_module().Device
-            self._device = made(
+            require_device(self.device)
+            self._device = import_module("foamprb.cloud.device").Device(
                 loop.entry, loop.rows, bindings, parts, self.medium, self._table, self._options
             )
         else:
             self._track = link(loop.entry, bindings, separate=parts)
-        self._arrays: tuple[float, Any] = (-1.0, None)
 
     @property
-    def time(self) -> float:
-        """Time to which the cloud has come, s."""
-        return self.start + self.step * self.dt
+    def compiled(self) -> bool:
+        """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
+        return is_compiled(self._track) if self._device is None else self._device.compiled
 
     @property
     def device_name(self) -> str:
         """What advances the particles."""
         return "cpu" if self._device is None else f"cuda ({self._device.name})"
 
+    @property
+    def time(self) -> float:
+        """Time to which the cloud has come, s."""
+        return self.start + self.step * self.dt
+
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, with all threads, whatever becomes of single particles.
 
         On a CUDA device, of the particles here only ``status`` follows; :meth:`fetch` brings the rest.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
         """
-        if self._device is None:
-            self._advance_here(steps)
-        else:
-            if self._device.ahead != steps:
-                self._launch(self._device, steps)
-            self.recovered += self._device.finish()
-        self.step += steps
+        last = self.step + steps
+        while self.step < last:
+            ready = self._load(last - self.step)
+            if self._device is None:
+                self._advance(ready)
+            else:
+                if self._device.ahead != ready:
+                    self._launch(self._device, ready)
+                self.recovered += self._device.finish()
+            self.step += ready
 
     def fetch(self, ahead: int = 0) -> None:
         """Bring the particles here up to date; nothing to do unless they are on a CUDA device.
@@ -209,23 +240,32 @@ class Cloud:
         Parameters
         ----------
         ahead
-            Number of steps that the device may start meanwhile. They count when :meth:`advance` is called
-            with just this number, and are dropped otherwise.
+            Number of steps that the device may begin with meanwhile. They count when :meth:`advance` is
+            called with this number, and are dropped otherwise.
         """
         device = self._device
         if device is None:
             return
         device.hold(self.particles)
         device.keep()
-        if ahead and not device.ahead:
-            self._launch(device, ahead)
+        # What is wrong with the flow is said when the steps are due.
+        with suppress(InputError):
+            if ahead and not device.ahead:
+                self._launch(device, self._load(ahead))
         device.deliver()
+
+    def _load(self, steps: int) -> int:
+        """Make the flow ready for as many steps as it can be, of ``steps``; how many these are."""
+        until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+        ready = (until - self.time) / self.dt + _ROUND_OFF
+        return steps if ready > steps else max(1, int(ready))
 
     def _launch(self, device: Device, steps: int) -> None:
         device.hold(self.particles)
         device.launch(self._flow_arrays(), self.step, steps, self.dt, self.start)
 
-    def _advance_here(self, steps: int) -> None:
+    def _advance(self, steps: int) -> None:
+        """Take steps for which the flow is ready."""
         p = self.particles
         rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
@@ -234,8 +274,12 @@ class Cloud:
         flow_arrays = self._flow_arrays()
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
-            block, matrix = np.empty(self._rows * LANES), np.empty((9, 10))
-            scratch = Scratch(block, np.empty(LANES), np.empty(LANES, dtype=np.int64), matrix)
+            scratch = Scratch(
+                np.empty(self._rows * LANES),
+                np.empty(LANES),
+                np.empty(LANES, dtype=np.int64),
+                np.empty((9, 10)),
+            )
             return sum(
                 self._track(
                     flow_arrays, self._table, self.medium, p, members,
@@ -266,20 +310,8 @@ class Cloud:
         longest = _longest_semi_axis(p) if device is None else device.longest_semi_axis()
         if longest * _REACH_MARGIN > self.reach:
             self.reach = 2.0 * _REACH_MARGIN * longest
-        if self._arrays[0] != self.reach:
-            touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
-            if self.models.touching == "centre":
-                touchable = []
-            self._arrays = (self.reach, self.flow.arrays(self.reach, touchable))
-        return self._arrays[1]
-
-
-def _device_module() -> ModuleType:
-    if find_spec("numba_cuda") is None:
-        raise InputError(
-            "device cuda: the package numba-cuda is missing; pip install 'foamprb[cuda]' brings it"
-        )
-    return import_module("foamprb.cloud.device")
+        touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+        return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
 
 
 def _check(models: Models) -> None:
@@ -296,6 +328,15 @@ def _check(models: Models) -> None:
 def _refuse_tension(models: Models) -> None:
     if models.integrator == "paper":
         raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
+
+
+def _refuse_early(p: Particles, start: float) -> None:
+    early = np.flatnonzero((p.status == Status.PENDING) & (p.t0 < start))
+    if len(early):
+        raise InputError(
+            f"{len(early)} of {p.size} particles would appear before the start of the run at {start:g} s, "
+            f"the first at {p.t0[early].min():g} s"
+        )
 
 
 def _find_hosts(p: Particles, flow: Flow) -> None:

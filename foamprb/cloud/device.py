@@ -20,7 +20,7 @@ from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.motion import ACTIVE, PatchTable
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.compile import link
+from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 
 __all__ = ["Device", "device_name"]
@@ -142,6 +142,11 @@ class Device:
         self.ahead = 0
         """Number of steps that were started and of which the particles on the host know nothing yet."""
 
+    @property
+    def compiled(self) -> bool:
+        """Whether the kernel is compiled."""
+        return bool(cuda.config.ENABLE_CUDASIM) or is_compiled(self._track)
+
     def hold(self, p: Particles) -> None:
         """Take over the particles of the host, if they are not those that are held already.
 
@@ -252,7 +257,7 @@ class Device:
             self.ahead = 0
 
     def _arrange(self, steps: int) -> None:
-        """List the particles that move, now and then sorted, so that threads side by side read the same cells."""
+        """List the particles that move, now and then sorted, so that neighbours read the same cells."""
         assert self._held is not None
         status = self._held.status
         if self._steps_since_sort >= _STEPS_PER_SORT:

@@ -101,7 +101,7 @@ class PatchInjection:
                 f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
                 f"duration {self.duration:g} s gives no particle."
             )
-        faces = flow.patch_faces(self.patch)
+        faces = flow.patch_faces(self.patch, self.SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
         if not flux.sum() > 0.0:
@@ -257,7 +257,7 @@ def release(
     p.x[:] = p.x0[:] = places.x
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
-    p.v[:] = flow.sample(places.x, places.hosts, model.SOI)[0] if places.v is None else places.v
+    p.v[:] = np.nan if places.v is None else places.v
     return p
 
 

@@ -1,7 +1,7 @@
 """What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
 
-The names ``walk``, ``gap``, ``normal`` and ``recover`` are bound to the flow that was chosen when the loop is
-compiled.
+The names ``sample``, ``walk``, ``gap``, ``normal`` and ``recover`` are bound to the flow that was chosen when
+the loop is compiled.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import recover_free as recover
+from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
@@ -175,6 +176,9 @@ def release(flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i:
     """Make a pending particle active, or stuck if it appears in touch with a sticky wall."""
     p.status[k] = ACTIVE
     p.t[k] = p.t0[k]
+    if math.isnan(block[AT_V * LANES + i]):
+        u, _, _ = sample(flow, p.host[k], load3(block, AT_X, i), p.t0[k])
+        store3(block, AT_V, i, u)
     clearance, patch, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
     if clearance <= 0.0 and patches.code[patch] == STICK:
         settle(p, k, patch, STICK)

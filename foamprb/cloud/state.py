@@ -60,7 +60,9 @@ class Particles(NamedTuple):
     """The state of n particles; every array has n rows."""
 
     x: Annotated[Array, Variable((3,), "f8", "m", "position of the barycentre")]
-    v: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the barycentre")]
+    v: Annotated[
+        Array, Variable((3,), "f8", "m/s", "velocity of the barycentre; NaN if pending with the fluid's")
+    ]
     F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient from that sphere, row by row")]
     A: Annotated[Array, Variable((9,), "f8", "1/s", "material velocity gradient dF/dt, row by row")]
     Q: Annotated[Array, Variable((9,), "f8", "1", "particle frame, axes as rows; any frame for a new F")]

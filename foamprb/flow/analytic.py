@@ -8,7 +8,7 @@ A flow gives the particle loop a tuple of numbers (:meth:`arrays`) and plain fun
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -82,6 +82,39 @@ def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vecto
     return u, l, (0.0, 0.0, 0.0)
 
 
+class WomersleyArrays(NamedTuple):
+    """Poiseuille flow along x in a circular pipe, and an oscillation of its pressure gradient."""
+
+    radius: float
+    mean_velocity: float
+    length: float
+    amplitude: float
+    """Of −(∂p/∂x)/ρ over ω, m/s."""
+    omega: float
+    """1/s."""
+    phase: float
+    real: Floats
+    """Coefficients of the powers of r²/a² in the profile 1 − J₀(i^{3/2} α r/a)/J₀(i^{3/2} α)."""
+    imaginary: Floats
+
+
+def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
+    scale = 1.0 / (flow.radius * flow.radius)
+    s = scale * (x[1] * x[1] + x[2] * x[2])
+    f, g, df, dg = 0.0 * s, 0.0 * s, 0.0 * s, 0.0 * s
+    for k in range(flow.real.shape[0] - 1, -1, -1):
+        df, dg = df * s + f, dg * s + g
+        f, g = f * s + flow.real[k], g * s + flow.imaginary[k]
+    a = flow.omega * t + flow.phase
+    cosine, sine = math.cos(a), math.sin(a)
+    w = flow.amplitude
+    u = 2.0 * flow.mean_velocity * (1.0 - s) + w * (f * sine + g * cosine)
+    slope = 2.0 * scale * (w * (df * sine + dg * cosine) - 2.0 * flow.mean_velocity)
+    u_t = w * flow.omega * (f * cosine - g * sine)
+    return (u, 0.0, 0.0), (0.0, slope * x[1], slope * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (u_t, 0.0, 0.0)
+
+
 def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Where the segment from x0 to x1 first leaves the pipe."""
     fraction, patch = 1.0, _FREE
@@ -151,10 +184,20 @@ class AnalyticFlow:
         self.kernels = kernels
         self.patches = tuple(patches)
         self.notes: tuple[str, ...] = ()
+        self.span = (-math.inf, math.inf)
+
+    def load(self, start: float, end: float) -> float:  # noqa: ARG002
+        """Return infinity: the flow is known at all times."""
+        return math.inf
 
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:  # noqa: ARG002
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """The parameters, by name."""
+        names: Mapping[str, ArrayLike] = self._parameters._asdict()
+        return names
 
     def locate(self, points: Floats) -> Ints:
         """0 for each point of shape (n, 3) in the flow, −1 for one outside."""
@@ -170,7 +213,7 @@ class AnalyticFlow:
             np.stack([c + zeros for c in gradient], axis=1).reshape(-1, 3, 3),
         )
 
-    def patch_faces(self, name: str) -> PatchFaces:
+    def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
         """Refuse: a flow in closed form has no faces.
 
         Raises
@@ -233,15 +276,76 @@ def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> Analy
     mean_velocity
         m/s; the wall shear rate is 4 U/radius.
     """
+    return _in_pipe(PipeArrays(float(radius), float(mean_velocity), float(length)), sample_pipe)
+
+
+_MOST_WOMERSLEY = 30.0
+
+
+def womersley(
+    radius: float,
+    nu: float,
+    period: float,
+    amplitude: float,
+    mean_velocity: float = 0.0,
+    phase: float = 0.0,
+    length: float = math.inf,
+) -> AnalyticFlow:
+    """Pulsatile flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
+
+    The pressure gradient −(∂p/∂x)/ρ is 8 ν U/a² + amplitude · cos(2π t/period + phase); the flow is that long
+    after any start (Womersley, J. Physiol. 127, 553, 1955).
+
+    Parameters
+    ----------
+    radius, length
+        m; an infinite length has no outlet to reach.
+    nu
+        Kinematic viscosity, m²/s.
+    period
+        s.
+    amplitude
+        Of the pressure gradient over the density, m/s².
+    mean_velocity
+        Over section and time, U, m/s.
+    phase
+        rad.
+
+    Raises
+    ------
+    ValueError
+        If the Womersley number a √(ω/ν) exceeds 30, where the series of the Bessel function loses digits.
+    """
+    omega = 2.0 * math.pi / period
+    alpha = radius * math.sqrt(omega / nu)
+    if alpha > _MOST_WOMERSLEY:
+        raise ValueError(f"Womersley number {alpha:.3g} > {_MOST_WOMERSLEY:g}")
+    # J₀(i^{3/2} α s) = Σ (i α² s²/4)ᵏ/(k!)²
+    terms = [1.0 + 0.0j]
+    while abs(terms[-1]) > 1e-20 * max(map(abs, terms)):
+        terms.append(terms[-1] * 0.25j * alpha**2 / len(terms) ** 2)
+    profile = -np.array(terms) / sum(terms)
+    profile[0] += 1.0
+    parameters = WomersleyArrays(
+        float(radius), float(mean_velocity), float(length), amplitude / omega, omega, float(phase),
+        np.ascontiguousarray(profile.real), np.ascontiguousarray(profile.imag),
+    )  # fmt: skip
+    return _in_pipe(parameters, sample_womersley)
+
+
+def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
+    """A flow along x in a pipe whose radius and length are among the parameters."""
 
     def inside(points: Floats) -> NDArray[np.bool_]:
         r2: Floats = points[:, 1] ** 2 + points[:, 2] ** 2
-        return (r2 <= radius**2) & (points[:, 0] >= 0) & (points[:, 0] <= length)
+        within: NDArray[np.bool_] = r2 <= parameters.radius**2
+        within &= (points[:, 0] >= 0) & (points[:, 0] <= parameters.length)
+        return within
 
     return AnalyticFlow(
-        PipeArrays(float(radius), float(mean_velocity), float(length)),
+        parameters,
         {
-            "sample": sample_pipe,
+            "sample": sample,
             "walk": walk_pipe,
             "gap": gap_pipe,
             "normal": normal_pipe,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.flow.patch import Patch
 
@@ -24,7 +24,7 @@ class PatchFaces(NamedTuple):
     normals: Floats
     """(n, 3), unit, into the fluid."""
     velocity: Floats
-    """(n, 3, 3): triangle, vertex, component; m/s."""
+    """(n, 3, 3): triangle, vertex, component; m/s, at the time that was asked for."""
     hosts: Ints
     """(n,) the host behind each triangle."""
 
@@ -56,9 +56,23 @@ class Flow(Protocol):
     * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
     """
 
+    span: tuple[float, float]
+    """First and last time of the flow, s; from −∞ to ∞ when it is steady or in closed form."""
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
     notes: tuple[str, ...]
+
+    def load(self, start: float, end: float) -> float:
+        """Make the flow ready from time ``start`` to ``end`` (s), at least; return until when it then is.
+
+        The end of a tracking step may lie beyond that by a millionth of the step. The arrays that were given
+        before know nothing of it: ask for :meth:`arrays` afterwards.
+
+        Raises
+        ------
+        InputError
+            If the flow does not reach so far, or cannot be read.
+        """
 
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
         """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
@@ -72,8 +86,11 @@ class Flow(Protocol):
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""
 
-    def patch_faces(self, name: str) -> PatchFaces:
-        """Triangles of a patch; InputError when there is no such patch, or it has none."""
+    def patch_faces(self, name: str, t: float) -> PatchFaces:
+        """Triangles of a patch at time t, s; InputError when there is no such patch, or it has none."""
 
     def cell_zone(self, name: str) -> Tetrahedra:
         """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """What tells the flow from another, by name: to know it again when a run is taken up."""

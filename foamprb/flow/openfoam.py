@@ -7,10 +7,8 @@ what it passes over is checked.
 
 from __future__ import annotations
 
-import gzip
 import re
-import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,15 +21,20 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.errors import InputError
+from foamprb.flow.foamfile import existing as _existing
+from foamprb.flow.foamfile import header as _header
+from foamprb.flow.foamfile import read_bytes as _read_bytes
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
 from foamprb.flow.zones import parse_cell_zones
 
 __all__ = [
+    "PRECISION_NOTE",
     "CaseInfo",
     "PatchInfo",
     "TimeInfo",
+    "VelocityReader",
     "available_times",
     "describe",
     "read_case",
@@ -42,10 +45,9 @@ __all__ = [
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _PATCH = re.compile(r'("[^"]*"|[^\s(){};"]+)\s*\{([^{}]*)\}')
-_HEADER_BYTES = 4096
 _SPOKEN = re.compile(r"^(ERROR|Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE)
 _MOST_SPOKEN = 100
-_PRECISION_NOTE = (
+PRECISION_NOTE = (
     "Coordinates and velocities have passed through single precision in VTK's OpenFOAM reader: a relative "
     "error of up to 6e-8 each, the coordinates' relative to their distance from the origin."
 )
@@ -180,7 +182,7 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
     case = Path(case)
     mesh, cells, boundary, name = read_fields(case, time, velocity)
     u, l = Reconstruction(mesh)(cells, boundary)
-    notes = [_PRECISION_NOTE]
+    notes = [PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     return MeshFlow(mesh, u, l, notes, zones=lambda: _read_cell_zones(_mesh_folder(case, name)))
@@ -215,8 +217,7 @@ def read_fields(
                 f"files describe has {found}; the mesh is damaged."
             )
     _raise_spoken(case, said)
-    cells = _values(grid, velocity, path, "the cells")
-    surfaces, values = [], []
+    surfaces = []
     for patch in patches:
         block = blocks.get(patch.name)
         if block is None or block.n_cells != patch.faces:
@@ -225,12 +226,62 @@ def read_fields(
                 f"{0 if block is None else block.n_cells} could be read."
             )
         surfaces.append(PatchSurface(patch.name, patch.type, block))
+    cells, boundary = _velocities(blocks, patches, velocity, path)
+    mesh = build_mesh(grid, surfaces, source=str(folder))
+    return mesh, cells, boundary, name
+
+
+class VelocityReader:
+    """Reads the velocity of a case at one time after the other, the mesh but once.
+
+    Parameters
+    ----------
+    case
+        The case, whose mesh does not change.
+    time
+        Name of a time directory.
+    velocity
+        Name of the velocity field.
+    """
+
+    def __init__(self, case: Path, time: str, velocity: str) -> None:
+        self._case, self._velocity = case, velocity
+        self._folder = _mesh_folder(case, time)
+        self._patches = _read_boundary(self._folder)
+        with spoken():
+            self._reader = _open(case, velocity, patches=True)
+
+    def __call__(self, time: str) -> tuple[Floats, Floats]:
+        """Velocity at the cells (n_cells, 3) and boundary faces (n_boundary, 3) at a time, m/s.
+
+        Raises
+        ------
+        InputError
+            The field is missing, broken or not of the mesh's size.
+        """
+        path = _field_path(self._case, time, self._velocity)
+        with spoken() as said:
+            blocks = _update(self._reader, time)
+        _raise_spoken(self._case, said)
+        return _velocities(blocks, self._patches, self._velocity, path)
+
+    def zones(self) -> Mapping[str, NDArray[np.int64]]:
+        """The cells of each zone, by name; InputError if they cannot be read."""
+        return _read_cell_zones(self._folder)
+
+
+def _velocities(
+    blocks: dict[str, Any], patches: Sequence[PatchInfo], velocity: str, path: Path
+) -> tuple[Floats, Floats]:
+    """Velocity at the cells and at the boundary faces, zero on patches that have no values, m/s."""
+    cells = _values(blocks["internalMesh"], velocity, path, "the cells")
+    values = [np.zeros((0, 3))]
+    for patch in patches:
         if patch.type in VALUELESS:
             values.append(np.zeros((patch.faces, 3)))
         else:
-            values.append(_values(block, velocity, path, f"patch {patch.name}"))
-    mesh = build_mesh(grid, surfaces, source=str(folder))
-    return mesh, cells, np.concatenate([np.zeros((0, 3)), *values]), name
+            values.append(_values(blocks[patch.name], velocity, path, f"patch {patch.name}"))
+    return cells, np.concatenate(values)
 
 
 class Spoken(NamedTuple):
@@ -267,28 +318,8 @@ def _read_blocks(
     case: Path, time: str | None, velocity: str | None, *, patches: bool
 ) -> tuple[dict[str, Any], Spoken]:
     """The reader's blocks by name, ``internalMesh`` and the patches; and what VTK said."""
-    reader = vtkOpenFOAMReader()
-    # The name only tells the folder; the file need not be there.
-    reader.SetFileName(str(case.resolve() / "case.foam"))
-    reader.SetCreateCellToPoint(False)
-    reader.SetSkipZeroTime(False)
-    reader.SetReadZones(False)
     with spoken() as said:
-        reader.UpdateInformation()
-        reader.DisableAllCellArrays()
-        reader.DisableAllPointArrays()
-        reader.DisableAllLagrangianArrays()
-        if velocity is not None:
-            reader.SetCellArrayStatus(velocity, 1)
-        for index in range(reader.GetNumberOfPatchArrays()):
-            part = reader.GetPatchArrayName(index)
-            wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
-            reader.SetPatchArrayStatus(part, int(wanted))
-        if time is None:
-            reader.Update()
-        else:
-            reader.UpdateTimeStep(float(time))
-        blocks = dict(_leaves(pyvista.wrap(reader.GetOutput())))
+        blocks = _update(_open(case, velocity, patches=patches), time)
     grid = blocks.get("internalMesh")
     if grid is None or grid.n_cells == 0:
         _raise_spoken(case, said)
@@ -297,6 +328,36 @@ def _read_blocks(
             "short."
         )
     return blocks, said
+
+
+def _open(case: Path, velocity: str | None, *, patches: bool) -> Any:
+    """VTK's reader of the mesh, of the velocity if it is named, and of the patches."""
+    reader = vtkOpenFOAMReader()
+    # The name only tells the folder; the file need not be there.
+    reader.SetFileName(str(case.resolve() / "case.foam"))
+    reader.SetCreateCellToPoint(False)
+    reader.SetSkipZeroTime(False)
+    reader.SetReadZones(False)
+    reader.UpdateInformation()
+    reader.DisableAllCellArrays()
+    reader.DisableAllPointArrays()
+    reader.DisableAllLagrangianArrays()
+    if velocity is not None:
+        reader.SetCellArrayStatus(velocity, 1)
+    for index in range(reader.GetNumberOfPatchArrays()):
+        part = reader.GetPatchArrayName(index)
+        wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
+        reader.SetPatchArrayStatus(part, int(wanted))
+    return reader
+
+
+def _update(reader: Any, time: str | None) -> dict[str, Any]:
+    """The reader's blocks by name at a time."""
+    if time is None:
+        reader.Update()
+    else:
+        reader.UpdateTimeStep(float(time))
+    return dict(_leaves(pyvista.wrap(reader.GetOutput())))
 
 
 def _raise_spoken(case: Path, said: Spoken) -> None:
@@ -408,32 +469,8 @@ def _noted_counts(folder: Path) -> dict[str, int]:
     return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
 
 
-def _header(path: Path) -> dict[str, str]:
-    """Entries of the FoamFile header; empty when there is none."""
-    text = _read_bytes(path, _HEADER_BYTES).decode("latin-1")
-    match = re.search(r"FoamFile\s*\{(.*?)\}", _COMMENT.sub(" ", text), re.DOTALL)
-    if match is None:
-        return {}
-    entries = re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match[1])
-    return {key: value.strip().strip('"') for key, value in entries}
-
-
-def _existing(path: Path) -> Path | None:
-    """The file itself, or its compressed form."""
-    zipped = path.with_name(path.name + ".gz")
-    return path if path.is_file() else zipped if zipped.is_file() else None
-
-
 def _shown(path: Path) -> Path:
     return _existing(path) or path
-
-
-def _read_bytes(path: Path, limit: int = -1) -> bytes:
-    try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
-            return stream.read(limit)
-    except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"{path}: cannot be read: {error}.") from None
 
 
 def _list(names: Any) -> str:

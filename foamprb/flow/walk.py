@@ -8,10 +8,10 @@ is met exactly where it is crossed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
 from foamprb.compile import link
@@ -42,35 +42,54 @@ _MOST_STALLS = 200
 _ATTEMPTS = 4
 _NO_TRIANGLE = -1
 
+Corners: TypeAlias = tuple[int, int, int, int]
+Weights: TypeAlias = tuple[float, float, float, float]
+
 
 def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
     """Velocity u (m/s) and its gradient l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
 
     The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
     """
+    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
+    return u, l, (0.0, 0.0, 0.0)
+
+
+def corners(flow: MeshArrays, host: int, first: int) -> Corners:
+    """Rows of the nodes of a tetrahedron in a table where node 0 has the row ``first``."""
+    tets = flow.tets
+    return first + tets[host, 0], first + tets[host, 1], first + tets[host, 2], first + tets[host, 3]
+
+
+def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
+    """Shares of the four nodes of a tetrahedron in the value at x."""
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
-    w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
-    f, tets = flow.nodes, flow.tets
-    a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
+    return s * w0, s * w1, s * w2, s * w3
+
+
+def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, Tensor]:
+    """Velocity and gradient from a table with a row for each node, in which they begin at column k."""
+    a, b, c, d = nodes
+    w0, w1, w2, w3 = w
     u = (
-        w0 * f[a, 3] + w1 * f[b, 3] + w2 * f[c, 3] + w3 * f[d, 3],
-        w0 * f[a, 4] + w1 * f[b, 4] + w2 * f[c, 4] + w3 * f[d, 4],
-        w0 * f[a, 5] + w1 * f[b, 5] + w2 * f[c, 5] + w3 * f[d, 5],
+        w0 * f[a, k] + w1 * f[b, k] + w2 * f[c, k] + w3 * f[d, k],
+        w0 * f[a, k + 1] + w1 * f[b, k + 1] + w2 * f[c, k + 1] + w3 * f[d, k + 1],
+        w0 * f[a, k + 2] + w1 * f[b, k + 2] + w2 * f[c, k + 2] + w3 * f[d, k + 2],
     )
     l = (
-        w0 * f[a, 6] + w1 * f[b, 6] + w2 * f[c, 6] + w3 * f[d, 6],
-        w0 * f[a, 7] + w1 * f[b, 7] + w2 * f[c, 7] + w3 * f[d, 7],
-        w0 * f[a, 8] + w1 * f[b, 8] + w2 * f[c, 8] + w3 * f[d, 8],
-        w0 * f[a, 9] + w1 * f[b, 9] + w2 * f[c, 9] + w3 * f[d, 9],
-        w0 * f[a, 10] + w1 * f[b, 10] + w2 * f[c, 10] + w3 * f[d, 10],
-        w0 * f[a, 11] + w1 * f[b, 11] + w2 * f[c, 11] + w3 * f[d, 11],
-        w0 * f[a, 12] + w1 * f[b, 12] + w2 * f[c, 12] + w3 * f[d, 12],
-        w0 * f[a, 13] + w1 * f[b, 13] + w2 * f[c, 13] + w3 * f[d, 13],
-        w0 * f[a, 14] + w1 * f[b, 14] + w2 * f[c, 14] + w3 * f[d, 14],
+        w0 * f[a, k + 3] + w1 * f[b, k + 3] + w2 * f[c, k + 3] + w3 * f[d, k + 3],
+        w0 * f[a, k + 4] + w1 * f[b, k + 4] + w2 * f[c, k + 4] + w3 * f[d, k + 4],
+        w0 * f[a, k + 5] + w1 * f[b, k + 5] + w2 * f[c, k + 5] + w3 * f[d, k + 5],
+        w0 * f[a, k + 6] + w1 * f[b, k + 6] + w2 * f[c, k + 6] + w3 * f[d, k + 6],
+        w0 * f[a, k + 7] + w1 * f[b, k + 7] + w2 * f[c, k + 7] + w3 * f[d, k + 7],
+        w0 * f[a, k + 8] + w1 * f[b, k + 8] + w2 * f[c, k + 8] + w3 * f[d, k + 8],
+        w0 * f[a, k + 9] + w1 * f[b, k + 9] + w2 * f[c, k + 9] + w3 * f[d, k + 9],
+        w0 * f[a, k + 10] + w1 * f[b, k + 10] + w2 * f[c, k + 10] + w3 * f[d, k + 10],
+        w0 * f[a, k + 11] + w1 * f[b, k + 11] + w2 * f[c, k + 11] + w3 * f[d, k + 11],
     )
-    return u, l, (0.0, 0.0, 0.0)
+    return u, l
 
 
 def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -140,8 +159,13 @@ def recover(flow: MeshArrays, x: Vector) -> int:
 
 def normal(flow: MeshArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
     """Unit normal of a boundary triangle, pointing into the mesh; it is flat, so x does not matter."""
+    return inward(flow, triangle)
+
+
+def inward(flow: MeshArrays, triangle: int) -> Vector:
+    """Unit normal of a boundary triangle, pointing into the mesh."""
     n = flow.triangle_normals
-    return (n[triangle, 0], n[triangle, 1], n[triangle, 2])
+    return n[triangle, 0], n[triangle, 1], n[triangle, 2]
 
 
 def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
@@ -168,7 +192,7 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
         triangle = flow.near[k]
         a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
         ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
-        n = normal(flow, triangle, x)
+        n = inward(flow, triangle)
         height = n[0] * ra[0] + n[1] * ra[1] + n[2] * ra[2]
         m = vector_dot(n, F)
         limit = best + R
@@ -338,6 +362,8 @@ class MeshFlow:
         nodes[:, :3] = mesh.nodes
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
+        self.span = (-np.inf, np.inf)
+        self._near: tuple[Any, tuple[Ints, Ints]] | None = None
         self._tree = build_tree(cell_boxes(mesh))
         self._arrays = MeshArrays(
             nodes=nodes,
@@ -354,6 +380,10 @@ class MeshFlow:
             near=np.empty(0, dtype=np.int32),
         )
 
+    def load(self, start: float, end: float) -> float:  # noqa: ARG002
+        """Return infinity: the flow is the same at all times."""
+        return float(np.inf)
+
     def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> MeshArrays:
         """What the kernels read; bodies of semi-axes up to ``reach`` (m) find what they touch.
 
@@ -363,8 +393,15 @@ class MeshFlow:
             touchable = [index for index, patch in enumerate(self.patches) if patch.type == "wall"]
         if reach <= 0.0 or len(touchable) == 0:
             return self._arrays
-        start, near = near_walls(self.mesh, cell_boxes(self.mesh), self._tree, reach, touchable)
+        key = reach, tuple(touchable)
+        if self._near is None or self._near[0] != key:
+            self._near = key, near_walls(self.mesh, cell_boxes(self.mesh), self._tree, reach, touchable)
+        start, near = self._near[1]
         return self._arrays._replace(near_start=start, near=near)
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """Mesh and velocities, by name."""
+        return self._arrays._asdict()
 
     def locate(self, points: Floats) -> Ints:
         """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
@@ -377,7 +414,7 @@ class MeshFlow:
         """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         values = np.empty((len(points), 12))
-        link(_sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
+        link(sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
         return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
 
     def cell_of(self, hosts: Ints) -> Ints:
@@ -389,7 +426,7 @@ class MeshFlow:
         """Cube root of the volume of the hosts' cells, (n,), m."""
         return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
 
-    def patch_faces(self, name: str) -> PatchFaces:
+    def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
         """Triangles of the patch ``name``.
 
         Raises
@@ -439,7 +476,8 @@ def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
 
 
-def _sample_all(flow: MeshArrays, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
+def sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
+    """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
     for i in range(points.shape[0]):
         u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
         for k in range(3):

@@ -1,0 +1,457 @@
+"""Cases that decomposePar has cut into processor folders: put together again, in the original order.
+
+The addressing files tell which point, face, cell and patch of the whole each part holds. Mesh and velocity
+are put together in a temporary folder, in OpenFOAM's binary format, and read from there as any other case is:
+the flow is the same as that of the case before it was cut.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+import weakref
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple, TypeAlias, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.flow.foamfile import (
+    Floats,
+    Labels,
+    Patch,
+    VectorField,
+    existing,
+    header,
+    read_boundary,
+    read_bytes,
+    read_faces,
+    read_field,
+    read_labels,
+    read_vectors,
+)
+from foamprb.flow.openfoam import CaseInfo, TimeInfo, available_times, describe, read_case, select_time
+from foamprb.flow.series import SeriesFlow, read_series
+from foamprb.flow.walk import MeshFlow
+from foamprb.flow.zones import parse_cell_zones
+
+__all__ = [
+    "Rebuilt",
+    "describe_decomposed",
+    "is_only_decomposed",
+    "processors",
+    "read_decomposed_case",
+    "read_decomposed_series",
+]
+
+_Mask: TypeAlias = NDArray[np.bool_]
+Result = TypeVar("Result")
+AFlow = TypeVar("AFlow", MeshFlow, SeriesFlow, SeriesFlow | MeshFlow)
+
+_HEADER = """FoamFile
+{{
+    version     2.0;
+    format      binary;
+    class       {kind};
+    arch        "LSB;label=32;scalar=64";
+    {note}
+    object      {name};
+}}
+
+"""
+_MESH = ("points", "faces", "owner", "neighbour", "boundary")
+_ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
+
+
+def processors(case: Path) -> tuple[Path, ...]:
+    """The processor folders, in their order.
+
+    Raises
+    ------
+    InputError
+        There is none, one is missing, or they are in the collated format.
+    """
+    folders = {
+        int(m[1]): path
+        for path in case.glob("processor*")
+        if (m := re.fullmatch(r"processor(\d+)", path.name))
+    }
+    if not folders:
+        collated = [path.name for path in case.glob("processors*") if path.is_dir()]
+        if collated:
+            raise InputError(f"{case / collated[0]}: the collated format is not read: run reconstructPar.")
+        raise InputError(f"{case}: no processor folders.")
+    for number in range(max(folders)):
+        if number not in folders:
+            raise InputError(
+                f"{case / f'processor{number}'}: no such folder, but there is processor{max(folders)}."
+            )
+    return tuple(folders[number] for number in sorted(folders))
+
+
+def is_only_decomposed(case: Path) -> bool:
+    """Whether the solution is in processor folders alone: no mesh beside them, or no time but 0."""
+    folders = [path for path in case.glob("processor*") if (path / "constant").is_dir()]
+    if not folders:
+        return False
+    if existing(case / "constant/polyMesh/faces") is None:
+        return True
+    later = any(float(name) != 0.0 for name in available_times(case))
+    return not later and any(float(name) != 0.0 for name in available_times(folders[0]))
+
+
+class _Part(NamedTuple):
+    """A processor's mesh, and the places of its pieces in the whole."""
+
+    folder: Path
+    points: Floats
+    face_start: Labels
+    face_points: Labels
+    owner: Labels
+    neighbour: Labels
+    patches: list[Patch]
+    point_at: Labels
+    face_at: Labels
+    turned: _Mask
+    """(n_faces,) whether a face turns the other way there: its cell is the neighbour."""
+    cell_at: Labels
+    patch_at: Labels
+
+
+class Rebuilt:
+    """A decomposed case, put together in a temporary folder that lives as long as this does.
+
+    Parameters
+    ----------
+    case
+        The case.
+
+    Raises
+    ------
+    InputError
+        A file is missing or broken, or the parts do not make a whole; the file or the folder.
+    """
+
+    def __init__(self, case: Path) -> None:
+        self.case = case
+        self._folders = processors(case)
+        self.times = _common_times(self._folders)
+        self._parts = [_read_part(folder) for folder in self._folders]
+        self._patches, self._ranges = _whole_patches(case, self._parts)
+        self.folder = Path(tempfile.mkdtemp(prefix="foamprb-"))
+        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+        for name in self.times:
+            (self.folder / name).mkdir()
+        (self.folder / "system").mkdir()
+        (self.folder / "system/controlDict").write_text(
+            _HEADER.format(kind="dictionary", note="", name="controlDict")
+        )
+        _write_mesh(self.folder / "constant/polyMesh", case, self._parts, self._patches, self._ranges)
+        _write_zones(self.folder / "constant/polyMesh/cellZones", self._parts)
+        # The fields need the addresses alone.
+        nothing = np.empty(0, dtype=np.int64)
+        self._parts = [
+            part._replace(
+                points=np.empty((0, 3)), face_start=nothing, face_points=nothing,
+                owner=nothing, neighbour=nothing, point_at=nothing,
+            )
+            for part in self._parts
+        ]  # fmt: skip
+
+    def write(self, time: str, velocity: str = "U") -> None:
+        """Put the velocity at a time together, in place of that at any other time.
+
+        Raises
+        ------
+        InputError
+            A processor misses it, or its file is broken.
+        """
+        for other in self.times:
+            (self.folder / other / velocity).unlink(missing_ok=True)
+        fields = []
+        for part in self._parts:
+            path = part.folder / time / velocity
+            if existing(path) is None:
+                raise InputError(f"{path}: no such file.")
+            fields.append(_checked(read_field(path), part, path))
+        _write_field(self.folder / time / velocity, self._parts, fields, self._patches, self._ranges)
+
+    def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
+        """Call a function of a case; its messages then name the case, not the temporary folder."""
+        try:
+            return function(self.folder, *arguments)
+        except InputError as error:
+            raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
+
+    def noted(self, flow: AFlow) -> AFlow:
+        """The flow, with a note that it comes from here."""
+        flow.notes = (f"The flow was put together from {len(self._parts)} processor folders.", *flow.notes)
+        return flow
+
+
+def read_decomposed_case(case: Path, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
+    """Read the flow of a decomposed case at one time, as :func:`foamprb.flow.openfoam.read_case`.
+
+    Raises
+    ------
+    InputError
+        What is missing, broken or inconsistent in the processor folders.
+    """
+    whole = Rebuilt(case)
+    name = whole.call(select_time, time)
+    whole.write(name, velocity)
+    return whole.noted(whole.call(read_case, name, velocity))
+
+
+def read_decomposed_series(
+    case: Path, times: str | None = None, period: float | None = None, velocity: str = "U"
+) -> SeriesFlow | MeshFlow:
+    """Read the flow of a decomposed case at several times, as :func:`foamprb.flow.series.read_series`.
+
+    Raises
+    ------
+    InputError
+        What is missing, broken or inconsistent in the processor folders.
+    """
+    whole = Rebuilt(case)
+
+    def prepare(name: str) -> None:
+        whole.write(name, velocity)
+
+    return whole.noted(whole.call(read_series, times, period, velocity, prepare))
+
+
+def describe_decomposed(case: Path) -> CaseInfo:
+    """Tell what a decomposed case holds, as :func:`foamprb.flow.openfoam.describe`."""
+    whole = Rebuilt(case)
+    first = whole._folders[0]
+    times = tuple(TimeInfo(name, _classes(first / name)) for name in whole.times)
+    return replace(whole.call(describe), case=case, times=times)
+
+
+def _classes(folder: Path) -> dict[str, str]:
+    found = {path.name.removesuffix(".gz"): header(path).get("class", "") for path in sorted(folder.iterdir())
+             if path.is_file()}  # fmt: skip
+    return {name: kind for name, kind in found.items() if kind.endswith("Field")}
+
+
+def _common_times(folders: Sequence[Path]) -> tuple[str, ...]:
+    """The times of all folders; raise InputError if one of them misses a time that another has."""
+    times = available_times(folders[0])
+    for folder in folders:
+        here = available_times(folder)
+        moved = [folder / name / "polyMesh" for name in here if (folder / name / "polyMesh").is_dir()]
+        if moved:
+            raise InputError(f"{moved[0]}: the mesh changes in time; of decomposed cases it must not.")
+        for name in (*times, *here):
+            if (name in times) != (name in here):
+                lacking, having = (folder, folders[0]) if name in times else (folders[0], folder)
+                raise InputError(f"{lacking}: no time {name}, which {having.name} has.")
+    return times
+
+
+def _read_part(folder: Path) -> _Part:
+    mesh = folder / "constant/polyMesh"
+    for name in _MESH:
+        if existing(mesh / name) is None:
+            raise InputError(f"{mesh / name}: no such file.")
+    for name in _ADDRESSING:
+        if existing(mesh / name) is None:
+            raise InputError(
+                f"{mesh / name}: no such file. Without decomposePar's addressing the parts cannot be put "
+                "together here: run reconstructParMesh and reconstructPar."
+            )
+    start, points = read_faces(mesh / "faces")
+    signed = read_labels(mesh / "faceProcAddressing")
+    part = _Part(
+        folder, read_vectors(mesh / "points"), start, points,
+        read_labels(mesh / "owner"), read_labels(mesh / "neighbour"), read_boundary(mesh / "boundary"),
+        read_labels(mesh / "pointProcAddressing"), np.abs(signed) - 1, signed < 0,
+        read_labels(mesh / "cellProcAddressing"), read_labels(mesh / "boundaryProcAddressing"),
+    )  # fmt: skip
+    cells, faces = len(part.cell_at), len(part.owner)
+    for name, found, expected in (
+        ("faces", len(start) - 1, faces),
+        ("faceProcAddressing", len(signed), faces),
+        ("pointProcAddressing", len(part.point_at), len(part.points)),
+        ("boundaryProcAddressing", len(part.patch_at), len(part.patches)),
+    ):
+        if found != expected:
+            raise InputError(f"{mesh / name}: {found} entries, but the other files say {expected}.")
+    for name, values, limit in (
+        ("faces", points, len(part.points)),
+        ("owner", part.owner, cells),
+        ("neighbour", part.neighbour, cells),
+    ):
+        if len(values) and not 0 <= values.min() <= values.max() < limit:
+            raise InputError(f"{mesh / name}: an index outside 0 to {limit - 1}.")
+    if np.any(signed == 0) or (len(part.cell_at) and part.cell_at.min() < 0) or part.point_at.min() < 0:
+        raise InputError(f"{mesh}: an addressing file points outside the mesh.")
+    return part
+
+
+def _whole_patches(case: Path, parts: Sequence[_Part]) -> tuple[list[Patch], Labels]:
+    """The patches of the whole, and where each begins after the interior faces; then where the last ends."""
+    known: dict[int, Patch] = {}
+    counts: dict[int, int] = {}
+    for part in parts:
+        names = [patch.name for patch in part.patches]
+        for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
+            if at >= 0:
+                known.setdefault(at, patch)
+                counts[at] = counts.get(at, 0) + patch.faces
+            elif "referPatch" in patch.entries and patch.entries["referPatch"] in names:
+                # A cyclic patch whose two sides lie on different processors.
+                whole = int(part.patch_at[names.index(patch.entries["referPatch"])])
+                counts[whole] = counts.get(whole, 0) + patch.faces
+    if sorted(known) != list(range(len(known))):
+        raise InputError(f"{case}: the processor folders do not name all patches of the mesh.")
+    patches = [known[at]._replace(faces=counts[at]) for at in range(len(known))]
+    return patches, np.concatenate([[0], np.cumsum([patch.faces for patch in patches])]).astype(np.int64)
+
+
+def _write_mesh(
+    folder: Path, case: Path, parts: Sequence[_Part], patches: Sequence[Patch], ranges: Labels
+) -> None:
+    n_cells = sum(len(part.cell_at) for part in parts)
+    n_points = 1 + max(int(part.point_at.max()) for part in parts)
+    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
+    points = np.full((n_points, 3), np.nan)
+    owner, neighbour, size = (np.full(n_faces, -1, dtype=np.int64) for _ in range(3))
+    for part in parts:
+        points[part.point_at] = part.points
+        own = ~part.turned
+        owner[part.face_at[own]] = part.cell_at[part.owner[own]]
+        size[part.face_at[own]] = np.diff(part.face_start)[own]
+        inside = len(part.neighbour)
+        neighbour[part.face_at[:inside]] = part.cell_at[part.neighbour]
+        neighbour[part.face_at[part.turned]] = part.cell_at[part.owner[part.turned]]
+    n_internal = n_faces - int(ranges[-1])
+    whole = (
+        not np.isnan(points).any() and (owner >= 0).all() and (neighbour[:n_internal] >= 0).all()
+        and (neighbour[n_internal:] < 0).all() and owner.max() < n_cells
+    )  # fmt: skip
+    if not whole:
+        raise InputError(
+            f"{case}: the processor folders do not make a whole mesh; one of them is of another case."
+        )
+    start = np.concatenate([[0], np.cumsum(size)])
+    lists = np.empty(start[-1], dtype=np.int64)
+    for part in parts:
+        kept = np.flatnonzero(~part.turned)
+        counts = np.diff(part.face_start)[kept]
+        within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        to = np.repeat(start[part.face_at[kept]], counts) + within
+        lists[to] = part.point_at[part.face_points[np.repeat(part.face_start[kept], counts) + within]]
+    folder.mkdir(parents=True)
+    note = f'note "nPoints:{n_points}  nCells:{n_cells}  nFaces:{n_faces}  nInternalFaces:{n_internal}";'
+    _write(folder / "points", "vectorField", [points])
+    _write(folder / "faces", "faceCompactList", [start, lists])
+    _write(folder / "owner", "labelList", [owner], note)
+    _write(folder / "neighbour", "labelList", [neighbour[:n_internal]], note)
+    text = "".join(
+        f"{patch.name}\n{{\n"
+        + "".join(f"    {key} {value};\n" for key, value in _entries(patch, n_internal + int(first)).items())
+        + "}\n"
+        for patch, first in zip(patches, ranges, strict=False)
+    )
+    (folder / "boundary").write_text(
+        _HEADER.format(kind="polyBoundaryMesh", note="", name="boundary").replace("binary", "ascii")
+        + f"{len(patches)}\n(\n{text})\n"
+    )
+
+
+def _write_zones(path: Path, parts: Sequence[_Part]) -> None:
+    """Put the zones of cells together, if there are any; each in the order of its cells."""
+    zones: dict[str, list[Labels]] = {}
+    for part in parts:
+        found = existing(part.folder / "constant/polyMesh/cellZones")
+        for name, cells in {} if found is None else parse_cell_zones(read_bytes(found), found).items():
+            if len(cells) and not 0 <= cells.min() <= cells.max() < len(part.cell_at):
+                raise InputError(f"{found}: zone {name} names a cell that is not there.")
+            zones.setdefault(name, []).append(part.cell_at[cells])
+    text = ""
+    for name, lists in zones.items():
+        labels = np.sort(np.concatenate(lists))
+        text += f"{name}\n{{\n    type cellZone;\n    cellLabels List<label> {len(labels)} "
+        text += f"({' '.join(map(str, labels))});\n}}\n"
+    if zones:
+        head = _HEADER.format(kind="regIOobject", note="", name="cellZones").replace("binary", "ascii")
+        path.write_text(f"{head}{len(zones)}\n(\n{text})\n")
+
+
+def _entries(patch: Patch, start: int) -> dict[str, str]:
+    return patch.entries | {"nFaces": str(patch.faces), "startFace": str(start)}
+
+
+def _checked(field: VectorField, part: _Part, path: Path) -> VectorField:
+    """The field, if it has the part's size."""
+    if len(field.cells) not in (1, len(part.cell_at)):
+        raise InputError(f"{path}: {len(field.cells)} cells, but the mesh there has {len(part.cell_at)}.")
+    for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
+        if at < 0:
+            continue
+        if patch.name not in field.patches:
+            raise InputError(f"{path}: no boundaryField for the patch {patch.name}.")
+        values = field.patches[patch.name][1]
+        if values is not None and len(values) not in (1, patch.faces):
+            raise InputError(
+                f"{path}: {len(values)} values on patch {patch.name}, which has {patch.faces} faces."
+            )
+    return field
+
+
+def _write_field(
+    path: Path,
+    parts: Sequence[_Part],
+    fields: Sequence[VectorField],
+    patches: Sequence[Patch],
+    ranges: Labels,
+) -> None:
+    cells = np.empty((sum(len(part.cell_at) for part in parts), 3))
+    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
+    boundary = np.zeros((int(ranges[-1]), 3))
+    valued = np.zeros(len(patches), dtype=bool)
+    types = [""] * len(patches)
+    for part, field in zip(parts, fields, strict=True):
+        cells[part.cell_at] = field.cells
+        for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
+            if at < 0:
+                continue
+            types[at], values = field.patches[patch.name]
+            if values is not None and patch.faces:
+                faces = part.face_at[patch.start : patch.start + patch.faces]
+                boundary[faces - (n_faces - len(boundary))] = values
+                valued[at] = True
+    with path.open("wb") as file:
+        file.write(_HEADER.format(kind="volVectorField", note="", name=path.name).encode())
+        file.write(b"dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> ")
+        _write_list(file, cells)
+        file.write(b";\nboundaryField\n{\n")
+        for i, patch in enumerate(patches):
+            file.write(f"{patch.name}\n{{\ntype {types[i]};\n".encode())
+            if valued[i]:
+                file.write(b"value nonuniform List<vector> ")
+                _write_list(file, boundary[ranges[i] : ranges[i + 1]])
+                file.write(b";\n")
+            file.write(b"}\n")
+        file.write(b"}\n")
+
+
+def _write(path: Path, kind: str, lists: Sequence[NDArray[Any]], note: str = "") -> None:
+    with path.open("wb") as file:
+        file.write(_HEADER.format(kind=kind, note=note, name=path.name).encode())
+        for values in lists:
+            _write_list(file, values)
+            file.write(b"\n")
+
+
+def _write_list(file: Any, values: NDArray[Any]) -> None:
+    kind = "<f8" if values.dtype.kind == "f" else "<i4"
+    file.write(f"{len(values)}\n(".encode())
+    file.write(np.ascontiguousarray(values, dtype=kind).tobytes())
+    file.write(b")")

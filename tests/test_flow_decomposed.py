@@ -1,0 +1,346 @@
+"""Processor folders put together again, against the case that they were cut from."""
+
+from __future__ import annotations
+
+import gzip
+import re
+import shutil
+
+import numpy as np
+import pytest
+from test_flow_openfoam import GRADIENT, header, rows, write_case
+
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.flow.decomposed import (
+    Rebuilt,
+    is_only_decomposed,
+    processors,
+    read_decomposed_case,
+    read_decomposed_series,
+)
+from foamprb.flow.foamfile import read_boundary, read_faces, read_field, read_labels, read_vectors
+from foamprb.flow.openfoam import read_case
+from foamprb.flow.series import read_series
+
+TIMES = ("0", "0.5", "1e1")
+
+
+def plain(values):
+    return "\n".join(map(str, values))
+
+
+def decompose(case, mesh, part_of):
+    """Cut a case of :func:`write_case` as decomposePar does, each cell going to the part of its number."""
+    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
+    owner, neighbour = mesh.owner, mesh.neighbour
+    for part in range(part_of.max() + 1):
+        cells = np.flatnonzero(part_of == part)
+        cell_in = {cell: i for i, cell in enumerate(cells)}
+        own = part_of[owner] == part
+        other = np.zeros(len(owner), dtype=bool)
+        other[: len(neighbour)] = part_of[neighbour] == part
+        inner = np.flatnonzero(own & other)
+        patches = [
+            np.flatnonzero(own[first:last]) + first
+            for first, last in zip(
+                mesh.n_internal + mesh.patch_start[:-1], mesh.n_internal + mesh.patch_start[1:], strict=True
+            )
+        ]
+        between = np.flatnonzero((own ^ other) & (np.arange(len(owner)) < mesh.n_internal))
+        kept = np.concatenate([inner, *patches, between])
+        turned = ~own[kept]
+        lists = [
+            faces[f] if not turn else np.r_[faces[f][:1], faces[f][:0:-1]]
+            for f, turn in zip(kept, turned, strict=True)
+        ]
+        points = np.unique(np.concatenate(lists))
+        point_in = {point: i for i, point in enumerate(points)}
+        local = [[point_in[p] for p in face] for face in lists]
+        folder = case / f"processor{part}"
+        poly = folder / "constant/polyMesh"
+        poly.mkdir(parents=True)
+        owners = [cell_in[neighbour[f] if turn else owner[f]] for f, turn in zip(kept, turned, strict=True)]
+        files = {
+            "points": ("vectorField", rows(mesh.points[points]), len(points)),
+            "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in local), len(kept)),
+            "owner": ("labelList", plain(owners), len(kept)),
+            "neighbour": ("labelList", plain([cell_in[neighbour[f]] for f in inner]), len(inner)),
+            "pointProcAddressing": ("labelList", plain(points), len(points)),
+            "faceProcAddressing": ("labelList", plain(np.where(turned, -1, 1) * (kept + 1)), len(kept)),
+            "cellProcAddressing": ("labelList", plain(cells), len(cells)),
+            "boundaryProcAddressing": ("labelList", plain([*range(len(patches)), -1]), len(patches) + 1),
+        }
+        for name, (kind, body, count) in files.items():
+            (poly / name).write_text(header(kind, name) + f"{count}\n(\n{body}\n)\n")
+        text, start = "", len(inner)
+        blocks = [*zip(mesh.patches, patches, strict=True), (None, between)]
+        for patch, ids in blocks:
+            name, kind = (patch.name, patch.type) if patch else ("procBoundary", "processor")
+            text += f"{name} {{ type {kind}; inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
+            start += len(ids)
+        (poly / "boundary").write_text(
+            header("polyBoundaryMesh", "boundary") + f"{len(blocks)}\n(\n{text})\n"
+        )
+        values = "procBoundary { type processor; value uniform (1 2 3); }\n"
+        for patch, ids in zip(mesh.patches, patches, strict=True):
+            at = mesh.boundary_centres[ids - mesh.n_internal] @ GRADIENT.T
+            value = (
+                f"nonuniform List<vector> {len(at)}\n(\n{rows(at)}\n)"
+                if len(at)
+                else "nonuniform List<vector> 0()"
+            )
+            values += f"{patch.name} {{ type fixedValue; coefficients {{ a (1 2); }} value {value};\n}}\n"
+        for time in TIMES:
+            (folder / time).mkdir()
+            (folder / time / "U").write_text(
+                header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
+                f"internalField nonuniform List<vector> {len(cells)}\n(\n"
+                f"{rows(mesh.centres[cells] @ GRADIENT.T)}\n);\n"
+                f"// of the part\nboundaryField\n{{\n{values}}}\n"
+            )
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    case = tmp_path_factory.mktemp("decomposed") / "case"
+    mesh = write_case(case, "mixed")
+    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells))
+    return case
+
+
+@pytest.fixture
+def case(written, tmp_path):
+    shutil.copytree(written, tmp_path / "case")
+    return tmp_path / "case"
+
+
+def alone(case):
+    """Leave nothing but the processor folders."""
+    shutil.rmtree(case / "constant")
+    for time in TIMES:
+        shutil.rmtree(case / time)
+    return case
+
+
+def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
+    whole, parts = read_case(written, 0.5), read_decomposed_case(written, 0.5)
+    assert parts.patches == whole.patches
+    for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
+        np.testing.assert_array_equal(a, b, err_msg=name)
+    assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
+
+
+def test_a_series_of_times_too(written, random):
+    whole, parts = read_series(written), read_decomposed_series(written)
+    x = random.random((20, 3))
+    for t in (0.0, 0.2, 0.5, 7.0):
+        for a, b in zip(*(flow.sample(x, flow.locate(x), t) for flow in (whole, parts)), strict=True):
+            np.testing.assert_array_equal(a, b)
+
+
+def test_compressed_files_are_read_alike(case):
+    for path in [*case.glob("processor*/*/U"), *case.glob("processor*/constant/polyMesh/*")]:
+        with gzip.open(f"{path}.gz", "wb") as file:
+            file.write(path.read_bytes())
+        path.unlink()
+    a, b = read_case(case), read_decomposed_case(case)
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+
+
+def test_the_temporary_folder_goes_with_the_flow(written):
+    whole = Rebuilt(written)
+    folder = whole.folder
+    assert (folder / "constant/polyMesh/points").is_file()
+    del whole
+    assert not folder.exists()
+
+
+def test_parts_alone_are_found_and_described(case, capsys):
+    assert not is_only_decomposed(case)
+    alone(case)
+    assert is_only_decomposed(case)
+    assert main(["info", "-case", str(case)]) == 0
+    out = capsys.readouterr().out
+    assert re.search(rf"^Case +{case}$", out, re.MULTILINE)
+    assert re.search(r"^ +lid +\d+ faces +patch$", out, re.MULTILINE)
+    assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
+
+
+def test_zones_of_cells_are_put_together(case):
+    for part in range(3):
+        n = len(read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing"))
+        zone = f"first {{ type cellZone; cellLabels List<label> 2 (0 {n - 1}); }}"
+        none = "none { type cellZone; cellLabels List<label> 0 (); }"
+        (case / f"processor{part}/constant/polyMesh/cellZones").write_text(
+            header("regIOobject", "cellZones") + f"2 ( {zone} {none} )"
+        )
+    flow = read_decomposed_case(case)
+    found = np.unique(flow.cell_of(flow.cell_zone("first").hosts))
+    expected = [read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing")[[0, -1]]
+                for part in range(3)]  # fmt: skip
+    np.testing.assert_array_equal(found, np.unique(expected))
+    assert len(flow.cell_zone("none").hosts) == 0
+
+
+def lose(path):
+    return lambda case: (case / path).unlink()
+
+
+def replace(path, pattern, text):
+    def change(case):
+        file = case / path
+        old = file.read_text()
+        new = re.sub(pattern, text, old, count=1)
+        assert new != old
+        file.write_text(new)
+
+    return change
+
+
+POLY = "processor1/constant/polyMesh"
+FIELD = "processor1/1e1/U"
+
+
+def collate(case):
+    for path in case.glob("processor*"):
+        shutil.rmtree(path)
+    (case / "processors3").mkdir()
+
+
+MISTAKES = {
+    "a processor misses a time": (
+        lambda case: shutil.rmtree(case / "processor2/0.5"),
+        r"processor2: no time 0.5, which processor0 has",
+    ),
+    "a processor has a time too many": (
+        lambda case: shutil.copytree(case / "processor1/0.5", case / "processor1/0.7"),
+        r"processor0: no time 0.7, which processor1 has",
+    ),
+    "a processor is missing": (
+        lambda case: shutil.rmtree(case / "processor1"),
+        r"processor1: no such folder, but there is processor2",
+    ),
+    "no addressing": (
+        lose(f"{POLY}/cellProcAddressing"), r"cellProcAddressing: no such file. Without decomposePar's",
+    ),
+    "no velocity": (lose(FIELD), r"processor1/1e1/U: no such file"),
+    "no points": (lose(f"{POLY}/points"), r"processor1/constant/polyMesh/points: no such file"),
+    "cut short": (
+        replace(FIELD, r"(?s)\)\s*;\s*// of the part.*", ""),
+        r"processor1/1e1/U: line \d+: .* expected; the file is broken or cut short",
+    ),
+    "half of the field": (
+        replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
+    ),
+    "a number that is none": (
+        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of numbers",
+    ),
+    "another count": (
+        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n9"),
+        r"polyMesh/owner: line \d+: a list of 9 entries, not \d+, expected",
+    ),
+    "an index too large": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n999\n"), r"owner: an index outside 0 to \d+",
+    ),
+    "parts of another case": (
+        replace(f"{POLY}/cellProcAddressing", r"\(\n\d+", "(\n999"), r"do not make a whole mesh",
+    ),
+    "a mesh that moves": (
+        lambda case: (case / "processor0/0.5/polyMesh").mkdir(),
+        r"processor0/0.5/polyMesh: the mesh changes in time",
+    ),
+    "the wrong field": (
+        replace(FIELD, "volVectorField", "volScalarField"), r"the class is volScalarField",
+    ),
+    "a patch without values": (
+        replace(FIELD, r"lid \{", "lidd {"), r"processor1/1e1/U: no boundaryField for the patch lid",
+    ),
+    "collated": (collate, r"processors3: the collated format is not read"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_named(mistake, case):
+    break_it, message = MISTAKES[mistake]
+    break_it(case)
+    with pytest.raises(InputError, match=message) as caught:
+        read_decomposed_case(case)
+    assert "foamprb-" not in str(caught.value)
+
+
+def test_messages_of_the_reader_name_the_case(case):
+    with pytest.raises(InputError, match=re.escape(f"{case}: no time 7; the times are 0, 0.5, 1e1.")):
+        read_decomposed_case(case, 7)
+
+
+def test_processors_are_in_the_order_of_their_numbers(tmp_path):
+    for number in range(11):
+        (tmp_path / f"processor{number}").mkdir()
+    assert [path.name for path in processors(tmp_path)] == [f"processor{number}" for number in range(11)]
+
+
+@pytest.mark.parametrize("binary", [False, True])
+def test_lists_are_read_in_all_their_forms(tmp_path, binary):
+    kind = "binary" if binary else "ascii"
+    points = np.array([[0.1, -2e-7, 3.0], [4.0, 5.0, 6.0]])
+
+    def write(name, cls, *parts, arch="LSB;label=32;scalar=64"):
+        head = f'FoamFile {{ version 2.0; format {kind}; class {cls}; arch "{arch}"; }}\n'
+        (tmp_path / name).write_bytes(head.encode() + b"".join(parts))
+        return tmp_path / name
+
+    def block(values, dtype):
+        return f"{len(values)}\n(".encode() + np.asarray(values).astype(dtype).tobytes() + b")\n"
+
+    if binary:
+        assert np.array_equal(read_vectors(write("p", "vectorField", block(points, "<f8"))), points)
+        swapped = write("p", "vectorField", block(points, ">f8"), arch="MSB;label=32;scalar=64")
+        assert np.array_equal(read_vectors(swapped), points)
+        single = write("p", "vectorField", block(points, "<f4"), arch="LSB;label=64;scalar=32")
+        assert np.array_equal(read_vectors(single), points.astype("f4"))
+        long = write("o", "labelList", block([3, -1], "<i8"), arch="LSB;label=64;scalar=64")
+        assert read_labels(long).tolist() == [3, -1]
+        faces = write("f", "faceCompactList", block([0, 3, 7], "<i4"), block([0, 1, 2, 3, 2, 1, 0], "<i4"))
+        short = write("s", "vectorField", block(points, "<f8")[:-10])
+        with pytest.raises(InputError, match="a list of 2 entries in binary expected"):
+            read_vectors(short)
+    else:
+        assert np.array_equal(
+            read_vectors(write("p", "vectorField", b"2 ( (.1 -2e-7 3) // a\n(4 5 6) )")), points
+        )
+        assert read_labels(write("o", "labelList", b"4{7}")).tolist() == [7, 7, 7, 7]
+        assert read_labels(write("o", "labelList", b"3(3 -1 2)")).tolist() == [3, -1, 2]
+        faces = write("f", "faceList", b"2 ( 3(0 1 2) /* quad */ 4(3 2 1 0) )")
+    assert read_labels(write("o", "labelList", b"0()\n")).tolist() == []
+    start, of_faces = read_faces(faces)
+    assert (start.tolist(), of_faces.tolist()) == ([0, 3, 7], [0, 1, 2, 3, 2, 1, 0])
+
+
+def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
+    file = tmp_path / "U"
+    vectors = np.arange(6.0).reshape(2, 3)
+    list_of_two = b"nonuniform List<vector> 2\n(" + vectors.tobytes() + b")"
+    file.write_bytes(
+        b'FoamFile { version 2.0; format binary; class volVectorField; arch "LSB;label=32;scalar=64"; }\n'
+        b"dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (1 2 3);\nboundaryField\n{\n"
+        b"inlet { type flowRateInletVelocity; flowRate table ((0 1) (1 2)); value " + list_of_two + b"; }\n"
+        b"outlet { type inletOutlet; inletValue uniform (0 0 0); phi phi; value uniform (7 8 9); }\n"
+        b"mixed { type mixed; refGradient " + list_of_two + b"; valueFraction nonuniform List<scalar> 1\n("
+        + np.ones(1).tobytes() + b"); value nonuniform List<vector> 0; }\n"
+        b'"(a|b)" { type noSlip; }\n}\n'
+    )  # fmt: skip
+    field = read_field(file)
+    assert field.cells.tolist() == [[1, 2, 3]]
+    assert {name: kind for name, (kind, _) in field.patches.items()} == {
+        "inlet": "flowRateInletVelocity", "outlet": "inletOutlet", "mixed": "mixed", "(a|b)": "noSlip",
+    }  # fmt: skip
+    assert field.patches["inlet"][1].tolist() == vectors.tolist()
+    assert field.patches["outlet"][1].tolist() == [[7, 8, 9]]
+    assert len(field.patches["mixed"][1]) == 0
+    assert field.patches["(a|b)"][1] is None
+
+
+def test_patches_keep_all_their_entries(written):
+    patch = read_boundary(written / "processor0/constant/polyMesh/boundary")[0]
+    assert patch.entries["inGroups"] == "1(some)"

@@ -1,0 +1,99 @@
+"""The scripts that measure: their meshes, their counting, and their models."""
+
+from __future__ import annotations
+
+import numpy as np
+import projection
+import pytest
+from benchmarks import pipe
+from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
+from benchmarks.report import TARGETS, Target, written_table
+from benchmarks.roofline import Counting
+
+import foamprb
+from foamprb.output.tables import write_table
+
+GRID = pipe.Grid(6, 3, 8)
+
+
+def test_pipe_mesh_holds_the_exact_flow(tmp_path, random):
+    flow = foamprb.read_case(pipe.write_case(tmp_path, GRID))
+    mesh = flow.mesh
+    assert mesh.n_cells == GRID.cells
+    assert mesh.inverted == 0
+    assert [patch.type for patch in mesh.patches] == ["patch", "patch", "wall"]
+    # A polygon of 24 sides in the circle.
+    facets = 12.0 / np.pi * np.sin(np.pi / 12.0)
+    assert mesh.volumes.sum() == pytest.approx(facets * np.pi * pipe.RADIUS**2 * pipe.LENGTH, rel=1e-5)
+    x = pipe.positions(200)
+    hosts = flow.locate(x)
+    u, _ = flow.sample(x[hosts >= 0], hosts[hosts >= 0], 0.0)
+    assert np.abs(u - pipe.poiseuille(x[hosts >= 0])).max() < 0.05 * pipe.MEAN
+
+
+def test_sizes_of_the_grids():
+    assert pipe.GRIDS["5k"].cells == 4992
+    assert pipe.GRIDS["40k"].cells == 39_936
+
+
+def test_operations_are_counted():
+    Counting.done.clear()
+    a, b = Counting(3.0), Counting(4.0)
+    c = np.sqrt(a * a + b * b) / np.float64(2.0) - 1.0
+    assert float(c) == 1.5
+    assert Counting.done == {"multiply": 2, "add": 2, "sqrt": 1, "divide": 1}
+
+
+def test_a_process_of_its_own_has_its_own_memory():
+    _ballast = np.ones(50_000_000)
+    assert peak_memory() > 4e8
+    assert isolated(peak_memory).result < 2e8
+
+
+def test_results_come_back_from_their_file(tmp_path):
+    rows = [Row("tracker", "cost", "a, b", 10.0, 0.1, "us"), Row("mesh", "cost", "c", 0.0, 2.0, "")]
+    write_table(tmp_path / "x.csv", {name: [getattr(row, name) for row in rows] for name in Row._fields})
+    assert read_rows(tmp_path / "x.csv") == rows
+    assert Results(rows).get("cost", "c") == 2.0
+    assert Results(rows).get("cost", "a, b", 11.0) is None
+
+
+def test_targets_know_their_sense():
+    assert Target("", lambda _: None, 2.0).met(2.0)
+    assert not Target("", lambda _: None, 2.0).met(2.1)
+    assert Target("", lambda _: None, 2.0, least=True).met(2.1)
+    assert not Target("", lambda _: None, 2.0, least=True).met(1.9)
+    rows = [Row("threads", "speed-up", "foamprb paper", 2.0, 1.5, "")]
+    table = written_table(Results(rows))
+    assert table.count("not measured") == len(TARGETS) - 1
+    assert "**not met** (1.20 of the limit)" in table
+
+
+class TestProjection:
+    def test_spheres_on_the_vertical_land_after_their_fall(self):
+        """The paper's: 0.2327 s from 0.45 mm above the wall, so 1.93 mm/s; at most 4.2 mm to fall."""
+        times, _ = projection.lifetimes(20_000)
+        assert (times > 0.0).all()
+        assert times.max() <= 2.0 * projection.RADIUS / (0.45e-3 / 0.2327)
+        # Without falling, a particle on the axis needs L/(2 U).
+        assert times.min() < projection.LENGTH / (2.0 * projection.MEAN) < times.max()
+
+    def test_no_node_waits_when_all_have_the_same(self):
+        same = np.full(8000, projection.END)
+        assert projection.shared_statically(same, 10, 1.0).slowest == pytest.approx(1.0)
+        balance = projection.shared_dynamically(same, 10, 8, 0.0, 1.0)
+        assert balance.slowest == pytest.approx(1.0)
+        assert balance.moved == 0.0
+
+    def test_chunks_are_taken_from_the_one_who_has_most(self):
+        """Two nodes, one with four chunks of 1 s and one with four of nothing: half of the work moves."""
+        end, stolen = projection._steal(np.array([[1.0] * 4, [0.0] * 4]), 0.0)
+        assert end == 2.0
+        assert stolen == 2
+
+    def test_finer_chunks_balance_better(self):
+        life, angle = projection.lifetimes(64_000)
+        by_place = life[np.argsort(angle)]
+        static = projection.shared_statically(by_place, 20, 1.0).slowest
+        few, many = (projection.shared_dynamically(by_place, 20, k, 0.0, 1.0).slowest for k in (4, 64))
+        assert 1.0 <= many < few < static

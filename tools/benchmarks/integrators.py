@@ -1,0 +1,59 @@
+"""A 5 µm particle in water: what each integrator costs for the same time and the same error."""
+
+from __future__ import annotations
+
+import importlib
+
+import numpy as np
+
+import foamprb
+from benchmarks import pipe
+from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+from foamprb.body.imex import relaxation_time
+
+# The script beside this package, which shows error against work.
+study = importlib.import_module("integrators")
+
+ERRORS = {"error of F 1e-3": 1e-3, "error of F 3e-4": 3e-4}
+_FINER = 1.15
+
+
+def fewest_steps(integrator: str, exact: np.ndarray, largest: float) -> int:
+    """Steps of fixed size, to a seventh, that keep the error of F below ``largest`` for the study's time."""
+    tau = relaxation_time(study.WATER.rho_s, study.D / 2, study.WATER.mu)
+    n = 8.0 if integrator != "paper" else 0.4 * study.WATER.time / tau
+    while True:
+        found = study.run(study.WATER, integrator, round(n))
+        if np.abs(found - exact)[:9].max() < largest:
+            return round(n)
+        n *= _FINER
+
+
+def _cost(cloud, steps: int) -> float:
+    before = pipe.particle_steps(cloud)
+    spent = cpu_of(lambda: cloud.advance(steps))
+    return 1e6 * spent / (pipe.particle_steps(cloud) - before)
+
+
+def measure(options: Options) -> list[Row]:
+    """Steps, CPU per step and CPU per particle."""
+    n, repeats = (2000, 2) if options.quick else (50_000, 5)
+    flow = foamprb.read_case(pipe.case("40k"))
+    exact = study.run(study.WATER, "rosenbrock", 1 << (14 if options.quick else 17))
+    found = []
+    for name, largest in list(ERRORS.items())[: 1 if options.quick else None]:
+        steps = {i: fewest_steps(i, exact, largest) for i in ("paper", "rosenbrock", "stokes")}
+        clocks = {}
+        for integrator, number in steps.items():
+            cloud = pipe.soft_cloud(flow, n, study.WATER.time / number, integrator, water=True)
+            cloud.advance(5)
+            clocks[integrator] = lambda c=cloud: _cost(c, 20)
+        costs = interleaved(clocks, repeats)
+        whole = {integrator: costs[integrator] * number for integrator, number in steps.items()}
+        found += rows("integrators", f"steps, {name}", {k: float(v) for k, v in steps.items()}, "")
+        found += rows("integrators", f"cost of a step, {name}", costs, "us/particle-step")
+        found += rows("integrators", f"cost of 4 ms, {name}", whole, "us/particle")
+        found += rows(
+            "integrators", "cost of paper over stokes", {name: whole["paper"] / whole["stokes"]}, ""
+        )
+    return found

@@ -1,0 +1,106 @@
+"""Large meshes: time until particles can move against VTK's reading alone, memory, and cost of a step."""
+
+from __future__ import annotations
+
+import os
+import time
+
+from benchmarks import pipe
+from benchmarks.records import (
+    GIGA,
+    KILO,
+    Options,
+    Row,
+    available_memory,
+    interleaved,
+    isolated,
+    peak_memory,
+    resident_memory,
+    rows,
+)
+
+NEEDED = 21e9
+"""Free memory, bytes, without which 8e6 cells are not tried."""
+
+
+def vtk_reads(grid: str) -> float:
+    """Seconds of CPU in which VTK's reader reads mesh and U."""
+    import vtkmodules.util.numpy_support
+    from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
+
+    assert vtkmodules.util.numpy_support
+    start = time.process_time()
+    reader = vtkOpenFOAMReader()
+    reader.SetFileName(str(pipe.case(grid) / "case.foam"))
+    reader.SetCreateCellToPoint(False)
+    reader.SetSkipZeroTime(False)
+    reader.UpdateInformation()
+    reader.DisableAllCellArrays()
+    reader.SetCellArrayStatus("U", 1)
+    for index in range(reader.GetNumberOfPatchArrays()):
+        reader.SetPatchArrayStatus(reader.GetPatchArrayName(index), 1)
+    reader.UpdateTimeStep(0.0)
+    return time.process_time() - start
+
+
+def ready(grid: str) -> dict[str, float]:
+    """Seconds of CPU until a particle can make a step, and the memory kept for it."""
+    import foamprb
+
+    small = foamprb.read_case(pipe.case("5k"))
+    pipe.soft_cloud(small, 64, 2e-5).advance(1)
+    del small
+    before, start = resident_memory(), time.process_time()
+    flow = foamprb.read_case(pipe.case(grid))
+    cloud = pipe.soft_cloud(flow, 64, 2e-5)
+    cloud.advance(1)
+    spent = time.process_time() - start
+    return {"spent": spent, "kept": resident_memory() - before, "peak": peak_memory()}
+
+
+def costs(grids: list[str], n: int, steps: int, repeats: int) -> dict[str, float]:
+    """CPU per particle-step on each mesh, μs."""
+    import foamprb
+    from benchmarks.tracker import Tracker
+
+    trackers = {grid: Tracker(foamprb.read_case(pipe.case(grid)), n, "paper", steps) for grid in grids}
+    return interleaved({grid: tracker.cost for grid, tracker in trackers.items()}, repeats)
+
+
+def measure(options: Options) -> list[Row]:
+    """Time, memory and cost by the number of cells."""
+    grids = ["5k", "40k", "300k", "1M"]
+    n, steps, repeats = (5000, 5, 1) if options.quick else (100_000, 20, 5)
+    if options.quick:
+        grids = grids[:2]
+    tried = list(grids)
+    if options.large and available_memory() > NEEDED:
+        tried.append("8M")
+    found = []
+    for grid in tried:
+        # Written in a process of its own, and the files are in the system's cache for both readers.
+        isolated(write, grid)
+        reading = sorted(isolated(vtk_reads, grid).result for _ in range(1 if grid == "8M" else repeats))
+        results = [isolated(ready, grid).result for _ in range(1 if grid == "8M" else min(repeats, 3))]
+        cells = pipe.GRIDS[grid].cells
+        spent = sorted(result["spent"] for result in results)[len(results) // 2]
+        kept, peak = results[0]["kept"], results[0]["peak"]
+        times = {"foamprb": spent, "VTK reads": reading[len(reading) // 2]}
+        found += rows("mesh", "time to ready", times, "s CPU", cells)
+        found += rows("mesh", "memory kept per cell, kB", {"foamprb": kept / cells / KILO}, "kB", cells)
+        found += rows("mesh", "peak memory, GB", {"foamprb": peak / GIGA}, "GB", cells)
+    by_cells = isolated(costs, grids, n, steps, repeats).result
+    for grid, cost in by_cells.items():
+        size = pipe.GRIDS[grid].cells
+        found += rows("mesh", "cost by cells", {"foamprb paper": cost}, "us/particle-step", size)
+    finest = grids[-1]
+    found += rows(
+        "mesh", "cost of fine over coarse", {f"{finest} over 5k": by_cells[finest] / by_cells["5k"]}, ""
+    )
+    return found
+
+
+def write(grid: str) -> None:
+    """Write the case of a grid."""
+    os.sync()
+    pipe.case(grid)

@@ -1,0 +1,78 @@
+"""Writing a snapshot of a million particles, against the disk and the compressors alone."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pyvista
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+import foamprb
+from benchmarks import pipe
+from benchmarks.records import MEGA, Options, Row, interleaved, rows, wall_of
+from foamprb.cloud.measures import context
+from foamprb.cloud.measures import measure as measures
+from foamprb.output.vtk import Snapshot, write_snapshot
+
+COMPRESSORS = ("None", "LZ4", "ZLib")
+
+
+def _to_disk(path: Path, data: bytes) -> None:
+    with path.open("wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _vtk_writes(path: Path, data: pyvista.PolyData, compressor: str) -> None:
+    """What VTK's writer alone takes, nothing flushed."""
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    getattr(writer, f"SetCompressorTypeTo{compressor}")()
+    writer.SetFileName(str(path))
+    writer.Write()
+
+
+def measure(options: Options) -> list[Row]:
+    """Megabytes of a snapshot's arrays that go in a second of wall time, by each way."""
+    n, repeats = (50_000, 2) if options.quick else (1_000_000, 5)
+    flow = foamprb.read_case(pipe.case("40k"))
+    cloud = pipe.soft_cloud(flow, n, 2e-5)
+    cloud.advance(5)
+
+    def measured() -> Snapshot:
+        c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
+        return Snapshot(cloud.time, c.particles.x, measures(c))
+
+    snapshot = measured()
+    arrays = [snapshot.points, *snapshot.arrays.values()]
+    total = sum(array.nbytes for array in arrays)
+    raw = b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)
+    data = pyvista.PolyData(snapshot.points)
+    data.point_data.update(
+        {k: a.astype(np.int8) if a.dtype == bool else a for k, a in snapshot.arrays.items()}
+    )
+    folder = Path(tempfile.mkdtemp(dir=pipe.scratch_folder()))
+    contestants = {
+        "measures": measured,
+        "snapshot to file": lambda: write_snapshot(folder / "foamprb.vtp", snapshot),
+        "disk, with fsync": lambda: _to_disk(folder / "raw", raw),
+    }
+    for name in COMPRESSORS:
+        contestants[f"VTK, {name}"] = lambda name=name: _vtk_writes(folder / f"{name}.vtp", data, name)
+    try:
+        times = interleaved({k: lambda c=c: wall_of(c) for k, c in contestants.items()}, repeats)
+        sizes = {name: (folder / f"{name}.vtp").stat().st_size for name in ("foamprb", *COMPRESSORS)}
+    finally:
+        shutil.rmtree(folder)
+    found = rows("output", "throughput", {name: total / t / MEGA for name, t in times.items()}, "MB/s", n)
+    found += rows("output", "time of a snapshot", times, "s", n)
+    found += rows("output", "size of a snapshot", {"arrays": total / n}, "bytes/particle", n)
+    files = {f"file, {name}": size / n for name, size in sizes.items()}
+    return found + rows("output", "size of a snapshot", files, "bytes/particle", n)

@@ -1,0 +1,318 @@
+"""The pipe on which all is measured: O-grid meshes of any size in OpenFOAM's format, with the exact flow.
+
+The pipe is 4.2 mm wide and 60 mm long, with the wall shear rate of the paper's (923.8 1/s); the velocity of
+Poiseuille's flow is written at the means of the cells' vertices. No mesher and no solver is needed.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+RADIUS, LENGTH, WALL_RATE = 2.1e-3, 0.06, 923.8
+MEAN = WALL_RATE * RADIUS / 4
+D, RHO_S = 5e-6, 2560.0
+NU, RHO = 1.491e-5, 1.208
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+
+class Grid(NamedTuple):
+    """Cells on a quarter of the wall, from the inner square to the wall, and along the pipe."""
+
+    side: int
+    radial: int
+    axial: int
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return (self.side**2 + 4 * self.side * self.radial) * self.axial
+
+
+GRIDS = {
+    "5k": Grid(8, 4, 26),
+    "40k": Grid(16, 8, 52),
+    "300k": Grid(32, 16, 104),
+    "1M": Grid(48, 24, 152),
+    "8M": Grid(96, 48, 290),
+}
+"""By the names that the parts use; the first two have 4 992 and 39 936 cells."""
+
+
+class _Section(NamedTuple):
+    """A cross-section: points (n, 2), quadrilaterals that turn from y to z, and their edges.
+
+    An edge's points go round the first of its quadrilaterals; ``beyond`` is the other, −1 on the wall.
+    """
+
+    points: Floats
+    quads: Ints
+    edges: Ints
+    quad: Ints
+    beyond: Ints
+
+
+def _section(side: int, radial: int) -> _Section:
+    t = np.linspace(-1.0, 1.0, side + 1)
+    y, z = np.meshgrid(t, t, indexing="ij")
+    # A square with bulging sides, its corners at half the radius.
+    core = 0.4 * np.stack([y * np.sqrt(1.0 - z**2 / 4.0), z * np.sqrt(1.0 - y**2 / 4.0)], axis=-1)
+    blocks = [core]
+    for quarter, inner in enumerate((core[:, 0], core[-1, :], core[::-1, -1], core[0, ::-1])):
+        angle = (2 * quarter - 3) * np.pi / 4 + np.linspace(0.0, np.pi / 2, side + 1)
+        rim = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        s = np.linspace(0.0, 1.0, radial + 1)[None, :, None]
+        blocks.append(inner[:, None] * (1.0 - s) + rim[:, None] * s)
+    lists, offset = [], 0
+    for part in blocks:
+        m, n = part.shape[:2]
+        i, j = np.meshgrid(np.arange(m - 1), np.arange(n - 1), indexing="ij")
+        base = (offset + i * n + j).ravel()
+        lists.append(np.stack([base, base + n, base + n + 1, base + 1], axis=1))
+        offset += m * n
+    flat = np.concatenate([part.reshape(-1, 2) for part in blocks])
+    _, first, place = np.unique(np.round(flat, 9), axis=0, return_index=True, return_inverse=True)
+    points = RADIUS * flat[first]
+    quads = place.reshape(-1)[np.concatenate(lists)].astype(np.int32)
+    a, b = points[quads[:, 2]] - points[quads[:, 0]], points[quads[:, 3]] - points[quads[:, 1]]
+    backwards = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] < 0.0
+    quads[backwards] = quads[backwards][:, ::-1]
+
+    edges = np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2)
+    quad = np.repeat(np.arange(len(quads), dtype=np.int32), 4)
+    key = edges.min(axis=1).astype(np.int64) * len(points) + edges.max(axis=1)
+    order = np.argsort(key, kind="stable")
+    begins = np.flatnonzero(np.diff(key[order], prepend=-1))
+    paired = np.diff(begins, append=len(key)) == 2
+    one = order[begins]
+    beyond = np.full(len(one), -1, dtype=np.int32)
+    beyond[paired] = quad[order[begins[paired] + 1]]
+    return _Section(points, quads, edges[one], quad[one], beyond)
+
+
+def write_mesh(folder: Path, grid: Grid) -> Floats:
+    """Write ``constant/polyMesh`` in binary; return the means of the cells' vertices, (n_cells, 3)."""
+    s = _section(grid.side, grid.radial)
+    n_points, n_quads, layers = len(s.points), len(s.quads), np.arange(grid.axial, dtype=np.int32)
+    x = np.linspace(0.0, LENGTH, grid.axial + 1)
+    points = np.empty((grid.axial + 1, n_points, 3))
+    points[:, :, 0], points[:, :, 1:] = x[:, None], s.points
+
+    def at(lists: Ints, stations: Any) -> Ints:
+        return (lists[None] + n_points * np.asarray(stations, dtype=np.int32)[:, None, None]).reshape(
+            -1, lists.shape[1]
+        )
+
+    def cells(quads: Ints, stations: Any) -> Ints:
+        return (quads[None] + n_quads * np.asarray(stations, dtype=np.int32)[:, None]).ravel()
+
+    def sides(chosen: Any) -> Ints:
+        low, high = at(s.edges[chosen], layers), at(s.edges[chosen], layers + 1)
+        return np.concatenate([low, high[:, ::-1]], axis=1)
+
+    every, inner, wall = np.arange(n_quads, dtype=np.int32), s.beyond >= 0, s.beyond < 0
+    faces = np.concatenate([at(s.quads, layers[1:]), sides(inner)])
+    owner = np.concatenate([cells(every, layers[:-1]), cells(s.quad[inner], layers)])
+    neighbour = np.concatenate([cells(every, layers[1:]), cells(s.beyond[inner], layers)])
+    # Round the cell with the lower number, as OpenFOAM wants it.
+    swapped = owner > neighbour
+    faces[swapped] = faces[swapped][:, ::-1]
+    owner, neighbour = np.minimum(owner, neighbour), np.maximum(owner, neighbour)
+    order = np.lexsort((neighbour, owner))
+    patches = {
+        "inlet": (at(s.quads, [0])[:, ::-1], cells(every, [0])),
+        "outlet": (at(s.quads, [grid.axial]), cells(every, [grid.axial - 1])),
+        "wall": (sides(wall), cells(s.quad[wall], layers)),
+    }
+    faces = np.concatenate([faces[order], *(f for f, _ in patches.values())])
+    owner = np.concatenate([owner[order], *(c for _, c in patches.values())])
+    neighbour = neighbour[order]
+
+    poly = folder / "constant" / "polyMesh"
+    poly.mkdir(parents=True, exist_ok=True)
+    note = (
+        f"nPoints:{points.size // 3}  nCells:{grid.cells}  nFaces:{len(owner)}  "
+        f"nInternalFaces:{len(neighbour)}"
+    )
+    _write(poly / "points", "vectorField", [points.reshape(-1, 3)])
+    _write(poly / "faces", "faceCompactList", [4 * np.arange(len(faces) + 1, dtype=np.int32), faces.ravel()])
+    _write(poly / "owner", "labelList", [owner], note)
+    _write(poly / "neighbour", "labelList", [neighbour], note)
+    start, text = len(neighbour), ""
+    for name, (of_patch, _) in patches.items():
+        kind = "wall" if name == "wall" else "patch"
+        text += f"    {name} {{ type {kind}; nFaces {len(of_patch)}; startFace {start}; }}\n"
+        start += len(of_patch)
+    header = _header("polyBoundaryMesh", "boundary", binary=False)
+    (poly / "boundary").write_text(f"{header}{len(patches)}\n(\n{text})\n")
+    middle = 0.5 * (x[1:] + x[:-1])
+    centres = np.empty((grid.axial, n_quads, 3))
+    centres[:, :, 0], centres[:, :, 1:] = middle[:, None], s.points[s.quads].mean(axis=1)
+    return centres.reshape(-1, 3)
+
+
+def write_case(folder: Path, grid: Grid) -> Path:
+    """Write a case that OpenFOAM and foamprb run: mesh, and U at time 0; particles are left to others."""
+    centres = write_mesh(folder, grid)
+    s = _section(grid.side, grid.radial)
+    (folder / "0").mkdir(exist_ok=True)
+    (folder / "system").mkdir(exist_ok=True)
+    ends = _list(poiseuille(np.pad(s.points[s.quads].mean(axis=1), ((0, 0), (1, 0)))))
+    with (folder / "0" / "U").open("wb") as file:
+        file.write(_header("volVectorField", "U").encode())
+        file.write(b"dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> ")
+        file.write(_list(poiseuille(centres)) + b";\nboundaryField\n{\n")
+        for patch in (b"inlet", b"outlet"):
+            file.write(patch + b" { type fixedValue; value nonuniform List<vector> " + ends + b"; }\n")
+        file.write(b"wall { type noSlip; }\n}\n")
+    _dictionary(
+        folder / "constant" / "transportProperties", f"transportModel Newtonian; nu {NU}; rhoInf {RHO};"
+    )
+    _dictionary(folder / "constant" / "turbulenceProperties", "simulationType laminar;")
+    gravity = "dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);"
+    _dictionary(folder / "constant" / "g", gravity, "uniformDimensionedVectorField")
+    _dictionary(
+        folder / "system" / "fvSchemes",
+        "ddtSchemes { default Euler; } gradSchemes { default Gauss linear; } divSchemes { default none; } "
+        "laplacianSchemes { default none; } interpolationSchemes { default linear; } "
+        "snGradSchemes { default corrected; }",
+    )
+    _dictionary(folder / "system" / "fvSolution", "solvers {}")
+    write_control(folder, 1e-4, 1.0)
+    return folder
+
+
+def poiseuille(x: Floats) -> Floats:
+    """Velocity at the points (n, 3), m/s."""
+    u = np.zeros_like(x)
+    u[:, 0] = 2.0 * MEAN * (1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / RADIUS**2)
+    return u
+
+
+def write_control(folder: Path, dt: float, end: float) -> None:
+    """Write OpenFOAM's ``controlDict`` of a run that writes nothing."""
+    _dictionary(
+        folder / "system" / "controlDict",
+        "application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime; "
+        f"endTime {end:.9g}; deltaT {dt:g}; writeControl timeStep; writeInterval 1000000; "
+        "writeFormat binary; timeFormat general; timePrecision 9; runTimeModifiable false;",
+    )
+
+
+def write_parcels(folder: Path, x: Floats) -> None:
+    """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3)."""
+    with (folder / "constant" / "kinematicCloudPositions").open("w") as file:
+        file.write(_header("vectorField", "kinematicCloudPositions", binary=False) + "(\n")
+        file.writelines(f"({a!r} {b!r} {c!r})\n" for a, b, c in x.tolist())
+        file.write(")\n")
+    _dictionary(
+        folder / "constant" / "kinematicCloudProperties",
+        "solution { active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3; "
+        "interpolationSchemes { rho cell; U cellPoint; mu cell; } integrationSchemes { U Euler; } }\n"
+        f"constantProperties {{ rho0 {RHO_S}; }}\n"
+        "subModels { particleForces { sphereDrag; gravity; } injectionModels { model1 { "
+        "type manualInjection; massTotal 0; parcelBasisType fixed; nParticle 1; SOI 0; U0 (0 0 0); "
+        'positionsFile "kinematicCloudPositions"; ignoreOutOfBounds true; '
+        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
+        "dispersionModel none; patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
+        'wall { type stick; } "(inlet|outlet)" { type escape; } ); }\n'
+        "heatTransferModel none; surfaceFilmModel none; collisionModel none; "
+        "stochasticCollisionModel none; }\ncloudFunctions {}",
+    )
+
+
+def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int) -> None:
+    """Write ``softCloudProperties``: n particles enter by the inlet, evenly during the first nine tenths."""
+    end = steps * dt
+    _dictionary(
+        folder / "constant" / "softCloudProperties",
+        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end / writes:.9g}; "
+        "integrationSchemes { shape paper; } }\n"
+        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; "
+        "solid { type neoHooke; poissonsRatio 0.499; shearModulus 0.05; } }\n"
+        "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { inlet { "
+        f"type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; "
+        f"duration {0.9 * end:.9g}; "
+        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
+        "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
+        'wall { type stick; } "(inlet|outlet)" { type escape; } ); } }',
+    )
+
+
+def positions(n: int, seed: int = 0) -> Floats:
+    """Places spread evenly over the first third of the pipe, off the wall, (n, 3)."""
+    random = np.random.default_rng(seed)
+    r, angle = 0.95 * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
+    x = LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
+    return np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
+
+
+def soft_cloud(
+    flow: Any, n: int, dt: float, integrator: str = "paper", threads: int = 1, water: bool = False
+) -> Any:
+    """n active particles that move with the flow; steps of fixed size, as OpenFOAM's are."""
+    import foamprb
+
+    x = positions(n)
+    medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
+    rho = RHO_S
+    if water:
+        medium, rho = foamprb.Medium(1e-3, 1000.0, (0.0, -9.81, 0.0)), 1050.0
+    particles = foamprb.spheres(x, d=D, rho=rho, mu=medium.mu * WALL_RATE / 0.5)
+    particles.v[:] = poiseuille(x)
+    walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
+    models = foamprb.Models(integrator=integrator, tolerance=np.inf)
+    return foamprb.Cloud(particles, flow, medium, walls, dt, models, threads)
+
+
+def particle_steps(cloud: Any) -> float:
+    """Particle-steps of size Δt that a cloud has done."""
+    p = cloud.particles
+    return float((p.t - p.t0).sum() / cloud.dt)
+
+
+def cache_folder(scratch: Path, grid: str) -> Path:
+    """The case of a grid, written once."""
+    folder = scratch / grid
+    if not (folder / "0" / "U").exists():
+        write_case(folder, GRIDS[grid])
+    return folder
+
+
+def scratch_folder() -> Path:
+    """Where the cases are, ``$FOAMPRB_BENCHMARK_DIR``: the main process makes and removes it."""
+    return Path(os.environ["FOAMPRB_BENCHMARK_DIR"])
+
+
+def case(grid: str) -> Path:
+    """The case of one of :data:`GRIDS`."""
+    return cache_folder(scratch_folder(), grid)
+
+
+def _header(kind: str, name: str, note: str = "", binary: bool = True) -> str:
+    form = 'format binary;\n    arch "LSB;label=32;scalar=64"' if binary else "format ascii"
+    noted = f'    note "{note}";\n' if note else ""
+    return f"FoamFile\n{{\n    version 2.0;\n    {form};\n    class {kind};\n{noted}    object {name};\n}}\n"
+
+
+def _dictionary(path: Path, text: str, kind: str = "dictionary") -> None:
+    path.write_text(_header(kind, path.name, binary=False) + text + "\n")
+
+
+def _list(values: NDArray[Any]) -> bytes:
+    return f"{len(values)}\n(".encode() + values.tobytes() + b")"
+
+
+def _write(path: Path, kind: str, lists: list[NDArray[Any]], note: str = "") -> None:
+    with path.open("wb") as file:
+        file.write(_header(kind, path.name, note).encode())
+        for values in lists:
+            file.write(b"\n" + f"{len(values)}\n(".encode())
+            file.write(np.ascontiguousarray(values).data)
+            file.write(b")\n")

@@ -1,0 +1,161 @@
+"""Where the time goes: each compiled stage of the loop alone, on blocks as they occur in a run."""
+
+from __future__ import annotations
+
+import time
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import foamprb
+from benchmarks import pipe
+from benchmarks.records import Options, Row, interleaved, rows
+from benchmarks.tracker import Tracker
+from foamprb.cloud import adaptive, advance, block
+from foamprb.cloud.block import LANES, frame_stage
+from foamprb.cloud.block import frame_stage as medium_stage
+from foamprb.compile import link
+from foamprb.flow.walk import gap, sample, walk
+
+
+class Stage(NamedTuple):
+    """A compiled part of the loop, and how often a step calls it."""
+
+    function: Any
+    times: int
+    with_medium: bool = False
+
+
+STAGES: dict[str, dict[str, Stage]] = {
+    "paper": {
+        "traction": Stage(advance.traction_stage, 1, True),
+        "newton": Stage(advance.newton_stage, 1),
+        "frame": Stage(block.frame_stage, 1),
+        "integrals": Stage(block.integrals_stage, 1),
+        "barycentre": Stage(advance.barycentre_stage, 1, True),
+    },
+    "stokes": {
+        "frame": Stage(block.frame_stage, 2),
+        "integrals": Stage(block.integrals_stage, 2),
+        "first slope": Stage(adaptive.first_inertialess, 1, True),
+        "second slope": Stage(adaptive.second_inertialess, 1, True),
+    },
+}
+"""Stages over the lanes of a block, in the order of the loop."""
+
+FLOW_STAGES = {"paper": {"sample": 1, "walk": 1, "gap": 1}, "stokes": {"sample": 2, "walk": 2, "gap": 1}}
+"""What goes particle by particle, and how often in a step."""
+
+
+def _repeat(data: Any, times: int) -> None:
+    for _ in range(times):
+        frame_stage(data)
+
+
+def _repeat_medium(data: Any, medium: Any, times: int) -> None:
+    for _ in range(times):
+        medium_stage(data, medium)
+
+
+def _repeat_sample(flow: Any, hosts: Any, x: Any, times: int, out: Any) -> None:
+    for _ in range(times):
+        for i in range(len(hosts)):
+            u, l, u_t = sample(flow, hosts[i], (x[i, 0], x[i, 1], x[i, 2]), 0.0)
+            strain = l[0] + l[1] + l[2] + l[3] + l[4] + l[5] + l[6] + l[7] + l[8]
+            out[i] += u[0] + u[1] + u[2] + strain + u_t[0]
+
+
+def _repeat_walk(flow: Any, hosts: Any, x: Any, x1: Any, times: int, out: Any) -> None:
+    for _ in range(times):
+        for i in range(len(hosts)):
+            host, fraction, _, _ = walk(
+                flow, hosts[i], (x[i, 0], x[i, 1], x[i, 2]), (x1[i, 0], x1[i, 1], x1[i, 2])
+            )
+            out[i] += host + fraction
+
+
+def _repeat_gap(flow: Any, hosts: Any, x: Any, F: Any, R: Any, times: int, out: Any) -> None:
+    for _ in range(times):
+        for i in range(len(hosts)):
+            f = F[i]
+            shape = (f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8])
+            clearance, _, _ = gap(flow, hosts[i], (x[i, 0], x[i, 1], x[i, 2]), shape, R[i])
+            out[i] += min(clearance, 1.0)
+
+
+def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
+    """Some of the blocks that a run would make of a cloud: rows of the particles, and the filled block."""
+    p = cloud.particles
+    rows_of = np.flatnonzero(p.status == foamprb.Status.ACTIVE)
+    rows_of = rows_of[np.argsort(p.host[rows_of], kind="stable")]
+    starts = np.linspace(0, len(rows_of) - LANES, number).astype(int)
+    return [(rows_of[s : s + LANES], filled(cloud, rows_of[s : s + LANES])) for s in starts]
+
+
+def filled(cloud: Any, members: Any) -> Any:
+    """A block with the state of the particles, the flow around them and their frame."""
+    data = np.zeros(adaptive.ADAPTIVE_ROWS * LANES)
+    p = cloud.particles
+    u, l = cloud.flow.sample(p.x[members], p.host[members], cloud.time)
+    for i, k in enumerate(members):
+        block.idle(data, i, cloud.dt)
+        block.load_particle(p, k, data, i)
+        block.store3(data, block.AT_U, i, tuple(u[i]))
+        block.store9(data, block.AT_L, i, tuple(l[i].ravel()))
+        data[adaptive.AT_H * LANES + i] = cloud.dt
+    for stage in (block.frame_stage, block.integrals_stage):
+        link(_repeat, {"frame_stage": stage}, separate=(stage,))(data, 1)
+    return data
+
+
+def _timed(run: Any, times: int, blocks: int) -> float:
+    start = time.process_time()
+    run(times)
+    return 1e6 * (time.process_time() - start) / (times * blocks * LANES)
+
+
+def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
+    """For each stage a function that goes so many times through each block."""
+    chosen = blocks_of(cloud, number)
+    p = cloud.particles
+    runs: dict[str, Any] = {}
+    for name, stage in STAGES[integrator].items():
+        if stage.with_medium:
+            kernel = link(_repeat_medium, {"medium_stage": stage.function}, separate=(stage.function,))
+            runs[name] = lambda times, k=kernel: [k(data, cloud.medium, times) for _, data in chosen]
+        else:
+            kernel = link(_repeat, {"frame_stage": stage.function}, separate=(stage.function,))
+            runs[name] = lambda times, k=kernel: [k(data, times) for _, data in chosen]
+    arrays = cloud.flow.arrays(1e-5)
+    out = np.zeros(LANES)
+    sampling = link(_repeat_sample)
+    walking = link(_repeat_walk, separate=(walk,))
+    touching = link(_repeat_gap, separate=(gap,))
+    places = [(p.host[m], p.x[m], p.x[m] + cloud.dt * p.v[m], p.F[m], p.R[m]) for m, _ in chosen]
+    runs["sample"] = lambda times: [sampling(arrays, h, x, times, out) for h, x, *_ in places]
+    runs["walk"] = lambda times: [walking(arrays, h, x, x1, times, out) for h, x, x1, *_ in places]
+    runs["gap"] = lambda times: [touching(arrays, h, x, F, R, times, out) for h, x, _, F, R in places]
+    return runs
+
+
+def measure(options: Options) -> list[Row]:
+    """CPU per particle-step of each stage, and of the whole loop with many steps a call and with one."""
+    n, number, times, repeats = (6400, 10, 20, 3) if options.quick else (100_000, 50, 100, 7)
+    flow = foamprb.read_case(pipe.case("40k"))
+    found = []
+    for integrator, stages in STAGES.items():
+        tracker = Tracker(flow, n, integrator, 20)
+        single = Tracker(flow, n, integrator, 1)
+        runs = contestants(tracker.cloud, integrator, number)
+        # In the order of the loop: each stage reads what those before it left in the block.
+        for run in runs.values():
+            run(1)
+        clocks = {name: lambda r=run: _timed(r, times, number) for name, run in runs.items()}
+        costs = interleaved({"whole": tracker.cost, "one step": single.cost} | clocks, repeats)
+        unit = "us/particle-step"
+        found += rows("profile", "cost", {f"foamprb {integrator}, whole loop": costs["whole"]}, unit)
+        found += rows("profile", "cost", {f"foamprb {integrator}, one step a call": costs["one step"]}, unit)
+        often = {name: stage.times for name, stage in stages.items()} | FLOW_STAGES[integrator]
+        shares = {name: costs[name] * count for name, count in often.items()}
+        found += rows("profile", f"stage of {integrator}", shares, unit)
+    return found

@@ -1,0 +1,207 @@
+"""What the parts of the benchmark return, and the clocks and processes that they use."""
+
+from __future__ import annotations
+
+import csv
+import gc
+import importlib
+import importlib.metadata
+import json
+import os
+import platform
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+TOOLS = Path(__file__).parents[1]
+KILO, MEGA, GIGA = 1e3, 1e6, 1e9
+
+
+class Row(NamedTuple):
+    """One number of the raw results."""
+
+    part: str
+    quantity: str
+    """What was measured; the number of something that it depends on is the ``size``."""
+    subject: str
+    """Of what: a program, an integrator, a stage."""
+    size: float
+    value: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Options:
+    """How much to measure."""
+
+    quick: bool = False
+    """Few steps and repeats: to see that all works."""
+    large: bool = False
+    """Also what needs 16 to 20 GB of memory."""
+
+
+class Results:
+    """Rows that can be asked for."""
+
+    def __init__(self, rows: Iterable[Row]) -> None:
+        self.rows = tuple(rows)
+
+    def get(self, quantity: str, subject: str = "", size: float | None = None) -> float | None:
+        """The value of the first row that fits, or None."""
+        for row in self.rows:
+            if (
+                row.quantity == quantity
+                and (not subject or row.subject == subject)
+                and (size is None or row.size == size)
+            ):
+                return row.value
+        return None
+
+    def curve(self, quantity: str, subject: str) -> list[tuple[float, float]]:
+        """(size, value) of the rows that fit, sizes rising."""
+        return sorted((r.size, r.value) for r in self.rows if (r.quantity, r.subject) == (quantity, subject))
+
+    def subjects(self, quantity: str) -> list[str]:
+        """Subjects of a quantity, in order of appearance."""
+        return list(dict.fromkeys(row.subject for row in self.rows if row.quantity == quantity))
+
+    def part(self, name: str) -> list[Row]:
+        """Rows of one part."""
+        return [row for row in self.rows if row.part == name]
+
+
+def read_rows(path: Path) -> list[Row]:
+    """Rows of a file that :func:`foamprb.output.tables.write_table` wrote, none if it is absent."""
+    if not path.is_file():
+        return []
+    with path.open(encoding="utf-8", newline="") as file:
+        return [
+            Row(r["part"], r["quantity"], r["subject"], float(r["size"]), float(r["value"]), r["unit"])
+            for r in csv.DictReader(file)
+        ]
+
+
+def machine() -> str:
+    """The processor, and versions of what the speed depends on."""
+    names = re.findall(r"model name\s*:\s*(.+)", _text("/proc/cpuinfo"))
+    versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "numpy", "vtk"))
+    processor = names[0] if names else platform.processor() or platform.machine()
+    processors = len(os.sched_getaffinity(0))
+    return f"{processor}, {processors} processors, Python {platform.python_version()}, {versions}"
+
+
+def load() -> float:
+    """Processes that want to run, the mean of the last minute: above 0.5 at the start, times are in doubt."""
+    return os.getloadavg()[0]
+
+
+def available_memory() -> float:
+    """Memory that a new process may take, bytes."""
+    return 1024.0 * float(re.findall(r"MemAvailable:\s*(\d+)", _text("/proc/meminfo"))[0])
+
+
+def peak_memory() -> float:
+    """Largest resident size of this process so far, bytes."""
+    # ru_maxrss would count the parent's memory in.
+    return 1024.0 * float(re.findall(r"VmHWM:\s*(\d+)", _text("/proc/self/status"))[0])
+
+
+def resident_memory() -> float:
+    """Resident size of this process, bytes."""
+    gc.collect()
+    return 1024.0 * float(re.findall(r"VmRSS:\s*(\d+)", _text("/proc/self/status"))[0])
+
+
+def _text(path: str) -> str:
+    try:
+        return Path(path).read_text()
+    except OSError:
+        return ""
+
+
+def cpu_of(work: Callable[[], Any]) -> float:
+    """CPU seconds of this process for a piece of work."""
+    start = time.process_time()
+    work()
+    return time.process_time() - start
+
+
+def wall_of(work: Callable[[], Any]) -> float:
+    """Seconds on the wall for a piece of work."""
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def interleaved(contestants: Mapping[str, Callable[[], float]], repeats: int) -> dict[str, float]:
+    """Medians of what each contestant returns, called in turn so that the machine's moods meet all alike."""
+    found: dict[str, list[float]] = {name: [] for name in contestants}
+    for _ in range(repeats):
+        for name, contestant in contestants.items():
+            found[name].append(contestant())
+    return {name: statistics.median(values) for name, values in found.items()}
+
+
+class Child(NamedTuple):
+    """What a process of its own found and used."""
+
+    result: Any
+    cpu: float
+    """Seconds, of the process and its own children."""
+    wall: float
+    peak: float
+    """Bytes."""
+
+
+def isolated(
+    function: Callable[..., Any], *arguments: Any, environment: Mapping[str, str] | None = None
+) -> Child:
+    """Call a function of one of these modules in a fresh process; arguments and result are as JSON has them.
+
+    Raises
+    ------
+    RuntimeError
+        If it failed, with what it said.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        answer = Path(folder) / "answer.json"
+        call = json.dumps([function.__module__, function.__qualname__, arguments, str(answer)])
+        paths = [str(TOOLS), str(TOOLS.parent), os.environ.get("PYTHONPATH", "")]
+        variables = {**os.environ, **(environment or {}), "PYTHONPATH": os.pathsep.join(filter(None, paths))}
+        done = subprocess.run(
+            [sys.executable, "-m", "benchmarks.records", call], env=variables, capture_output=True, text=True
+        )
+        if done.returncode != 0 or not answer.exists():
+            raise RuntimeError(f"{function.__qualname__}: {(done.stderr or done.stdout).strip()[-2000:]}")
+        return Child(**json.loads(answer.read_text()))
+
+
+def _serve(call: str) -> None:
+    module, name, arguments, answer = json.loads(call)
+    function = getattr(importlib.import_module(module), name)
+    start = time.perf_counter()
+    result = function(*arguments)
+    usage = os.times()
+    child = Child(result, sum(usage[:4]), time.perf_counter() - start, peak_memory())
+    Path(answer).write_text(json.dumps(child._asdict()))
+
+
+def rows(part: str, quantity: str, values: Mapping[str, float], unit: str, size: float = 0.0) -> list[Row]:
+    """A row for each subject."""
+    return [Row(part, quantity, subject, size, value, unit) for subject, value in values.items()]
+
+
+def as_rows(values: Sequence[Sequence[Any]]) -> list[Row]:
+    """Rows that have been through JSON."""
+    return [Row(*value) for value in values]
+
+
+if __name__ == "__main__":
+    _serve(sys.argv[1])

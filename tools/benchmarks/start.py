@@ -1,0 +1,61 @@
+"""How long the program takes to start: its help, its first run with compilation, and a later one."""
+
+from __future__ import annotations
+
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+from benchmarks import pipe
+from benchmarks.records import TOOLS, Options, Row, rows
+
+
+class Start(NamedTuple):
+    """Seconds on the wall and of CPU, and what was said."""
+
+    wall: float
+    cpu: float
+    said: str
+
+
+def _foamprb(cache: str, *arguments: str) -> Start:
+    path = os.pathsep.join(filter(None, (str(TOOLS.parent), os.environ.get("PYTHONPATH", ""))))
+    environment = {**os.environ, "FOAMPRB_CACHE_DIR": cache, "PYTHONPATH": path}
+    before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
+    done = subprocess.run(
+        [sys.executable, "-m", "foamprb", *arguments], env=environment, capture_output=True, text=True
+    )
+    wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode:
+        raise RuntimeError(f"foamprb {' '.join(arguments)}: {done.stderr[-1000:]}")
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return Start(wall, cpu, done.stdout + done.stderr)
+
+
+def measure(options: Options) -> list[Row]:
+    """Seconds on the wall; 1 if the first run says that it compiles."""
+    repeats = 3 if options.quick else 11
+    case = Path(pipe.case("5k"))
+    pipe.write_soft_cloud(case, 100, 2e-5, 1, 1)
+    run = ("run", "-case", str(case), "-threads", "1")
+    with tempfile.TemporaryDirectory() as cache:
+        first = _foamprb(cache, *run)
+        seconds = [_foamprb(cache, *run) for _ in range(repeats)]
+        helps = [_foamprb(cache, "-help") for _ in range(repeats)]
+    walls = {
+        "-help": statistics.median(start.wall for start in helps),
+        "first run": first.wall,
+        "second run": statistics.median(start.wall for start in seconds),
+    }
+    found = rows("start", "start", walls, "s")
+    cpu = {"-help": statistics.median(s.cpu for s in helps), "first run": first.cpu}
+    cpu["second run"] = statistics.median(s.cpu for s in seconds)
+    found += rows("start", "CPU of the start", cpu, "s")
+    found += rows("start", "first run says so", {"first run": float("ompil" in first.said)}, "")
+    return found

@@ -1,0 +1,83 @@
+"""The particle loop on one core against OpenFOAM's rigid point spheres, on the same mesh."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import foamprb
+from benchmarks import pipe
+from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+
+SOLVER = "icoUncoupledKinematicParcelFoam"
+STEP = {"paper": 2e-5, "rosenbrock": 1e-4, "stokes": 1e-4}
+"""Δt, s: the paper's scheme is stable below 9e-5; the others take OpenFOAM's step."""
+OPENFOAM_STEP = 1e-4
+
+
+class Tracker:
+    """Whole loop of an integrator: sampling, walking, shape, barycentre and wall test."""
+
+    def __init__(self, flow, n: int, integrator: str, steps: int, warm_up: int = 10) -> None:
+        self.cloud = pipe.soft_cloud(flow, n, STEP[integrator], integrator)
+        self.steps = steps
+        self.cloud.advance(warm_up)
+
+    def cost(self) -> float:
+        """Microseconds of CPU per particle-step."""
+        before = pipe.particle_steps(self.cloud)
+        spent = cpu_of(lambda: self.cloud.advance(self.steps))
+        return 1e6 * spent / (pipe.particle_steps(self.cloud) - before)
+
+
+def openfoam_environment() -> dict[str, str]:
+    """Variables under which OpenFOAM's programs start; Debian's need one that Debian does not set."""
+    debian = Path("/usr/share/openfoam")
+    return ({"WM_PROJECT_DIR": str(debian)} if debian.is_dir() else {}) | os.environ
+
+
+def openfoam_cost(case: Path, n: int, steps: int) -> float:
+    """Microseconds of CPU per parcel-step of OpenFOAM's solver, start and injection left out.
+
+    Raises
+    ------
+    RuntimeError
+        If the solver failed or lost parcels.
+    """
+    pipe.write_control(case, OPENFOAM_STEP, (steps + 5) * OPENFOAM_STEP)
+    done = subprocess.run([SOLVER], cwd=case, env=openfoam_environment(), capture_output=True, text=True)
+    times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", done.stdout)]
+    parcels = [int(m) for m in re.findall(r"Current number of parcels\s*= (\d+)", done.stdout)]
+    if done.returncode or len(times) < steps + 5:
+        raise RuntimeError(f"{SOLVER}: {(done.stderr or done.stdout)[-1000:]}")
+    if parcels[-1] < 0.99 * n:
+        raise RuntimeError(f"{SOLVER}: {parcels[-1]} of {n} parcels are left")
+    # The first steps inject, and bring the parcels from rest to the flow's velocity.
+    return 1e6 * (times[steps + 4] - times[4]) / sum(parcels[5 : steps + 5])
+
+
+def measure(options: Options) -> list[Row]:
+    """Cost per particle-step of all integrators and of OpenFOAM, and how it depends on their number."""
+    n, steps, repeats = (10_000, 10, 2) if options.quick else (100_000, 40, 5)
+    case = pipe.case("40k")
+    flow = foamprb.read_case(case)
+    contestants = {f"foamprb {name}": Tracker(flow, n, name, steps).cost for name in STEP}
+    if shutil.which(SOLVER):
+        pipe.write_parcels(case, pipe.positions(n))
+        contestants["OpenFOAM"] = lambda: openfoam_cost(case, n, steps)
+    costs = interleaved(contestants, repeats)
+    found = rows("tracker", "cost", costs, "us/particle-step", n)
+    if "OpenFOAM" in costs:
+        ratios = {name: value / costs["OpenFOAM"] for name, value in costs.items() if name != "OpenFOAM"}
+        found += rows("tracker", "cost over OpenFOAM's", ratios, "")
+    for size in (100, 1000, 10_000):
+        tracker = Tracker(flow, size, "paper", steps)
+        cost = interleaved({"foamprb paper": tracker.cost}, 3 * repeats)
+        found += rows("tracker", "cost by particles", cost, "us/particle-step", size)
+    found += rows(
+        "tracker", "cost by particles", {"foamprb paper": costs["foamprb paper"]}, "us/particle-step", n
+    )
+    return found
