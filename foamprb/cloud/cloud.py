@@ -167,25 +167,7 @@ class Cloud:
         _check(self.models)
         _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
-        bindings = dict(self.flow.kernels)
-        if self.models.touching == "centre":
-            bindings["gap"] = gap_free
-        bindings["traction"] = TRACTIONS[self.models.traction]
-        bindings["drag"] = DRAGS[self.models.drag]
-        material = MATERIALS[self.models.material]
-        bindings["derivatives"] = material.derivatives
-        if material.dilation is not None:
-            bindings["dilation"] = material.dilation
-        p = self.particles
-        if (np.eye(3).ravel() != p.F0).any():
-            bindings["finger"] = finger_of_ellipsoid
-        if (p.gamma != 0.0).any():
-            _refuse_tension(self.models)
-            bindings["interface"] = laplace_stress
-        loop = LOOPS[self.models.integrator]
-        bindings.update(loop.bindings)
-        # The walk and the wall test are long and called from several places: inlined they would multiply.
-        parts = (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
+        loop, bindings, separate = linkage(self.models, self.flow, self.particles)
         self._rows = loop.rows
         self._options = (self.models.tolerance,) if loop.adaptive else ()
         self._table = _patch_table(self.interactions)
@@ -193,10 +175,10 @@ class Cloud:
         if self.device == "cuda":
             require_device(self.device)
             self._device = import_module("foamprb.cloud.device").Device(
-                loop.entry, loop.rows, bindings, parts, self.medium, self._table, self._options
+                loop.entry, loop.rows, bindings, separate, self.medium, self._table, self._options
             )
         else:
-            self._track = link(loop.entry, bindings, separate=parts)
+            self._track = link(loop.entry, bindings, separate)
 
     @property
     def compiled(self) -> bool:
@@ -262,6 +244,7 @@ class Cloud:
 
     def _launch(self, device: Device, steps: int) -> None:
         device.hold(self.particles)
+        self._grow_reach(device.longest_semi_axis())
         device.launch(self._flow_arrays(), self.step, steps, self.dt, self.start)
 
     def _advance(self, steps: int) -> None:
@@ -271,6 +254,7 @@ class Cloud:
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
         rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
         blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
+        self._grow_reach(_longest_semi_axis(p))
         flow_arrays = self._flow_arrays()
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
@@ -304,14 +288,45 @@ class Cloud:
         link(contact_normals, bindings)(self._flow_arrays(), self.particles, rows, normals)
         return normals
 
-    def _flow_arrays(self) -> Any:
-        """The flow's arrays, with walls listed to well beyond the reach of the longest particle."""
-        device, p = self._device, self.particles
-        longest = _longest_semi_axis(p) if device is None else device.longest_semi_axis()
+    def _grow_reach(self, longest: float) -> None:
+        """See to it that walls are listed to well beyond the reach of the longest particle."""
         if longest * _REACH_MARGIN > self.reach:
             self.reach = 2.0 * _REACH_MARGIN * longest
+
+    def _flow_arrays(self) -> Any:
+        """The flow's arrays, with the walls within reach."""
         touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
         return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
+
+
+def linkage(
+    models: Models, flow: Flow, p: Particles
+) -> tuple[Loop, dict[str, Callable[..., Any]], tuple[Callable[..., Any], ...]]:
+    """The loop over particles that the models and the flow ask for, and how to link it.
+
+    Returns
+    -------
+    loop, bindings, separate
+        As :func:`foamprb.compile.link` takes the entry of the loop.
+    """
+    bindings = dict(flow.kernels)
+    if models.touching == "centre":
+        bindings["gap"] = gap_free
+    bindings["traction"] = TRACTIONS[models.traction]
+    bindings["drag"] = DRAGS[models.drag]
+    material = MATERIALS[models.material]
+    bindings["derivatives"] = material.derivatives
+    if material.dilation is not None:
+        bindings["dilation"] = material.dilation
+    if (np.eye(3).ravel() != p.F0).any():
+        bindings["finger"] = finger_of_ellipsoid
+    if (p.gamma != 0.0).any():
+        _refuse_tension(models)
+        bindings["interface"] = laplace_stress
+    loop = LOOPS[models.integrator]
+    bindings.update(loop.bindings)
+    # The walk and the wall test are long and called from several places: inlined they would multiply.
+    return loop, bindings, (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
 
 
 def _check(models: Models) -> None:
