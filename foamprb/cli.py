@@ -15,10 +15,13 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 import foamprb
-from foamprb.errors import InputError, RunStopped, suggestion
+from foamprb.errors import InputError, RankError, RunStopped, suggestion
 
 if TYPE_CHECKING:
+    from foamprb.flow.source import Source
+    from foamprb.parallel import Root
     from foamprb.settings import StartFrom
+    from foamprb.team import OnDevice
 
 _COMMANDS = ("run", "info", "validate")
 
@@ -56,6 +59,19 @@ def _parser() -> argparse.ArgumentParser:
     for command in (run, info):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         command.add_argument("--decomposed", action="store_true", help="read the processor folders")
+        command.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+        command.add_argument(
+            "--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's"
+        )
+        command.add_argument("--velocity", default="U", metavar="NAME", help="velocity field [U]")
+        command.add_argument("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+        divided = command.add_mutually_exclusive_group()
+        divided.add_argument(
+            "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
+        )
+        divided.add_argument(
+            "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
+        )
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -67,12 +83,14 @@ def _parser() -> argparse.ArgumentParser:
         "--resume", action="store_true", help="go on from the last checkpoint, if there is one"
     )
     start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
-    run.add_argument("--threads", type=int, metavar="N", help="number of threads [all processors]")
     run.add_argument(
-        "--device",
-        choices=("cpu", "cuda"),
-        default="cpu",
-        help="what advances the particles [cpu]",
+        "--threads", type=int, metavar="N", help="number of threads, of each process [all processors]"
+    )
+    run.add_argument(
+        "--parallel", action="store_true", help="share the particles among the processes of mpirun"
+    )
+    run.add_argument(
+        "--device", choices=("cpu", "cuda"), default="cpu", help="what advances the particles [cpu]"
     )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
@@ -86,15 +104,15 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(arguments: argparse.Namespace) -> int:
+def _run(arguments: argparse.Namespace, team: Root | None) -> int:
     from foamprb.run import describe, execute, prepare
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    threads = arguments.threads or (team.threads if team else None)
     time = "latestTime" if arguments.latestTime else arguments.time
-    job = prepare(
-        arguments.case, time, arguments.dict, arguments.threads, arguments.decomposed, arguments.device
-    )
+    on_device = _on_device(arguments, team)
+    job = prepare(arguments.case, time, arguments.dict, threads, _source(arguments))
     describe(job)
     if arguments.dry_run:
         steps = job.steps
@@ -106,14 +124,26 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"
     with _stopped_by_signals() as received:
+        elsewhere = team.signals if team else ()
         try:
-            execute(job, start_from, stop=lambda: bool(received))
+            execute(job, start_from, stop=lambda: bool(received or elsewhere), team=on_device or team)
         except RunStopped as stopped:
-            if not received:
+            signals: list[int] = [*received, *elsewhere]
+            if not signals:
                 raise
             print(f"--> foamprb {stopped}", file=sys.stderr)
-            return 128 + received[0]
+            return 128 + signals[0]
     return 0
+
+
+def _on_device(arguments: argparse.Namespace, team: Root | None) -> OnDevice | None:
+    if arguments.device == "cpu":
+        return None
+    if team is not None:
+        raise InputError("-device cuda does not go together with -parallel: it is for one process.")
+    from foamprb.team import OnDevice
+
+    return OnDevice()
 
 
 @contextmanager
@@ -142,17 +172,43 @@ def _stopped_by_signals() -> Iterator[list[int]]:
         restore()
 
 
-def _info(arguments: argparse.Namespace) -> int:
+def _source(arguments: argparse.Namespace) -> Source:
+    from foamprb.flow.meshfile import Division
+    from foamprb.flow.source import Source
+
+    angle = arguments.featureAngle
+    if angle is not None and not 0.0 < angle < 180.0:
+        raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
+    divided = arguments.patchArray or angle is not None
+    return Source(
+        arguments.flow,
+        arguments.region,
+        arguments.velocity,
+        arguments.gradient,
+        Division(arguments.patchArray, angle) if divided else None,
+        arguments.decomposed,
+    )
+
+
+def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.flow.decomposed import describe_decomposed, is_only_decomposed
+    from foamprb.flow.meshfile import describe_file
     from foamprb.flow.openfoam import describe
 
-    decomposed = arguments.decomposed or is_only_decomposed(arguments.case)
-    info = (describe_decomposed if decomposed else describe)(arguments.case)
-    print("\n".join(info.lines()))
+    source = _source(arguments)
+    if source.file is not None:
+        lines = describe_file(source.file, source.velocity, source.division)
+    elif source.decomposed or is_only_decomposed(arguments.case):
+        if source.region:
+            raise InputError(f"{arguments.case}: region {source.region} is not read from a decomposed case.")
+        lines = describe_decomposed(arguments.case).lines()
+    else:
+        lines = describe(arguments.case, source.region).lines()
+    print("\n".join(lines))
     return 0
 
 
-def _validate(arguments: argparse.Namespace) -> int:
+def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
 
@@ -189,8 +245,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
-    debug = "--debug" in words
     _log_to_stdout()
+    return _run_together(words) if "--parallel" in words else _answer(words)
+
+
+def _answer(words: Sequence[str], team: Root | None = None) -> int:
+    """Do what the words of the command line say."""
     try:
         command = next((word for word in words if not word.startswith("-")), None)
         if command is not None and words[0] == command and command not in _COMMANDS:
@@ -199,20 +259,46 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if parsed.command is None:
             _parser().print_help()
             return 1
-        commands: dict[str, Callable[[argparse.Namespace], int]] = {
+        commands: dict[str, Callable[[argparse.Namespace, Root | None], int]] = {
             "run": _run,
             "info": _info,
             "validate": _validate,
         }
-        return commands[parsed.command](parsed)
-    except (InputError, RunStopped, OSError) as error:
-        if debug:
+        return commands[parsed.command](parsed, team)
+    except (InputError, RunStopped, RankError, OSError) as error:
+        if "--debug" in words:
             raise
         print(f"--> foamprb Error : {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
         return 130
+
+
+def _run_together(words: Sequence[str]) -> int:
+    """Do what the words of the command line say with the other processes of ``mpirun``, if there are any."""
+    from foamprb.parallel import Rank, connect, is_first
+
+    try:
+        rank = connect()
+    except InputError as error:
+        if is_first():
+            print(f"--> foamprb Error : {error}", file=sys.stderr)
+        return 1
+    if rank is None:
+        return _answer(words)
+    if isinstance(rank, Rank):
+        logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
+        with _stopped_by_signals() as received:
+            return rank.serve(received)
+    status = 1
+    try:
+        status = _answer(words, rank)
+    except SystemExit as left:
+        status = 1 if left.code else 0
+    finally:
+        rank.dismiss(status)
+    return status
 
 
 if __name__ == "__main__":

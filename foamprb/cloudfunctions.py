@@ -117,10 +117,12 @@ class Functions:
         step = self._look.cloud.step
         for name, function in self.functions.items():
             if function.interval and step % function.interval == 0:
+                self._look.cloud.gather()
                 function.see(self._memory[name], self._look)
 
     def write(self, folder: Path) -> None:
         """Let every function look, and write into a folder of its name."""
+        self._look.cloud.gather()
         for name, function in self.functions.items():
             function.see(self._memory[name], self._look)
             function.write(self._memory[name], self._look, folder / name)
@@ -175,7 +177,7 @@ class ParticleTracks:
             "row": np.arange(tracks) * n // max(tracks, 1),
             "closed": np.zeros(tracks, dtype=bool),
             "count": np.zeros(tracks, dtype=np.int64),
-            "points": np.empty((tracks, min(self.maxSamples, 16), len(_POINT))),
+            "points": np.zeros((tracks, min(self.maxSamples, 16), len(_POINT))),
         }
         self._append(memory, look, np.arange(tracks))
         return memory
@@ -193,7 +195,7 @@ class ParticleTracks:
         at = memory["count"][tracks]
         room = memory["points"].shape[1]
         if len(at) and at.max() >= room:
-            more = np.empty((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
+            more = np.zeros((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
             memory["points"] = np.concatenate([memory["points"], more], axis=1)
         c = look.context(memory["row"][tracks])
         p, measured = c.particles, (MEASURES[name].value(c) for name in _TRACKED)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import re
+import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -172,13 +174,35 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     return root
 
 
+def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
+    """Read a file that is a list of named dictionaries with their number before it, as ``polyMesh/boundary``.
+
+    Parameters
+    ----------
+    path
+        The file, which may be compressed.
+    case
+        As in :func:`read_dictionary`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not such a list; with the line.
+    """
+    source = Source(path, case)
+    root = Dictionary("", None, source, 0)
+    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
+    return _Parser(source, text, including=()).counted_list(root)
+
+
 def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
     try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise mistake(error.strerror or "cannot be read") from error
+        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
+            return stream.read().decode("utf-8")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
+    except (OSError, EOFError, zlib.error) as error:
+        raise mistake(getattr(error, "strerror", None) or str(error) or "cannot be read") from error
 
 
 class _Token(NamedTuple):
@@ -278,8 +302,32 @@ class _Parser:
         self.fill(dictionary, opened=self.take())
         return dictionary
 
+    def counted_list(self, root: Dictionary) -> DictionaryList:
+        """Read a whole file ``FoamFile { … } 2 ( name { … } name { … } )``."""
+        if self.peek().text == _HEADER and self.peek(1).text == "{":
+            self.dictionary(self.take(), root)
+        count = self.take()
+        if not count.text.isascii() or not count.text.isdigit() or self.peek().text != "(":
+            raise self.mistake(count, "stands where a number and a list ( name { … } … ) are expected.")
+        name = self.source.path.name.removesuffix(".gz")
+        entries = self.items(_Token(name, count.line), root)
+        if self.peek().text == ";":
+            self.take()
+        if self.peek().text:
+            raise self.mistake(self.peek(), "stands behind the list.")
+        if int(count.text) != len(entries.items):
+            raise self.mistake(count, f"is not the number of entries of the list, {len(entries.items)}.")
+        return entries
+
     def dictionaries(self, key: _Token, parent: Dictionary) -> DictionaryList:
         """Read ``( name { … } name { … } );``."""
+        entry = self.items(key, parent)
+        if self.take().text != ";":
+            raise self.mistake(key, "has no closing ;.")
+        return entry
+
+    def items(self, key: _Token, parent: Dictionary) -> DictionaryList:
+        """Read ``( name { … } name { … } )``."""
         entry = DictionaryList(key.text, parent, self.source, key.line)
         self.take()
         while (name := self.take()).text != ")":
@@ -288,8 +336,6 @@ class _Parser:
                     name, f"in the list {entry.path} is not a name with its dictionary {{ … }}."
                 )
             entry.items.append(self.dictionary(name, entry))
-        if self.take().text != ";":
-            raise self.mistake(key, "has no closing ;.")
         return entry
 
     def stream(self, key: _Token) -> list[_Token]:

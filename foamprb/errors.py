@@ -14,6 +14,17 @@ class RunStopped(Exception):  # noqa: N818
     """A run that ended before its end time: its message says why, and how to go on."""
 
 
+class RankError(Exception):
+    """What went wrong on one of the processes of a parallel run, in words; ``trace`` says where."""
+
+    def __init__(self, message: str, trace: str) -> None:
+        super().__init__(message)
+        self.trace = trace
+
+    def __reduce__(self) -> tuple[type[RankError], tuple[str, str]]:
+        return RankError, (str(self), self.trace)
+
+
 def suggestion(found: str, allowed: Iterable[str]) -> str:
     """Say what is allowed, and which of it was probably meant.
 

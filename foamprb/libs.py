@@ -18,6 +18,11 @@ from foamprb.errors import InputError
 _loaded: dict[Path, tuple[str, tuple[str, ...]]] = {}
 
 
+def loaded_libs() -> tuple[Path, ...]:
+    """The files whose solids are known."""
+    return tuple(path for path, (digest, _) in _loaded.items() if digest)
+
+
 def load_libs(files: Iterable[Path]) -> None:
     """Run Python files, which add solids by :func:`foamprb.add_material`, and compile what they added.
 

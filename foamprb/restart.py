@@ -22,7 +22,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions import Functions
 from foamprb.errors import InputError
 from foamprb.output.checkpoint import Checkpoint
-from foamprb.output.vtk import Entry, read_pvd
+from foamprb.output.vtk import Entry, files_of, read_pvd
 from foamprb.settings import Settings
 
 Sums: TypeAlias = list[list[float]]
@@ -61,7 +61,7 @@ def save(
         "step": cloud.step,
         "recovered": cloud.recovered,
         "reach": cloud.reach,
-        "series": [list(entry) for entry in entries],
+        "series": _stems(entries),
         "fingerprint": marks,
     }
     arrays = {f"{_CLOUD}{name}": array for name, array in cloud.particles._asdict().items()}
@@ -97,8 +97,9 @@ def restore(
         )
     listed = read_pvd(pvd) if pvd.exists() else ()
     earlier = [entry for entry in listed if entry.time <= checkpoint.time]
-    missing = [entry.file for entry in earlier if not (pvd.parent / entry.file).exists()]
-    if earlier != [Entry(*entry) for entry in header["series"]] or missing:
+    files = [file for entry in earlier for file in files_of(pvd.parent / entry.file)]
+    missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
+    if _stems(earlier) != header["series"] or missing:
         fault = f"{missing[0]} is missing" if missing else f"{pvd.name} lists other times"
         raise InputError(
             f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or begin "
@@ -115,6 +116,11 @@ def restore(
     functions.restore(_part(checkpoint, _FUNCTIONS))
     cloud.particles = Particles(**arrays)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
+
+
+def _stems(entries: Sequence[Entry]) -> list[list[float | str]]:
+    """Times and files without their suffixes, which depend on how many processes wrote them."""
+    return [[entry.time, Path(entry.file).stem] for entry in entries]
 
 
 def _part(checkpoint: Checkpoint, prefix: str) -> dict[str, NDArray[Any]]:

@@ -22,29 +22,27 @@ from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_t
 from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models, available_threads, require_device
+from foamprb.cloud.cloud import Cloud, Models, available_threads
 from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
-from foamprb.cloud.measures import MEASURES, context, measure, shear_rate_at
+from foamprb.cloud.measures import context, measure, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
-from foamprb.compile import Target, cache_directory
+from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
-from foamprb.flow.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
-from foamprb.flow.openfoam import read_case
-from foamprb.flow.series import read_series
+from foamprb.flow.source import Source, read_flow, read_transient_flow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
-from foamprb.output.vtk import Series, Snapshot
+from foamprb.output.vtk import Series
 from foamprb.positions import read_positions
 from foamprb.restart import Fingerprint, fingerprint, restore, save
 from foamprb.settings import InjectionSettings, Settings, Solution, StartFrom, match_patches, read_settings
+from foamprb.team import Serial, Team, View
 
 log = logging.getLogger("foamprb")
 
-_CHUNK_OF_WORK: dict[Target, int] = {"cpu": 10_000_000, "cuda": 1_000_000_000}
 _MAX_LISTED_FAILURES = 10
 TIME_TOLERANCE = 1e-9
 """Relative error of a time that has been written and read."""
@@ -67,7 +65,7 @@ class Job:
     @property
     def folder(self) -> Path:
         """Where the results go."""
-        return self.settings.case / "postProcessing" / self.settings.name
+        return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
 
     @property
     def steps(self) -> int:
@@ -85,8 +83,7 @@ def prepare(
     time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
-    decomposed: bool = False,
-    device: Target = "cpu",
+    source: Source | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -101,42 +98,39 @@ def prepare(
         Settings instead of ``constant/softCloudProperties``.
     threads
         Number of threads; all processors by default.
-    decomposed
-        Read the flow from the processor folders even if there is one beside them.
-    device
-        What advances the particles, as :class:`~foamprb.cloud.cloud.Cloud` has it.
+    source
+        The mesh file or region to read, and the names of its fields, if they are not the usual ones.
 
     Raises
     ------
     InputError
-        If the case, the flow, the settings or the device cannot be used: what, where, and what is allowed.
+        If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
-    require_device(device)
     case = Path(case)
-    settings = read_settings(case, dictionary)
-    log.info("Reading flow of case %s", case)
-    flow = _read_flow(settings, time, decomposed or is_only_decomposed(case))
+    source = source or Source()
+    settings = read_settings(case, dictionary, source.region)
+    log.info("Reading flow of case %s", case if source.file is None else source.file)
+    flow = _read_flow(settings, time, source)
     for note in flow.notes:
         log.info("    %s", note)
-    return assemble(settings, flow, threads, device)
+    return assemble(settings, flow, threads)
 
 
-def _read_flow(settings: Settings, time: float | str | None, decomposed: bool) -> Flow:
-    case, solution = settings.case, settings.solution
+def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
+    solution = settings.solution
     if solution.transient:
-        times = None if time is None else str(time)
-        read = read_decomposed_series if decomposed else read_series
-        return read(case, times, solution.period)
+        return read_transient_flow(
+            settings.case, None if time is None else str(time), solution.period, source
+        )
     if isinstance(time, str) and re.search(r"[:,\s]", time):
         raise InputError(
             f"{settings.file}: solution/transient is no, but -time '{time}' selects several times: set "
             "transient yes, or select one time."
         )
-    read_one = read_decomposed_case if decomposed else read_case
-    return read_one(case, "latestTime" if time is None else time)
+    return read_flow(settings.case, "latestTime" if time is None else time, source)
 
 
-def assemble(settings: Settings, flow: Flow, threads: int | None = None, device: Target = "cpu") -> Job:
+def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     """Put the particles that the settings ask for into a flow.
 
     Raises
@@ -180,7 +174,6 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, device:
             models,
             threads or available_threads(),
             start=start,
-            device=device,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -263,7 +256,6 @@ def describe(job: Job) -> list[str]:
              ", gravity" if any(settings.gravity) else "",
              ", pressureGradient" if settings.pressure_gradient else "",
              f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
-    log.info("Selecting device %s", cloud.device_name)
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
@@ -304,7 +296,10 @@ def _log_groups(g: Groups) -> None:
 
 
 def execute(
-    job: Job, start_from: StartFrom | None = None, stop: Callable[[], bool] = lambda: False
+    job: Job,
+    start_from: StartFrom | None = None,
+    stop: Callable[[], bool] = lambda: False,
+    team: Team | None = None,
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
@@ -321,6 +316,8 @@ def execute(
         but not in place of an unfinished one.
     stop
         Asked every second or so: true to write a checkpoint and end the run.
+    team
+        The processes that share the particles; this one alone by default.
 
     Returns
     -------
@@ -336,12 +333,14 @@ def execute(
     """
     try:
         with only_writer(job.folder):
-            return _execute(job, start_from or job.settings.solution.startFrom, stop)
+            return _execute(job, start_from or job.settings.solution.startFrom, stop, team or Serial())
     except OSError as error:
         raise RunStopped(f"{str(error).rstrip('.')}. {_HOW_TO_GO_ON}") from error
 
 
-def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -> dict[Status, int]:
+def _execute(
+    job: Job, start_from: StartFrom | None, stop: Callable[[], bool], team: Team
+) -> dict[Status, int]:
     solution, cloud = job.settings.solution, job.cloud
     last = job.steps
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
@@ -351,17 +350,21 @@ def _execute(job: Job, start_from: StartFrom | None, stop: Callable[[], bool]) -
     started, cpu = clock.perf_counter(), clock.process_time()
     reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
     failing = _failing(job)
+    team.take(cloud)
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
     log.info("\nStarting time loop\n")
     with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
-            following = min(last, target + per_write)
-            if not _advance_to(job, target, following, show, stop):
+            reached = _advance_to(job, target, show, stop)
+            if reached and target < last and _moving(cloud):
+                cloud.begin(_next_chunk(job, min(last, target + per_write)))
+            cloud.gather()
+            if not reached:
                 checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
                 raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
-            series.append(snapshot(job))
+            team.write(series, cloud, view(job))
             job.functions.write(job.folder)
             checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
             _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
@@ -421,35 +424,31 @@ def _failing(job: Job) -> str:
 
 
 def _moving(cloud: Cloud) -> bool:
-    counts = cloud.particles.counts()
+    counts = cloud.counts()
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance_to(
-    job: Job, target: int, following: int, show: Callable[[float], None], stop: Callable[[], bool]
-) -> bool:
-    """Advance to a step, from which the run goes on to the following; whether it was reached."""
+def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Callable[[], bool]) -> bool:
+    """Advance to a step; whether it was reached before ``stop`` said so."""
     cloud = job.cloud
     while cloud.step < target and _moving(cloud):
         if stop():
-            cloud.fetch()
             return False
         until = job.functions.next_look(target)
-        cloud.advance(_next_chunk(job, until))
+        cloud.advance(_next_chunk(job, target))
         if cloud.step == until:
-            cloud.fetch()
             job.functions.see()
         show(cloud.time)
     cloud.step = target
-    cloud.fetch(ahead=_next_chunk(job, job.functions.next_look(following)) if _moving(cloud) else 0)
     return True
 
 
-def _next_chunk(job: Job, until: int) -> int:
-    """Number of steps that the cloud takes at once on its way to a step."""
-    counts = job.cloud.particles.counts()
+def _next_chunk(job: Job, target: int) -> int:
+    """Number of steps that the cloud takes at once on its way to a target."""
+    cloud = job.cloud
+    counts = cloud.counts()
     work = counts[Status.PENDING] + counts[Status.ACTIVE]
-    return min(until - job.cloud.step, max(1, _CHUNK_OF_WORK[job.cloud.device] // work))
+    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.crew.at_once // work))
 
 
 @contextmanager
@@ -466,22 +465,15 @@ def _progress(start: float, end: float) -> Iterator[Callable[[float], None]]:
         yield lambda t: progress.update(task, completed=min(t, end) - start)
 
 
-def snapshot(job: Job) -> Snapshot:
-    """The injected particles as they are now, with everything that is reported of them."""
-    cloud = job.cloud
-    c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
-    return Snapshot(
-        cloud.time,
-        c.particles.x,
-        measure(c),
-        {name: m.unit for name, m in MEASURES.items()},
-        {
-            "status": STATUS_NAMES,
-            "reason": tuple(REASONS[reason] for reason in Reason),
-            "patch": job.patch_names,
-            "injector": tuple(injection.name for injection in job.settings.injections),
-        },
-    )
+def view(job: Job) -> View:
+    """What it takes to report a job's particles."""
+    names: dict[str, tuple[str, ...]] = {
+        "status": STATUS_NAMES,
+        "reason": tuple(REASONS[reason] for reason in Reason),
+        "patch": job.patch_names,
+        "injector": tuple(injection.name for injection in job.settings.injections),
+    }
+    return View(names, job.cloud.medium.mu)
 
 
 def _log_time(job: Job, cpu: float, wall: float) -> None:

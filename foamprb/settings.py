@@ -26,7 +26,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
 from foamprb.cloud.injection import INJECTIONS, Injection
-from foamprb.cloud.patches import INTERACTIONS, Escape, Interaction, Rebound
+from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
 from foamprb.cloud.shapes import SHAPES, Ellipsoid, Shape, Sphere
 from foamprb.cloudfunctions import FUNCTIONS, CloudFunction
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
@@ -157,9 +157,10 @@ class Settings:
     functions: Mapping[str, CloudFunction]
     pressure_gradient: bool = False
     virtual_mass: float = 0.0
+    region: str = ""
 
 
-def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
+def read_settings(case: Path, dictionary: Path | None = None, region: str = "") -> Settings:
     """Read and validate the settings of a cloud.
 
     Parameters
@@ -169,18 +170,20 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         particle forces, g from its ``constant/g``.
     dictionary
         The cloud's dictionary, relative to the case; ``constant/softCloudProperties`` by default.
+    region
+        Region of the mesh: its files in ``constant/REGION`` go before those in ``constant``.
 
     Raises
     ------
     InputError
         At the first mistake: the file, the line, the entry's path, what was found and what is allowed.
     """
-    file = case / (dictionary or DICTIONARY)
+    file = case / (dictionary or _of_region(case, region, DICTIONARY.name))
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         load_libs(read_entry(root, "libs", Files))
     cloud = read_entries(_CloudProperties, root, also=("libs",))
-    fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case))
+    fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case, region))
     models = cloud.subModels
     patches, touching = _patch_interaction(models.patchInteractionModel, root.at("subModels").dictionary())
     return Settings(
@@ -189,7 +192,7 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         name=file.stem.removesuffix("Properties") or file.stem,
         solution=_solution(cloud.solution, root),
         fluid=fluid,
-        gravity=_gravity(case) if models.particleForces.gravity else (0.0, 0.0, 0.0),
+        gravity=_gravity(case, region) if models.particleForces.gravity else (0.0, 0.0, 0.0),
         traction=models.tractionModel,
         drag=models.particleForces.ellipsoidDrag.type,
         injections=_injections(models.injectionModels, cloud.constantProperties, root, fluid),
@@ -199,7 +202,14 @@ def read_settings(case: Path, dictionary: Path | None = None) -> Settings:
         functions=_functions(cloud.cloudFunctions),
         pressure_gradient=models.particleForces.pressureGradient is not None,
         virtual_mass=models.particleForces.virtualMass.Cvm if models.particleForces.virtualMass else 0.0,
+        region=region,
     )
+
+
+def _of_region(case: Path, region: str, name: str) -> Path:
+    """A file of a region, or of the case where the region has none, relative to the case."""
+    own = Path("constant") / region / name
+    return own if (case / own).is_file() else Path("constant") / name
 
 
 def _solution(entries: _Solution, root: Dictionary) -> Solution:
@@ -407,18 +417,19 @@ def _patch_rule(dictionary: Dictionary) -> PatchRule:
     return PatchRule(pattern, interaction, regex)
 
 
-def _viscosity(case: Path) -> float:
+def _viscosity(case: Path, region: str) -> float:
     """Read ν, m2/s, with its name and dimensions or without."""
-    root = read_dictionary(case / "constant/transportProperties", case)
+    root = read_dictionary(case / _of_region(case, region, "transportProperties"), case)
     if "transportModel" in root.entries:
         read_entry(root, "transportModel", Literal["Newtonian"])
     coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
     return float(read_entry(coefficients, "nu", Annotated[Viscosity, Positive]))
 
 
-def _gravity(case: Path) -> Vector3:
+def _gravity(case: Path, region: str) -> Vector3:
     """Read g, m/s2."""
-    g: Vector3 = read_entry(read_dictionary(case / "constant/g", case), "value", Vector3)
+    root = read_dictionary(case / _of_region(case, region, "g"), case)
+    g: Vector3 = read_entry(root, "value", Vector3)
     return g
 
 
@@ -427,12 +438,14 @@ def _gravity(case: Path) -> Vector3:
 
 
 class Patch(Protocol):
-    """A boundary patch of a mesh: its name, and OpenFOAM's type (``patch``, ``wall``, ``symmetry``, …)."""
+    """A boundary patch: its name, OpenFOAM's type (``patch``, ``wall``, …), the patch it is coupled to."""
 
     @property
     def name(self) -> str: ...  # noqa: D102
     @property
     def type(self) -> str: ...  # noqa: D102
+    @property
+    def neighbour(self) -> str: ...  # noqa: D102
 
 
 _MIRRORS = frozenset({"empty", "symmetry", "symmetryPlane", "wedge"})
@@ -445,8 +458,8 @@ def match_patches(
     """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
-    of that name, as does a patch of a constraint type). Without a rule, symmetry planes, wedges and empty
-    patches mirror the particle.
+    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a cyclic
+    patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
 
     Parameters
     ----------
@@ -458,7 +471,7 @@ def match_patches(
     Raises
     ------
     InputError
-        If a rule matches no patch, or a patch that mirrors nothing is left without a rule.
+        If a rule matches no patch, or a patch of another kind is left without a rule.
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     for rule in rules:
@@ -472,10 +485,18 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
+    if patch.neighbour and patch.type in ("cyclic", "wedge"):
+        return Cyclic()
     if patch.type in _MIRRORS:
-        return Rebound(e=1.0, mu=0.0)
+        return Mirror()
+    if patch.type == "cyclic":
+        raise InputError(f"{where}: the cyclic patch '{patch.name}' names no neighbourPatch to go on from.")
     if patch.type.startswith(_COUPLED):
-        raise InputError(f"{file}: particles cannot yet pass through '{patch.name}', a {patch.type} patch.")
+        raise InputError(
+            f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
+            "coupled patches only cyclic ones, whose faces fit one to one, let them through. Give it an "
+            f"entry of its own ({', '.join(INTERACTIONS)})."
+        )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 
 

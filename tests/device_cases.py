@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from test_flow_shapes import block, box_patches
 
-from foamprb import analytic, execute, prepare
+from foamprb import analytic
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Models
@@ -22,6 +22,8 @@ from foamprb.cloud.state import Particles, spheres
 from foamprb.errors import RunStopped
 from foamprb.flow.mesh import build_mesh
 from foamprb.flow.walk import MeshFlow
+from foamprb.run import execute, prepare
+from foamprb.team import OnDevice
 
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
@@ -37,7 +39,7 @@ def walk_fails(flow, host, x0, x1):
     return host, 0.0, -2, -1
 
 
-def pipe_cloud(integrator, device):
+def pipe_cloud(integrator):
     """Particles that rest on the wall, leave, move on, and appear within the run and after it."""
     mean, dt = WALL_RATE * RADIUS / 4, 4e-5
     x = [(0.001, 0.9 * RADIUS, 0.0), (0.0, -RADIUS + 2.51e-6, 0.0), (LENGTH - 1e-4, 0.0, 1e-4)]
@@ -47,10 +49,10 @@ def pipe_cloud(integrator, device):
     p.v[1], p.v[2] = (0.0, -1e-3, 0.0), (0.9, 0.0, 0.0)
     flow = analytic.pipe(RADIUS, mean, LENGTH)
     walls = (Stick(), Escape(), Escape())
-    return Cloud(p, flow, AIR, walls, dt, Models(integrator=integrator), 1, device=device)
+    return Cloud(p, flow, AIR, walls, dt, Models(integrator=integrator), 1)
 
 
-def box_cloud(integrator, device):
+def box_cloud(integrator):
     """Particles in a box that stick to its floor, leave through its lid and rebound from its sides."""
     shape = block(2, 0.25, "mixed")
     mesh = build_mesh(shape, box_patches(shape))
@@ -70,15 +72,15 @@ def box_cloud(integrator, device):
         p.x[:, 2] = 0.0105, 0.9999, 0.5, 0.5, 0.4
         p.x[2, 1] = 0.9895
     walls = [kinds[patch.name] for patch in flow.patches]
-    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator), 1, device=device)
+    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator), 1)
 
 
-def mended_cloud(device):
+def mended_cloud():
     """A particle whose walks fail and are mended by the tree."""
     flow = analytic.shear(100.0)
     flow.kernels = flow.kernels | {"walk": walk_fails, "recover": recover_everywhere}
     p = spheres(np.zeros((3, 3)), d=5e-6, rho=2560.0, mu=1.0)
-    return Cloud(p, flow, AIR, (), 1e-5, Models(), 1, device=device)
+    return Cloud(p, flow, AIR, (), 1e-5, Models(), 1)
 
 
 def states(device):
@@ -86,14 +88,20 @@ def states(device):
     found = {}
     for make in (pipe_cloud, box_cloud):
         for integrator in INTEGRATORS:
-            cloud = make(integrator, device)
+            cloud = on(device, make(integrator))
             cloud.advance(STEPS)
             found |= state(f"{make.__name__} {integrator}", cloud)
     return found
 
 
+def on(device, cloud):
+    if device == "cuda":
+        OnDevice().take(cloud)
+    return cloud
+
+
 def state(name, cloud):
-    cloud.fetch()
+    cloud.gather()
     p = cloud.particles
     return {f"{name}/{key}": array.copy() for key, array in zip(Particles._fields, p, strict=True)}
 
@@ -102,15 +110,19 @@ def states_by_pieces(device):
     """The same of the pipe, in steps that were begun ahead or not, and went on in another cloud."""
     found = {}
     for integrator in INTEGRATORS:
-        cloud = pipe_cloud(integrator, device)
+        cloud = on(device, pipe_cloud(integrator))
         cloud.advance(3)
-        cloud.fetch(ahead=4)
+        cloud.begin(4)
         found |= state(f"early {integrator}", cloud)
         cloud.advance(4)
-        cloud.fetch(ahead=3)
-        cloud.advance(2)
-        cloud.fetch(ahead=1)
-        other = pipe_cloud(integrator, device)
+        cloud.begin(3)
+        cloud.gather()
+        cloud.advance(1)
+        cloud.begin(1)
+        cloud.advance(1)
+        cloud.gather()
+        cloud.begin(1)
+        other = on(device, pipe_cloud(integrator))
         other.particles = Particles(*(array.copy() for array in cloud.particles))
         other.step, other.reach = cloud.step, cloud.reach
         other.advance(STEPS - other.step)
@@ -119,9 +131,9 @@ def states_by_pieces(device):
 
 
 def run_in_two_parts(case):
-    job = prepare(case, device="cuda")
+    job = prepare(case)
     with pytest.raises(RunStopped):
-        execute(job, stop=lambda: job.cloud.step >= 5)
+        execute(job, stop=lambda: job.cloud.step >= 5, team=OnDevice())
     assert main(["run", "-case", case, "-device", "cuda", "-resume"]) == 0
 
 
@@ -129,7 +141,7 @@ if __name__ == "__main__":
     file, whole, stopped = sys.argv[1:]
     # Lanes that are not used may divide by zero, as in the compiled code.
     warnings.simplefilter("ignore")
-    mended = mended_cloud("cuda")
+    mended = on("cuda", mended_cloud())
     mended.advance(3)
     mended.advance(1)
     found = states("cuda") | states_by_pieces("cuda") | {"mended": np.array(mended.recovered)}

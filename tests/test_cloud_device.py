@@ -15,7 +15,7 @@ import pytest
 from test_run import copy_of_pipe, edit, fates
 from test_run_restart import results
 
-import foamprb.cloud.cloud
+import foamprb.team
 from foamprb.cli import main
 from foamprb.cloud.state import Particles, Status
 
@@ -123,11 +123,11 @@ class TestSimulated:
 
 class TestRefusal:
     def test_a_missing_package_is_one_message(self, cases, monkeypatch, capsys):
-        monkeypatch.setattr(foamprb.cloud.cloud, "find_spec", lambda _: None)
+        monkeypatch.setattr(foamprb.team, "find_spec", lambda _: None)
         assert main(["run", "-case", str(cases[0]), "-device", "cuda"]) == 1
         error = capsys.readouterr().err
         assert re.fullmatch(
-            r"--> foamprb Error : device cuda: .*numba-cuda is missing.*foamprb\[cuda\]'\n", error
+            r"--> foamprb Error : -device cuda needs numba-cuda: .*'foamprb\[cuda\]'\.\n", error
         )
 
     @needs_numba_cuda

@@ -5,10 +5,11 @@ from __future__ import annotations
 import gzip
 import re
 import shutil
+import tempfile
 
 import numpy as np
 import pytest
-from test_flow_openfoam import GRADIENT, header, rows, write_case
+from foam_writer import GRADIENT, header, rows, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
@@ -148,11 +149,16 @@ def test_compressed_files_are_read_alike(case):
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
 
 
-def test_the_temporary_folder_goes_with_the_flow(written):
+def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     whole = Rebuilt(written)
     folder = whole.folder
     assert (folder / "constant/polyMesh/points").is_file()
     del whole
+    assert not folder.exists()
+    flow = read_decomposed_case(written)
+    (folder,) = tmp_path.iterdir()
+    del flow
     assert not folder.exists()
 
 

@@ -8,7 +8,9 @@ from hypothesis import strategies as st
 from test_flow_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches, polyhedra
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh import Patch, build_mesh
+from foamprb.flow.mesh import Patch, PatchSurface, build_mesh
+from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.walk import MeshFlow
 
 
 def volumes(mesh):
@@ -77,6 +79,23 @@ def test_inverted_tetrahedra_are_counted():
     assert mesh.inverted == np.count_nonzero(volumes(mesh) <= 0.0) > 0
 
 
+def test_the_faces_of_a_cell_around_another_turn_outwards():
+    """A cell like a U, its middle outside it, and the cell that fills the U."""
+    outline = np.array([(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], dtype=float)
+    points = np.concatenate([np.column_stack([outline, np.full(8, z)]) for z in (0.0, 1.0)])
+
+    def prism(corners):
+        walls = [[a, b, b + 8, a + 8] for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
+        return [corners, [k + 8 for k in corners], *walls]
+
+    mesh = build_mesh(polyhedra(points, [prism(list(range(8))), prism([5, 4, 3, 6])]))
+    assert mesh.volumes == pytest.approx([7.0, 2.0])
+    assert mesh.n_internal == 3
+    assert np.sum(volumes(mesh)) == pytest.approx(9.0)
+    outward = mesh.boundary_centres - np.array([1.5, 1.5, 0.5])
+    assert np.all(np.einsum("fi,fi->f", outward, mesh.boundary_areas) > 0.0)
+
+
 def test_faces_of_six_vertices():
     angle = np.arange(6) * np.pi / 3.0
     ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(6)])
@@ -122,6 +141,42 @@ def test_two_patches_on_the_same_points_are_told_apart():
     normals = mesh.triangle_normals[:, 0]
     assert np.all(normals[mesh.triangle_patch == 1] == -1.0)
     assert np.all(normals[mesh.triangle_patch == 2] == 1.0)
+
+
+@pytest.mark.parametrize(("whole", "copies"), [(True, 25), (False, 10)])
+def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
+    """Two patches on the same interior faces, across the whole box or half of it."""
+    shape = block(4, 0.0)
+    points = np.asarray(shape.points)
+    hexes = shape.cells.reshape(-1, 9)[:, 1:]
+    middle = points[hexes].mean(axis=1)
+    at = np.flatnonzero((np.abs(middle[:, 0] - 0.375) < 1e-9) & (whole | (middle[:, 1] < 0.5)))
+    front = hexes[at][:, [1, 2, 6, 5]]
+    sides = {"west": front, "east": front[:, ::-1]}
+    patches = [
+        PatchSurface(name, "wall", pyvista.PolyData(points, np.column_stack([np.full(len(f), 4), f]).ravel()))
+        for name, f in sides.items()
+    ]
+    mesh = build_mesh(shape, [*box_patches(shape), *patches])
+    assert np.diff(mesh.patch_start)[3:].tolist() == [len(at), len(at)]
+    assert mesh.n_points == 125 + copies
+    assert mesh.inverted == 0
+    normals = mesh.triangle_normals[:, 0]
+    assert np.all(normals[mesh.triangle_patch == 3] == -1.0)
+    assert np.all(normals[mesh.triangle_patch == 4] == 1.0)
+    if not whole:
+        return
+    # A flow on one side alone; the wall between is at rest.
+    cells, faces = np.zeros((mesh.n_cells, 3)), np.zeros((len(mesh.boundary_centres), 3))
+    west = mesh.centres[:, 0] < 0.5
+    cells[west, 1] = 0.5 - mesh.centres[west, 0]
+    outer = mesh.patch_start[3]
+    faces[:outer, 1] = np.maximum(0.5 - mesh.boundary_centres[:outer, 0], 0.0)
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, faces))
+    x = np.column_stack([random.choice([0.45, 0.55], 100), 0.25 * random.random(100), random.random(100)])
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    assert u[:, 1] == pytest.approx(np.where(x[:, 0] < 0.5, 0.05, 0.0), abs=1e-12)
+    assert l[:, 1, 0] == pytest.approx(np.where(x[:, 0] < 0.5, -1.0, 0.0), abs=1e-11)
 
 
 def test_boundary_faces_without_patch_are_refused():

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import GRADIENT, Format, header, write_case
 from test_flow_shapes import block, box_patches, corners, grid, pipe
 
 from foamprb.errors import InputError
@@ -16,61 +17,7 @@ from foamprb.flow.meshfile import read_mesh_file
 from foamprb.flow.openfoam import available_times, describe, read_case, read_fields, select_time
 
 PIPE = Path(__file__).parents[1] / "cases" / "pipe"
-GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
-
-
-def header(kind, name, note=""):
-    noted = f'note "{note}";' if note else ""
-    return f"FoamFile\n{{\nversion 2.0; format ascii; class {kind}; object {name}; {noted}\n}}\n"
-
-
-def rows(values):
-    return "\n".join("(" + " ".join(f"{x:.9g}" for x in row) + ")" for row in values)
-
-
-def write_case(folder, kind="hexahedra", note=True):
-    """A case in OpenFOAM's ascii format, its velocity linear; floor and sides are walls."""
-    shape = block(2, 0.2, kind)
-    mesh = build_mesh(shape, box_patches(shape))
-    poly = folder / "constant" / "polyMesh"
-    poly.mkdir(parents=True)
-    (folder / "system").mkdir()
-    (folder / "system" / "controlDict").write_text(header("dictionary", "controlDict"))
-    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
-    counts = f"nPoints:{mesh.n_points}  nCells:{mesh.n_cells}  nFaces:{len(faces)}"
-    lists = {
-        "points": ("vectorField", rows(mesh.points), mesh.n_points),
-        "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in faces), len(faces)),
-        "owner": ("labelList", "\n".join(map(str, mesh.owner)), len(faces)),
-        "neighbour": ("labelList", "\n".join(map(str, mesh.neighbour)), mesh.n_internal),
-    }
-    for name, (cls, body, count) in lists.items():
-        (poly / name).write_text(header(cls, name, counts if note else "") + f"{count}\n(\n{body}\n)\n")
-    patches, values = "", ""
-    for patch, first, last in zip(mesh.patches, mesh.patch_start[:-1], mesh.patch_start[1:], strict=True):
-        patches += (
-            f"    {patch.name} // a patch\n    {{ type {patch.type}; inGroups 1(some);"
-            f" nFaces {last - first}; startFace {mesh.n_internal + first}; }}\n"
-        )
-        at = mesh.boundary_centres[first:last] @ GRADIENT.T
-        values += f"{patch.name} {{ type fixedValue; value nonuniform List<vector> {len(at)}\n"
-        values += f"(\n{rows(at)}\n);\n}}\n"
-    (poly / "boundary").write_text(
-        header("polyBoundaryMesh", "boundary") + f"{len(mesh.patches)}\n(\n{patches})\n"
-    )
-    for time in ("0", "0.5", "1e1"):
-        (folder / time).mkdir()
-        cells = rows(mesh.centres @ GRADIENT.T)
-        (folder / time / "U").write_text(
-            header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
-            f"internalField nonuniform List<vector> {mesh.n_cells}\n(\n{cells}\n);\n"
-            f"boundaryField\n{{\n{values}}}\n"
-        )
-        (folder / time / "p").write_text(
-            header("volScalarField", "p") + "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 0;\n"
-            "boundaryField { floor { type none; } sides { type none; } lid { type none; } }\n"
-        )
-    return mesh
+POLY = "constant/polyMesh/"
 
 
 @pytest.fixture
@@ -99,6 +46,19 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
     assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
 
 
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("scalar", [32, 64])
+@pytest.mark.parametrize("kind", ["mixed", "polyhedra"])
+@pytest.mark.parametrize("compressed", [False, True])
+def test_binary_cases(label, scalar, kind, compressed, tmp_path):
+    written = write_case(tmp_path, kind, form=Format(True, label, scalar, compressed))
+    mesh, cells, boundary, _ = read_fields(tmp_path)
+    assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
+    assert np.array_equal(mesh.patch_start, written.patch_start)
+    assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
+    assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
+
+
 def test_the_flow_of_a_case(case, random):
     flow = read_case(case, 0.5)
     points = random.random((200, 3))
@@ -115,7 +75,7 @@ def test_compressed_files_are_read(case):
         (path.parent / (path.name + ".gz")).write_bytes(gzip.compress(path.read_bytes()))
         path.unlink()
     assert np.array_equal(read_fields(case)[1], before)
-    assert describe(case).patches[0] == ("floor", "wall", 4)
+    assert describe(case).patches[0][:3] == ("floor", "wall", 4)
 
 
 def test_times_keep_their_names(case):
@@ -127,9 +87,92 @@ def test_description(case):
     info = describe(case)
     assert [time.name for time in info.times] == ["0", "0.5", "1e1"]
     assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
-    assert info.patches == (("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16))
+    assert [p[:3] for p in info.patches] == [("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16)]
+    assert [p.start - info.patches[0].start for p in info.patches] == [0, 4, 8]
     assert (info.points, info.cells) == (27, {"hexahedron": 8})
     assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
+
+
+def test_regions(case):
+    whole = read_fields(case)
+    folders = [case / "constant", *(case / time for time in available_times(case))]
+    for folder in folders:
+        (folder / "air").mkdir()
+        for path in [p for p in folder.iterdir() if p.name != "air"]:
+            path.rename(folder / "air" / path.name)
+    shutil.copytree(case / "constant" / "air", case / "constant" / "iron")
+    mesh, cells, boundary, name = read_fields(case, region="air")
+    assert name == "1e1"
+    assert np.array_equal(mesh.tets, whole[0].tets)
+    assert np.array_equal(cells, whole[1])
+    assert np.array_equal(boundary, whole[2])
+    info = describe(case, "air")
+    assert (info.region, info.regions, info.points) == ("air", ("air", "iron"), 27)
+    assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
+    assert "Region  air" in info.lines()
+    with pytest.raises(
+        InputError, match=r"divided into regions; choose one with -region\. Allowed: air, iron"
+    ):
+        read_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_case(case, region="aire")
+    with pytest.raises(InputError, match=r"iron: no field U; the fields are \(none\)"):
+        read_case(case, region="iron")
+
+
+def test_a_case_of_one_mesh_has_no_regions(case):
+    with pytest.raises(InputError, match="no region air; the case is not divided into regions"):
+        read_case(case, region="air")
+
+
+def test_a_gradient_can_be_given(case, random):
+    gradients = random.random((8, 3, 3))
+    body = "\n".join("(" + " ".join(f"{x:.9g}" for x in g.T.ravel()) + ")" for g in gradients)
+    (case / "1e1" / "grad(U)").write_text(
+        header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+        f"internalField nonuniform List<tensor> 8\n(\n{body}\n);\n"
+        "boundaryField { floor { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "sides { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "lid { type calculated; value uniform (0 0 0 0 0 0 0 0 0); } }\n"
+    )
+    flow = read_case(case, gradient="grad(U)")
+    centres = flow.mesh.centres
+    u, l = flow.sample(centres, flow.locate(centres), 0.0)
+    assert l == pytest.approx(gradients, abs=1e-6)
+    assert u == pytest.approx(centres @ GRADIENT.T, abs=1e-5)
+    with pytest.raises(InputError, match="U: the class is volVectorField, but the gradient of a velocity is"):
+        read_case(case, gradient="U")
+    with pytest.raises(InputError, match=r"no field grad\(V\)"):
+        read_case(case, gradient="grad(V)")
+
+
+def test_cyclic_patches_of_a_case(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / "1e1" / "U", "floor { type fixedValue", "floor { type cyclic")
+    edit(tmp_path / "1e1" / "U", "lid { type fixedValue", "lid { type cyclic")
+    flow = read_case(tmp_path)
+    assert flow.patches[:2] == (Patch("floor", "cyclic", "lid"), Patch("lid", "cyclic", "floor"))
+    assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
+    assert np.array_equal(flow.mesh.couplings[0].turn, np.eye(3))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "replacement", "message"),
+    [
+        ("neighbourPatch lid", "neighbourPatch lib", r"lib of the cyclic patch floor is not there\. Did you"),
+        ("neighbourPatch lid", "neighbourPatch floor", "floor names floor as its neighbour"),
+        ("type cyclic; neighbourPatch lid", "type wall", "lid names floor .* floor is of type wall"),
+    ],
+)
+def test_cyclic_patches_that_do_not_fit(pattern, replacement, message, tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / POLY / "boundary", pattern, replacement)
+    with pytest.raises(InputError, match=message):
+        read_case(tmp_path)
 
 
 def cut(name, share=0.5):
@@ -167,7 +210,6 @@ def only_processors(case):
     shutil.rmtree(case / "constant" / "polyMesh")
 
 
-POLY = "constant/polyMesh/"
 BREAKAGES = {
     "no case": (lambda case: shutil.rmtree(case), "no such folder"),
     "no mesh": (remove(POLY[:-1]), "polyMesh: no mesh here; is .* an OpenFOAM case"),
@@ -186,11 +228,14 @@ BREAKAGES = {
     "U without a patch": (rewrite("1e1/U", "lid", "lit"), "no values could be read for patch lid"),
     "owner out of range": (
         rewrite(POLY + "owner", r"\n7\n", "\n9999\n"),
-        "header says nCells 8, but .* has 10000",
+        "owner: face 19 belongs to cell 9999, but there are 8 cells",
     ),
     "owner cut short": (cut(POLY + "owner"), "owner"),
     "neighbour cut short": (cut(POLY + "neighbour"), "neighbour"),
-    "neighbour out of range": (rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"), "has 78"),
+    "neighbour out of range": (
+        rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
+        "belongs to cell 77, but there are 8",
+    ),
     "faces cut short": (cut(POLY + "faces"), "faces"),
     "points cut short": (cut(POLY + "points"), "points"),
     "no points": (remove(POLY + "points"), "points"),
@@ -202,6 +247,16 @@ BREAKAGES = {
         "4 of 24 boundary faces",
     ),
     "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "do not match"),
+    "gap between patches": (rewrite(POLY + "boundary", "nFaces 4", "nFaces 3"), "lid starts at face"),
+    "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
+    "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
+    "patch size no number": (
+        rewrite(POLY + "boundary", "nFaces 16", "nFaces x"),
+        "sides/nFaces is 'x'",
+    ),
+    "too few patches": (rewrite(POLY + "boundary", r"\n3\n", "\n4\n"), "'4' is not the number of entries"),
+    "boundary is no list": (rewrite(POLY + "boundary", r"\n3\n", "\nthree\n"), "where a number and a list"),
+    "words behind the boundary": (rewrite(POLY + "boundary", r"\)\n$", ")\nmore\n"), "behind the list"),
 }
 
 
@@ -218,8 +273,27 @@ def test_a_broken_case_gives_its_one_message(name, case, capfd):
 def test_a_damaged_owner_is_found_without_the_note(tmp_path):
     write_case(tmp_path, note=False)
     edit(tmp_path / "constant" / "polyMesh" / "owner", r"\n7\n", "\n999\n")
-    with pytest.raises(InputError, match=r"VTK's OpenFOAM reader says: Number of cells"):
+    with pytest.raises(InputError, match="owner: face 19 belongs to cell 999, but there are 36"):
         read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("name", ["owner", "neighbour"])
+def test_a_label_of_some_billions_costs_no_memory(name, label, tmp_path):
+    write_case(tmp_path, form=Format(True, label), note=False)
+    path = tmp_path / POLY / name
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1
+    path.write_bytes(data[: at + 3] + b"\x70" + data[at + 4 :])
+    with pytest.raises(InputError, match=f"{name}: face 0 belongs to cell 1879048"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("value", ["1e35", "1e300"])
+def test_numbers_beyond_any_length_are_refused(value, case):
+    edit(case / POLY / "points", r"\n\(0 0 0\)", f"\n({value} 0 0)")
+    with pytest.raises(InputError, match="1 of 27 points are not finite numbers below 1e"):
+        read_case(case)
 
 
 @pytest.mark.parametrize(
@@ -267,9 +341,12 @@ def test_mesh_files(suffix, where, tmp_path, random):
     getattr(shape, where)["U"] = places @ GRADIENT.T
     path = tmp_path / f"flow{suffix}"
     if suffix == ".vtm":
-        pyvista.MultiBlock(
-            {"internal": shape, "wall": shape.extract_surface(algorithm="dataset_surface")}
-        ).save(path)
+        patches = {}
+        for patch in box_patches(shape):
+            places = patch.surface.points if where == "point_data" else patch.surface.cell_centers().points
+            getattr(patch.surface, where)["U"] = places @ GRADIENT.T
+            patches[patch.name] = patch.surface
+        pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(path)
     elif suffix == ".pvd":
         shape.save(tmp_path / "flow_1.vtu")
         path.write_text(
@@ -281,7 +358,9 @@ def test_mesh_files(suffix, where, tmp_path, random):
     else:
         shape.save(path)
     flow = read_mesh_file(path)
-    assert flow.patches == (Patch("boundary", "wall"),)
+    names = [patch.name for patch in box_patches(shape)]
+    several = tuple(Patch(name, "patch") for name in names)
+    assert flow.patches == (several if suffix == ".vtm" else (Patch("boundary", "wall"),))
     points = random.random((100, 3))
     u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
@@ -303,7 +382,7 @@ def test_other_names_of_the_velocity(tmp_path):
     path = tmp_path / "flow.vtu"
     shape.save(path)
     assert read_mesh_file(path, "velocity").mesh.n_cells == 8
-    with pytest.raises(InputError, match=r"no array U; the arrays are p, velocity\."):
+    with pytest.raises(InputError, match=r"no array U\. Allowed: p, velocity\."):
         read_mesh_file(path)
     with pytest.raises(InputError, match=r"array p has shape \(8,\)"):
         read_mesh_file(path, "p")

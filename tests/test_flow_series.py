@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from test_flow_openfoam import write_case
+from foam_writer import write_case
 from test_flow_shapes import block, box_patches
 
 from foamprb.cloud.block import Medium

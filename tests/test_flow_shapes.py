@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyvista
 
-from foamprb.flow.mesh import PatchSurface
+from foamprb.flow.mesh import PatchSurface, build_mesh
 
 HEXAHEDRON_FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
 KINDS = ("hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed")
@@ -134,3 +134,91 @@ def box_patches(mesh_grid):
         return "floor" if centre[2] < 1e-9 else "lid" if centre[2] > 1.0 - 1e-9 else "sides"
 
     return boundary(mesh_grid, name, {"floor": "wall", "lid": "patch", "sides": "wall"})
+
+
+def merged(grids):
+    """Grids of hexahedra side by side, points in the same place made one."""
+    points = np.concatenate([np.asarray(g.points) for g in grids])
+    first = np.concatenate([[0], np.cumsum([g.n_points for g in grids])[:-1]])
+    cells = np.concatenate(
+        [g.cells.reshape(-1, 9)[:, 1:] + start for g, start in zip(grids, first, strict=True)]
+    )
+    _, unique, place = np.unique(np.round(points, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
+    return grid(points[unique], [(12, place.reshape(-1)[cells])])
+
+
+def period(angle):
+    """Rotation and shift from one period to the next, straight along x or around the z axis."""
+    if angle == 0.0:
+        return np.eye(3), np.array([1.0, 0.0, 0.0])
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.zeros(3)
+
+
+def cyclic_row(angle, n, cells=4, perturbation=0.2):
+    """A mesh of n periods, unit cubes straight or bent, between two cyclic patches; the floor is a wall."""
+    shape = block(cells, perturbation)
+    turn, shift = period(angle)
+    if angle:
+        x, y, z = np.array(shape.points).T
+        shape.points = np.column_stack(
+            [(1.0 + y) * np.cos(np.radians(angle) * x), (1.0 + y) * np.sin(np.radians(angle) * x), z]
+        )
+    parts = [shape]
+    for _ in range(n - 1):
+        last = parts[-1].copy()
+        last.points = np.asarray(last.points) @ turn.T + shift
+        parts.append(last)
+
+    def name(centre):
+        along = centre[0] / n if angle == 0.0 else np.arctan2(centre[1], centre[0]) / np.radians(angle * n)
+        return "left" if along < 1e-9 else "right" if along > 1.0 - 1e-9 else floor(centre)
+
+    def floor(centre):
+        return "floor" if centre[2] < 1e-9 else "sides"
+
+    row = merged(parts)
+    patches = boundary(row, name, {"left": "cyclic", "right": "cyclic", "floor": "wall", "sides": "wall"})
+    patches[0] = patches[0]._replace(neighbour="right")
+    patches[1] = matching(patches[0], patches[1], turn, shift, n)._replace(neighbour="left")
+    return build_mesh(row, patches)
+
+
+def matching(left, right, turn, shift, n):
+    """The right patch with its faces in the order of those of the left."""
+    centres = np.array(left.surface.cell_centers().points)
+    for _ in range(n):
+        centres = centres @ turn.T + shift
+    distance = np.linalg.norm(centres[:, None] - right.surface.cell_centers().points[None], axis=2)
+    faces = right.surface.faces.reshape(-1, 5)[distance.argmin(axis=1)]
+    return right._replace(surface=pyvista.PolyData(np.array(right.surface.points), faces.ravel()))
+
+
+def wedge(n, angle=5.0):
+    """A sector about the z axis, one cell thick, n cells from the axis to r = 1 and n along z."""
+    half = np.radians(angle) / 2.0
+    i, k = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
+    r, z = i.ravel() / n, k.ravel() / n
+    sides = [np.column_stack([r * np.cos(a), r * np.sin(a), z]) for a in (-half, half)]
+    m = (n + 1) ** 2
+    # The axis has its points once.
+    points = np.concatenate([sides[0], sides[1][n + 1 :]])
+    back = np.concatenate([np.arange(n + 1), np.arange(m, len(points))])
+    cell = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), axis=-1).reshape(-1, 2)
+    a = cell[:, 0] * (n + 1) + cell[:, 1]
+    b, c, d = a + n + 1, a + n + 2, a + 1
+    ring = cell[:, 0] > 0
+    hexes = np.stack([a, b, back[b], back[a], d, c, back[c], back[d]], axis=1)[ring]
+    prisms = np.stack([a, b, back[b], d, c, back[c]], axis=1)[~ring]
+    return grid(points, [(12, hexes), (13, prisms)])
+
+
+def wedge_patches(shape, angle=5.0):
+    tangent = np.tan(np.radians(angle) / 2.0)
+
+    def name(x):
+        if abs(abs(x[1]) - tangent * x[0]) < 1e-9:
+            return "front" if x[1] < 0.0 else "back"
+        return "ends" if min(x[2], 1.0 - x[2]) < 1e-9 else "wall"
+
+    return boundary(shape, name, {"front": "wedge", "back": "wedge", "ends": "patch", "wall": "wall"})

@@ -271,8 +271,9 @@ def test_near_walls_lists_all_that_are_near():
     shape = pipe(6)
     mesh = build_mesh(shape, pipe_patches(shape))
     boxes, reach = cell_boxes(mesh), 0.11
-    start, near = near_walls(mesh, boxes, build_tree(boxes), reach, [2])
     corner = mesh.points[mesh.triangles]
+    walls = np.flatnonzero(mesh.triangle_patch == 2).astype(np.int32)
+    start, near = near_walls(mesh, boxes, build_tree(boxes), reach, walls, corner[walls])
     low, high = corner.min(axis=1) - reach, corner.max(axis=1) + reach
     for cell in range(mesh.n_cells):
         meets = np.all((boxes[cell, :3] <= high) & (boxes[cell, 3:] >= low), axis=1) & (

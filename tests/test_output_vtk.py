@@ -10,7 +10,17 @@ from limits import limit_of_file_size
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.output.vtk import Entry, Series, Snapshot, read_pvd, write_snapshot
+from foamprb.output.pieces import XMLPPolyDataReader
+from foamprb.output.vtk import (
+    Entry,
+    Series,
+    Snapshot,
+    files_of,
+    layout,
+    read_pvd,
+    write_pieces,
+    write_snapshot,
+)
 
 
 def cloud(time: float = 0.1, n: int = 4) -> Snapshot:
@@ -169,7 +179,7 @@ def test_broken_list_is_one_clear_message(tmp_path: Path, text: str) -> None:
 @pytest.mark.parametrize("file", ["../other.vtp", "/etc/x.vtp", "a/b.vtp", "notes.txt"])
 def test_list_may_not_name_files_elsewhere(tmp_path: Path, file: str) -> None:
     (tmp_path / "softCloud.pvd").write_text(f'<a><DataSet timestep="0" file="{file}"/></a>')
-    with pytest.raises(InputError, match=r"not a \.vtp file in its own folder"):
+    with pytest.raises(InputError, match=r"not a \.vtp or \.pvtp file in its own folder"):
         Series(tmp_path, "softCloud")
 
 
@@ -183,3 +193,53 @@ def test_times_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, time
 
 def fail(*_: object, **__: object) -> None:
     raise OSError("no space")
+
+
+def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[Snapshot, Path]:
+    """A cloud, and the file of its pieces of so many particles each."""
+    whole, first = cloud(n=sum(sizes)), 0
+    path, pieces = folder / "cloud_000000.pvtp", []
+    for i, n in enumerate(sizes):
+        rows = slice(first, first + n)
+        arrays = {name: array[rows] for name, array in whole.arrays.items()}
+        pieces.append(folder / "cloud_000000" / f"{i}.vtp")
+        write_snapshot(pieces[-1], Snapshot(whole.time, whole.points[rows], arrays, whole.units, whole.names))
+        first += n
+    write_pieces(path, layout(whole), pieces)
+    return whole, path
+
+
+@pytest.mark.parametrize("sizes", [(3, 2), (0, 4, 1), (0,)])
+def test_pieces_are_one_cloud(tmp_path: Path, sizes: tuple[int, ...]) -> None:
+    whole, path = in_pieces(tmp_path, sizes)
+    read = XMLPPolyDataReader(path).read()
+    np.testing.assert_array_equal(read.points, whole.points)
+    assert read.n_verts == sum(sizes)
+    for name, array in whole.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"][0] == whole.time
+    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+    assert [file.name for file in files_of(path)] == [path.name, *(f"{i}.vtp" for i in range(len(sizes)))]
+
+
+def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
+    series = Series(tmp_path, "cloud")
+    series.append(cloud(0.1))
+    for time in (0.2, 0.3):
+        stem = series.next(time)
+        write_snapshot(stem / "0.vtp", cloud(time))
+        write_pieces(stem.with_suffix(".pvtp"), layout(cloud(time)), [stem / "0.vtp"])
+        series.add(time, stem.with_suffix(".pvtp"))
+    # As of a run killed while it wrote the next.
+    write_snapshot(series.next(0.4) / "1.vtp", cloud(0.4))
+    series = Series(tmp_path, "cloud", after=0.2)
+    assert series.append(cloud(0.3)).name == "cloud_000002.vtp"
+    assert [entry.file for entry in read_pvd(series.pvd)] == [
+        "cloud_000000.vtp",
+        "cloud_000001.pvtp",
+        "cloud_000002.vtp",
+    ]
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "cloud.pvd", "cloud_000000.vtp", "cloud_000001", "cloud_000001.pvtp", "cloud_000002.vtp"
+    }  # fmt: skip

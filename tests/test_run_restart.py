@@ -21,8 +21,11 @@ from test_run import PIPE, copy_of_pipe, edit, message, time_folder
 import foamprb.run
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.cloud import Cloud
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
+from foamprb.output.vtk import Series
+from foamprb.team import Serial, View
 
 KILL_TEST = PIPE.parents[1] / "tools/kill_test"
 END, EARLIER = 0.006, 0.003
@@ -224,14 +227,14 @@ def test_two_runs_do_not_write_to_one_folder(stopped, capsys):
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
-    snapshot = foamprb.run.snapshot
+    write = Serial.write
 
-    def interrupted(job: foamprb.run.Job) -> object:
-        if job.cloud.step == 100:
+    def interrupted(team: Serial, series: Series, cloud: Cloud, view: View) -> None:
+        if cloud.step == 100:
             signal.raise_signal(number)
-        return snapshot(job)
+        write(team, series, cloud, view)
 
-    monkeypatch.setattr(foamprb.run, "snapshot", interrupted)
+    monkeypatch.setattr(Serial, "write", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert (

@@ -5,11 +5,12 @@ from __future__ import annotations
 import csv
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 import pyvista
-from test_flow_openfoam import header, write_case
+from foam_writer import header, write_case
 
 from foamprb.cli import main
 from foamprb.flow.openfoam import read_case
@@ -52,10 +53,8 @@ def scaled(text, factor):
     )
 
 
-@pytest.fixture(scope="module")
-def written(tmp_path_factory):
+def write_transient_case(case: Path) -> Path:
     """A linear velocity, whose factor is 0.01, 0.02 and −0.04 at the times 0, 0.5 and 1.5."""
-    case = tmp_path_factory.mktemp("transient") / "case"
     write_case(case)
     (case / "1e1").rename(case / "1.5")
     for time, factor in SCALE.items():
@@ -65,6 +64,11 @@ def written(tmp_path_factory):
     (case / "constant/positions").write_text("((0.5 0.5 0.5) (0.45 0.5 0.55))")
     (case / "constant/transportProperties").write_text("nu 1e-06;")
     return case
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    return write_transient_case(tmp_path_factory.mktemp("transient") / "case")
 
 
 @pytest.fixture

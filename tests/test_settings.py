@@ -25,7 +25,7 @@ from foamprb.cloud.injection import (
     ManualInjection,
     PatchInjection,
 )
-from foamprb.cloud.patches import INTERACTIONS, Escape, Rebound, Stick
+from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Mirror, Rebound, Stick
 from foamprb.cloud.shapes import SHAPES, Ellipsoid, Sphere
 from foamprb.cloudfunctions import (
     FUNCTIONS,
@@ -737,6 +737,7 @@ def test_includes(case: Path, read: Reader) -> None:
 class Patch(NamedTuple):
     name: str
     type: str = "patch"
+    neighbour: str = ""
 
 
 @pytest.mark.parametrize(
@@ -764,10 +765,15 @@ def test_the_first_rule_that_matches_counts(rules: list[PatchRule], expected: li
 
 def test_patches_of_a_constraint_type() -> None:
     planes = [Patch(name, name) for name in ("empty", "symmetry", "symmetryPlane", "wedge")]
-    assert match_patches([], planes) == [Rebound(e=1.0, mu=0.0)] * 4
+    assert match_patches([], planes) == [Mirror()] * 4
     assert match_patches([PatchRule("symmetry", Stick())], planes)[1] == Stick()
-    with pytest.raises(InputError, match="cannot yet pass through 'left', a cyclic patch"):
+    for kind in ("cyclic", "wedge"):
+        pair = [Patch("left", kind, "right"), Patch("right", kind, "left")]
+        assert match_patches([], pair) == [Cyclic()] * 2
+    with pytest.raises(InputError, match="the cyclic patch 'left' names no neighbourPatch"):
         match_patches([], [Patch("left", "cyclic")])
+    with pytest.raises(InputError, match="cannot pass through 'left', a patch of type cyclicAMI"):
+        match_patches([], [Patch("left", "cyclicAMI", "right")])
     assert match_patches([PatchRule("left", Escape())], [Patch("left", "cyclicAMI")]) == [Escape()]
 
 
@@ -789,8 +795,8 @@ def test_standard_wall_interaction(read: Reader) -> None:
         Patch("out", "mappedPatch"),
     ]
     bounce = Rebound(e=0.97, mu=0.09)
-    assert match_patches(settings.patches, patches) == [Escape(), bounce, Rebound(), Escape()]
-    with pytest.raises(InputError, match="cannot yet pass through"):
+    assert match_patches(settings.patches, patches) == [Escape(), bounce, Mirror(), Escape()]
+    with pytest.raises(InputError, match="names no neighbourPatch"):
         match_patches(settings.patches, [Patch("left", "cyclic")])
 
 

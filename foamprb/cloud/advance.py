@@ -61,6 +61,7 @@ from foamprb.cloud.block import (
     load_integrals,
     load_particle,
     new_frames,
+    renew_frames,
     resume_frames,
     save_particle,
     store3,
@@ -258,6 +259,7 @@ def track_block(
         if moving == 0:
             break
 
+        renew_frames(block)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):

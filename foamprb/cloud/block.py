@@ -35,8 +35,8 @@ AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
 AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
 AT_NEW_X, AT_K = 104, 107
 AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
-AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT = 122, 131, 132, 133
-ROWS = 134
+AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT, AT_RENEWED = 122, 131, 132, 133, 134
+ROWS = 135
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -135,6 +135,21 @@ def resume_frames(block: Any) -> None:
     stretch_stage(block)
     # For a particle that never moved, or whose F somebody set.
     straighten(block, _STORED_SKEWNESS)
+
+
+def renew_frames(block: Any) -> None:
+    """As :func:`resume_frames`, of lanes whose state was put there or turned since the last step."""
+    found = 0
+    for i in range(LANES):
+        if block[AT_RENEWED * LANES + i] > 0.0:
+            block[AT_RENEWED * LANES + i] = 0.0
+            found += 1
+            store9(block, AT_Q, i, load9(block, AT_FRAME, i))
+            store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+    if found:
+        stretch_stage(block)
+        straighten(block, _STORED_SKEWNESS)
+        integrals_stage(block)
 
 
 def frame_stage(block: Any) -> None:

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass, field
-from importlib import import_module
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,18 +31,15 @@ from foamprb.cloud.adaptive import (
 from foamprb.cloud.advance import STAGES, track_block
 from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.motion import PatchTable
-from foamprb.cloud.patches import ESCAPE, Interaction, Rebound
+from foamprb.cloud.motion import RARE, PatchTable
+from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import Target, is_compiled, link
+from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
-if TYPE_CHECKING:
-    from foamprb.cloud.device import Device
-
-__all__ = ["Cloud", "Models", "available_threads", "require_device"]
+__all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
 
 _REACH_MARGIN = 2.0
 _ROUND_OFF = 1e-6
@@ -55,15 +49,6 @@ _ROUND_OFF = 1e-6
 def available_threads() -> int:
     """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0))
-
-
-def require_device(device: Target) -> None:
-    """Raise InputError if a device cannot be used: say what is missing."""
-    if device == "cpu":
-        return
-    if find_spec("numba_cuda") is None:
-        raise InputError("device cuda: the package numba-cuda is missing. Try: pip install 'foamprb[cuda]'")
-    import_module("foamprb.cloud.device").device_name()
 
 
 class Loop(NamedTuple):
@@ -106,6 +91,166 @@ class Models:
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
 
 
+class Tracker:
+    """The compiled loop over particles with everything that acts on them, but neither particles nor flow.
+
+    Parameters
+    ----------
+    models
+        Names of the models.
+    kernels
+        The functions of the flow, as :class:`~foamprb.flow.base.Flow` has them.
+    medium, interactions, dt, start
+        As of a :class:`Cloud`.
+    shaped, tense
+        Whether some particle is no sphere at rest; whether some has surface tension.
+    """
+
+    def __init__(
+        self,
+        models: Models,
+        kernels: Mapping[str, Callable[..., Any]],
+        medium: Medium,
+        interactions: Sequence[Interaction],
+        dt: float,
+        start: float,
+        shaped: bool,
+        tense: bool,
+    ) -> None:
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense
+        bindings = dict(kernels)
+        if models.touching == "centre":
+            bindings["gap"] = gap_free
+        bindings["traction"] = TRACTIONS[models.traction]
+        bindings["drag"] = DRAGS[models.drag]
+        material = MATERIALS[models.material]
+        bindings["derivatives"] = material.derivatives
+        if material.dilation is not None:
+            bindings["dilation"] = material.dilation
+        if shaped:
+            bindings["finger"] = finger_of_ellipsoid
+        if tense:
+            bindings["interface"] = laplace_stress
+        self.loop = loop = LOOPS[models.integrator]
+        bindings.update(loop.bindings)
+        self.kernels, self.bindings = kernels, bindings
+        # The walk and the wall test are long and called from several places: inlined they would multiply.
+        self.separate = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
+        self.table = _patch_table(interactions)
+        self.medium, self.dt, self.start = medium, dt, start
+        self.options = (models.tolerance,) if loop.adaptive else ()
+        self._track = link(loop.entry, bindings, self.separate)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Another process compiles for itself.
+        return Tracker, self._made_of
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled already."""
+        return is_compiled(self._track)
+
+    def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
+        """Carry particles from step ``step`` through ``steps`` steps, in place.
+
+        Parameters
+        ----------
+        flow
+            What the flow's kernels read.
+
+        Returns
+        -------
+        The number of walks that failed and were mended by the tree.
+        """
+        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
+        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
+        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
+
+        def work(share: Sequence[NDArray[np.int64]]) -> int:
+            scratch = Scratch(
+                np.empty(self.loop.rows * LANES),
+                np.empty(LANES),
+                np.empty(LANES, dtype=np.int64),
+                np.empty((9, 10)),
+            )
+            return sum(
+                self._track(
+                    flow, self.table, self.medium, p, members,
+                    step, steps, self.dt, self.start, scratch, *self.options,
+                )
+                for members in share
+            )  # fmt: skip
+
+        if threads == 1 or len(blocks) < 2:
+            return work(blocks)
+        with ThreadPoolExecutor(threads) as pool:
+            return sum(pool.map(work, [blocks[i::threads] for i in range(threads)]))
+
+
+AT_ONCE = 10_000_000
+"""Steps of a particle that threads take in a second or so."""
+
+
+class Crew(Protocol):
+    """Who carries the particles of a cloud through their steps, and knows the state of each until asked."""
+
+    at_once: int
+    """Number of steps of a particle that it takes in a second or so."""
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled."""
+
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """Begin with steps while the cloud's arrays stay as they are or are gathered, if that can be done.
+
+        ``prepare`` gives what the flow's kernels read, and the number of steps. The next :meth:`advance`
+        takes these steps if it asks for as many; else they are as if they had never been begun.
+        """
+
+    def advance(self, flow: Any, steps: int) -> int:
+        """Take steps with what the flow's kernels read; return the number of walks mended by the tree."""
+
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status."""
+
+    def longest(self) -> float:
+        """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
+
+    def gather(self) -> None:
+        """Put the state of every particle into the cloud's arrays."""
+
+
+class _Threads:
+    """The crew of a cloud by itself: the threads of this process, in the cloud's own arrays."""
+
+    at_once = AT_ONCE
+
+    def __init__(self, cloud: Cloud) -> None:
+        self._cloud = cloud
+
+    @property
+    def compiled(self) -> bool:
+        return self._cloud.tracker.compiled
+
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """They would take the time from what is done meanwhile."""
+
+    def advance(self, flow: Any, steps: int) -> int:
+        cloud = self._cloud
+        return cloud.tracker.advance(flow, cloud.particles, cloud.step, steps, cloud.threads)
+
+    def counts(self) -> dict[Status, int]:
+        return self._cloud.particles.counts()
+
+    def longest(self) -> float:
+        return longest_semi_axis(self._cloud.particles)
+
+    def gather(self) -> None:
+        """They are there."""
+
+
 @dataclass
 class Cloud:
     """Particles, the flow that carries them, and the models that act on them.
@@ -126,10 +271,6 @@ class Cloud:
         Names of traction, drag, material and wall test.
     threads
         Number of threads; the answer does not depend on it.
-    device
-        ``"cuda"`` has a GPU advance the particles. They stay in its memory: see :meth:`advance` and
-        :meth:`fetch`. What is changed in the arrays of ``particles`` after the first step is not seen there,
-        but ``particles`` may be replaced by others.
     step
         Number of steps done.
     start
@@ -159,7 +300,6 @@ class Cloud:
     recovered: int = 0
     start: float = 0.0
     reach: float = 0.0
-    device: Target = "cpu"
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
@@ -167,28 +307,26 @@ class Cloud:
         _check(self.models)
         _refuse_early(self.particles, self.start)
         _find_hosts(self.particles, self.flow)
-        loop, bindings, separate = linkage(self.models, self.flow, self.particles)
-        self._rows = loop.rows
-        self._options = (self.models.tolerance,) if loop.adaptive else ()
-        self._table = _patch_table(self.interactions)
-        self._device: Device | None = None
-        if self.device == "cuda":
-            require_device(self.device)
-            self._device = import_module("foamprb.cloud.device").Device(
-                loop.entry, loop.rows, bindings, separate, self.medium, self._table, self._options
-            )
-        else:
-            self._track = link(loop.entry, bindings, separate)
+        p = self.particles
+        tense = bool((p.gamma != 0.0).any())
+        if tense:
+            _refuse_tension(self.models)
+        self.tracker = Tracker(
+            self.models,
+            self.flow.kernels,
+            self.medium,
+            self.interactions,
+            self.dt,
+            self.start,
+            shaped=bool((np.eye(3).ravel() != p.F0).any()),
+            tense=tense,
+        )
+        self.crew: Crew = _Threads(self)
 
     @property
     def compiled(self) -> bool:
         """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
-        return is_compiled(self._track) if self._device is None else self._device.compiled
-
-    @property
-    def device_name(self) -> str:
-        """What advances the particles."""
-        return "cpu" if self._device is None else f"cuda ({self._device.name})"
+        return self.crew.compiled
 
     @property
     def time(self) -> float:
@@ -196,9 +334,9 @@ class Cloud:
         return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
-        """Take ``steps`` time steps, with all threads, whatever becomes of single particles.
+        """Take ``steps`` time steps, whatever becomes of single particles.
 
-        On a CUDA device, of the particles here only ``status`` follows; :meth:`fetch` brings the rest.
+        Where others than this process' own threads carry the particles, :meth:`gather` brings the result.
 
         Raises
         ------
@@ -207,77 +345,36 @@ class Cloud:
         """
         last = self.step + steps
         while self.step < last:
-            ready = self._load(last - self.step)
-            if self._device is None:
-                self._advance(ready)
-            else:
-                if self._device.ahead != ready:
-                    self._launch(self._device, ready)
-                self.recovered += self._device.finish()
+            flow, ready = self._prepare(last - self.step)
+            self.recovered += self.crew.advance(flow, ready)
             self.step += ready
 
-    def fetch(self, ahead: int = 0) -> None:
-        """Bring the particles here up to date; nothing to do unless they are on a CUDA device.
+    def begin(self, steps: int) -> None:
+        """Let the crew begin with steps while this process does something else, if it is one that can.
 
-        Parameters
-        ----------
-        ahead
-            Number of steps that the device may begin with meanwhile. They count when :meth:`advance` is
-            called with this number, and are dropped otherwise.
+        Until :meth:`advance` is called with the same number nothing is seen of them, and when it is called
+        with another they are dropped.
         """
-        device = self._device
-        if device is None:
-            return
-        device.hold(self.particles)
-        device.keep()
-        # What is wrong with the flow is said when the steps are due.
-        with suppress(InputError):
-            if ahead and not device.ahead:
-                self._launch(device, self._load(ahead))
-        device.deliver()
+        self.crew.begin(lambda: self._prepare(steps))
 
-    def _load(self, steps: int) -> int:
-        """Make the flow ready for as many steps as it can be, of ``steps``; how many these are."""
+    def _prepare(self, steps: int) -> tuple[Any, int]:
+        """Make the flow ready for as many steps as it can be, of ``steps``: its arrays, and how many."""
         until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
         ready = (until - self.time) / self.dt + _ROUND_OFF
-        return steps if ready > steps else max(1, int(ready))
+        self._grow_reach()
+        return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
-    def _launch(self, device: Device, steps: int) -> None:
-        device.hold(self.particles)
-        self._grow_reach(device.longest_semi_axis())
-        device.launch(self._flow_arrays(), self.step, steps, self.dt, self.start)
+    def hand_over(self, crew: Crew) -> None:
+        """Let others carry the particles, which know them and the flow."""
+        self.crew = crew
 
-    def _advance(self, steps: int) -> None:
-        """Take steps for which the flow is ready."""
-        p = self.particles
-        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
-        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
-        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
-        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
-        self._grow_reach(_longest_semi_axis(p))
-        flow_arrays = self._flow_arrays()
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status, whether they were gathered or not."""
+        return self.crew.counts()
 
-        def work(share: Sequence[NDArray[np.int64]]) -> int:
-            scratch = Scratch(
-                np.empty(self._rows * LANES),
-                np.empty(LANES),
-                np.empty(LANES, dtype=np.int64),
-                np.empty((9, 10)),
-            )
-            return sum(
-                self._track(
-                    flow_arrays, self._table, self.medium, p, members,
-                    self.step, steps, self.dt, self.start, scratch, *self._options,
-                )
-                for members in share
-            )  # fmt: skip
-
-        shares = [blocks[i :: self.threads] for i in range(self.threads)]
-        if self.threads == 1 or len(blocks) < 2:
-            self.recovered += work(blocks)
-        else:
-            with ThreadPoolExecutor(self.threads) as pool:
-                self.recovered += sum(pool.map(work, shares))
+    def gather(self) -> None:
+        """Make sure that :attr:`particles` are as they were left by the last step."""
+        self.crew.gather()
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
@@ -285,48 +382,20 @@ class Cloud:
         if self.models.touching == "centre":
             bindings["gap"] = gap_free
         normals = np.empty((len(rows), 3))
-        link(contact_normals, bindings)(self._flow_arrays(), self.particles, rows, normals)
+        self._grow_reach()
+        link(contact_normals, bindings)(self.flow_arrays(), self.particles, rows, normals)
         return normals
 
-    def _grow_reach(self, longest: float) -> None:
-        """See to it that walls are listed to well beyond the reach of the longest particle."""
-        if longest * _REACH_MARGIN > self.reach:
-            self.reach = 2.0 * _REACH_MARGIN * longest
-
-    def _flow_arrays(self) -> Any:
-        """The flow's arrays, with the walls within reach."""
-        touchable = [i for i, interaction in enumerate(self.interactions) if interaction.code != ESCAPE]
+    def flow_arrays(self) -> Any:
+        """What the flow's kernels read, with walls listed to :attr:`reach`."""
+        touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
         return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
 
-
-def linkage(
-    models: Models, flow: Flow, p: Particles
-) -> tuple[Loop, dict[str, Callable[..., Any]], tuple[Callable[..., Any], ...]]:
-    """The loop over particles that the models and the flow ask for, and how to link it.
-
-    Returns
-    -------
-    loop, bindings, separate
-        As :func:`foamprb.compile.link` takes the entry of the loop.
-    """
-    bindings = dict(flow.kernels)
-    if models.touching == "centre":
-        bindings["gap"] = gap_free
-    bindings["traction"] = TRACTIONS[models.traction]
-    bindings["drag"] = DRAGS[models.drag]
-    material = MATERIALS[models.material]
-    bindings["derivatives"] = material.derivatives
-    if material.dilation is not None:
-        bindings["dilation"] = material.dilation
-    if (np.eye(3).ravel() != p.F0).any():
-        bindings["finger"] = finger_of_ellipsoid
-    if (p.gamma != 0.0).any():
-        _refuse_tension(models)
-        bindings["interface"] = laplace_stress
-    loop = LOOPS[models.integrator]
-    bindings.update(loop.bindings)
-    # The walk and the wall test are long and called from several places: inlined they would multiply.
-    return loop, bindings, (*loop.stages, bindings["walk"], bindings["gap"], bindings["recover"])
+    def _grow_reach(self) -> None:
+        """Let the reach be well beyond the longest particle."""
+        longest = self.crew.longest()
+        if longest * _REACH_MARGIN > self.reach:
+            self.reach = 2.0 * _REACH_MARGIN * longest
 
 
 def _check(models: Models) -> None:
@@ -365,7 +434,8 @@ def _find_hosts(p: Particles, flow: Flow) -> None:
         raise InputError(f"{len(outside)} of {p.size} particles lie outside the flow: {first}")
 
 
-def _longest_semi_axis(p: Particles) -> float:
+def longest_semi_axis(p: Particles) -> float:
+    """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
     live = (p.status == Status.PENDING) | (p.status == Status.ACTIVE)
     if not live.any():
         return 0.0

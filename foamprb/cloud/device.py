@@ -8,7 +8,8 @@ device.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,9 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
+from foamprb.cloud.cloud import Cloud, Tracker
 from foamprb.cloud.motion import ACTIVE, PatchTable
-from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloud.state import VARIABLES, Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 
@@ -28,6 +30,7 @@ __all__ = ["Device", "device_name"]
 _THREADS = 64
 """Threads of a block; few, as a particle takes all registers that a thread can have."""
 _STEPS_PER_SORT = 100
+_ZERO = np.zeros(1, dtype=np.int64)
 _CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)
 
 
@@ -92,23 +95,13 @@ def find_longest(p: Particles, longest: NDArray[np.float64]) -> None:
 
 
 class Device:
-    """Particles in the memory of a device, and what advances them there.
+    """The crew of a cloud whose particles are in the memory of a device, and are carried there.
 
-    Work is queued on one stream, copies to the host on another, so that a copy does not wait for the steps
-    that were queued after it.
+    Of the cloud's arrays ``status`` follows every :meth:`advance`, the others :meth:`gather`. What is changed
+    in them after the first step is not seen on the device, but a cloud may be given other particles.
 
-    Parameters
-    ----------
-    loop
-        :func:`foamprb.cloud.advance.track_block` or its like.
-    rows
-        Rows of its block.
-    bindings, separate
-        As :func:`foamprb.compile.link` takes them.
-    medium, patches
-        As the loop takes them.
-    options
-        What the loop takes beyond the scratch memory.
+    Work is queued on one stream, copies to the host on another, so that a copy does not wait for steps that
+    were begun after it.
 
     Raises
     ------
@@ -116,45 +109,89 @@ class Device:
         If there is no device.
     """
 
-    def __init__(
-        self,
-        loop: Callable[..., int],
-        rows: int,
-        bindings: Mapping[str, Any],
-        separate: Collection[Callable[..., Any]],
-        medium: Medium,
-        patches: PatchTable,
-        options: tuple[float, ...],
-    ) -> None:
-        self.name = device_name()
-        self._track, self._find_longest = kernels(loop, rows, bindings, separate)
+    at_once = 1_000_000_000
+
+    def __init__(self, cloud: Cloud) -> None:
+        device_name()
+        self._cloud = cloud
+        self._track, self._find_longest = kernels(cloud.tracker)
         self._work, self._back = cuda.stream(), cuda.stream()
         self._copies: list[tuple[NDArray[Any], Any]] = []
-        self._medium, self._options = medium, options
-        self._patches = self._copy(patches)
-        self._mended = cuda.to_device(np.zeros(1, dtype=np.int64))
+        self._table = self._copy(cloud.tracker.table)
+        self._mended = cuda.to_device(_ZERO)
         self._held: Particles | None = None
+        self._in_use: Any = None
         self._rows = np.empty(0, dtype=np.int64)
         self._steps_since_sort = 0
-        self._in_use: Any = None
-        self._fresh = True
-        """Whether the particles on the host are those on the device, but for the steps ahead."""
-        self.ahead = 0
-        """Number of steps that were started and of which the particles on the host know nothing yet."""
+        self._longest = 0.0
+        # Number of steps that were begun and not waited for.
+        self._begun = 0
+        # Whether the cloud's arrays are up to date, and whether copies of the device's arrays are under way.
+        self._gathered, self._coming = True, False
 
     @property
     def compiled(self) -> bool:
         """Whether the kernel is compiled."""
         return bool(cuda.config.ENABLE_CUDASIM) or is_compiled(self._track)
 
-    def hold(self, p: Particles) -> None:
-        """Take over the particles of the host, if they are not those that are held already.
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """Begin with steps; what :meth:`gather` brings is the state before them."""
+        self._hold()
+        self._keep()
+        # What is wrong with the flow is said when the steps are due.
+        with suppress(InputError):
+            self._launch(*prepare())
 
-        Raises
-        ------
-        InputError
-            If they do not fit.
-        """
+    def advance(self, flow: Any, steps: int) -> int:
+        """Take steps, those that were begun if they are as many, and wait for them."""
+        self._hold()
+        if self._coming:
+            self._back.synchronize()
+            self._coming = False
+        if self._begun != steps:
+            self._go_back()
+            self._launch(flow, steps)
+        assert self._held is not None
+        status = self._state.status.copy_to_host(self._buffers["status"], stream=self._work)
+        mended = self._mended.copy_to_host(stream=self._work)
+        self._work.synchronize()
+        self._mended.copy_to_device(_ZERO)
+        self._held.status[:] = status
+        self._begun, self._gathered = 0, False
+        return int(mended[0])
+
+    def counts(self) -> dict[Status, int]:
+        """Number of particles of each status."""
+        return self._cloud.particles.counts()
+
+    def longest(self) -> float:
+        """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
+        self._hold()
+        if not self._begun:
+            longest = cuda.to_device(np.zeros(1), stream=self._work)
+            blocks = _blocks(self._cloud.particles.size)
+            if blocks:
+                self._find_longest[blocks, _THREADS, self._work](self._state, longest)
+            found = longest.copy_to_host(stream=self._work)
+            self._work.synchronize()
+            self._longest = float(found[0])
+        return self._longest
+
+    def gather(self) -> None:
+        """Put the state of every particle into the cloud's arrays, without the steps that were begun."""
+        self._hold()
+        if self._gathered:
+            return
+        if not self._coming:
+            self._keep()
+        self._back.synchronize()
+        for name in _CHANGING:
+            getattr(self._held, name)[:] = self._buffers[name]
+        self._gathered, self._coming = True, False
+
+    def _hold(self) -> None:
+        """Take over the cloud's particles, if they are not those that are held already."""
+        p = self._cloud.particles
         if self._held is p:
             return
         size = sum(array.nbytes for array in p) + sum(getattr(p, name).nbytes for name in _CHANGING)
@@ -162,104 +199,56 @@ class Device:
         if size > free:
             raise InputError(
                 f"device cuda: {p.size} particles need {size / 1e9:.1f} GB of its memory, of which "
-                f"{free / 1e9:.1f} GB are free"
+                f"{free / 1e9:.1f} GB are free."
             )
+        self._work.synchronize()
         self._state: Any = Particles(*(cuda.to_device(np.ascontiguousarray(array)) for array in p))
-        self._kept = {name: cuda.device_array_like(getattr(self._state, name)) for name in _CHANGING}
-        self._buffers = {
-            name: cuda.pinned_array(getattr(p, name).shape, getattr(p, name).dtype) for name in _CHANGING
-        }
-        self._held, self._fresh, self.ahead = p, True, 0
+        changing = {name: getattr(p, name) for name in _CHANGING}
+        self._kept = {name: cuda.device_array(array.shape, array.dtype) for name, array in changing.items()}
+        self._buffers = {name: _pinned(array) for name, array in changing.items()}
+        self._mended.copy_to_device(_ZERO)
+        self._held, self._begun, self._gathered, self._coming = p, 0, True, False
         self._steps_since_sort = _STEPS_PER_SORT
 
-    def longest_semi_axis(self) -> float:
-        """The longest semi-axis of the particles that have not ended, m; 0 if there are none."""
-        self._go_back()
-        longest = cuda.to_device(np.zeros(1), stream=self._work)
-        n = len(self._state.R)
-        self._find_longest[-(-n // _THREADS), _THREADS, self._work](self._state, longest)
-        found = longest.copy_to_host(stream=self._work)
-        self._work.synchronize()
-        return float(found[0])
-
-    def launch(self, flow: Any, step: int, steps: int, dt: float, start: float) -> None:
-        """Start to carry the particles through ``steps`` steps, and do not wait.
-
-        An array of the flow that is the same object as in the launch before is not copied again.
-        """
-        self._go_back()
-        self._arrange(steps)
-        arrays = self._copy(flow)
-        rows = cuda.to_device(self._rows, stream=self._work)
-        if len(self._rows):
-            self._track[-(-len(self._rows) // _THREADS), _THREADS, self._work](
-                arrays,
-                self._patches,
-                self._medium,
-                self._state,
-                rows,
-                step,
-                steps,
-                dt,
-                start,
-                self._options,
-                self._mended,
-            )
-        self._in_use = arrays, rows
-        self.ahead = steps
-
-    def finish(self) -> int:
-        """Wait for the steps that were started; the held particles then know who has ended.
-
-        Returns
-        -------
-        The number of walks that failed and were mended by the tree.
-        """
-        assert self._held is not None
-        status = self._state.status.copy_to_host(self._buffers["status"], stream=self._work)
-        mended = self._mended.copy_to_host(stream=self._work)
-        self._work.synchronize()
-        self._held.status[:] = status
-        self._mended.copy_to_device(np.zeros(1, dtype=np.int64))
-        self._fresh, self.ahead = False, 0
-        return int(mended[0])
-
-    def keep(self) -> None:
-        """Start to copy the particles as they are to the host; work that is started later changes nothing."""
-        if self.ahead:
+    def _keep(self) -> None:
+        """Keep a copy of the particles as they are, and begin to copy it to the host if it is new there."""
+        if self._begun:
             return
         for name, kept in self._kept.items():
             kept.copy_to_device(getattr(self._state, name), stream=self._work)
-        if self._fresh:
-            return
-        done = cuda.event()
-        done.record(self._work)
-        done.wait(self._back)
-        for name, kept in self._kept.items():
-            kept.copy_to_host(self._buffers[name], stream=self._back)
-
-    def deliver(self) -> None:
-        """Wait for what :meth:`keep` has started, and put it into the particles of the host."""
-        if self._fresh or self._held is None:
-            return
-        self._back.synchronize()
-        for name in _CHANGING:
-            getattr(self._held, name)[:] = self._buffers[name]
-        self._fresh = True
+        if not self._gathered:
+            done = cuda.event()
+            done.record(self._work)
+            done.wait(self._back)
+            for name, kept in self._kept.items():
+                kept.copy_to_host(self._buffers[name], stream=self._back)
+            self._coming = True
 
     def _go_back(self) -> None:
-        """Undo steps that were started ahead and shall not be taken."""
-        if self.ahead:
-            self._work.synchronize()
+        """Undo steps that were begun and are not to be taken."""
+        if self._begun:
             for name, kept in self._kept.items():
                 getattr(self._state, name).copy_to_device(kept, stream=self._work)
-            self._mended.copy_to_device(np.zeros(1, dtype=np.int64))
-            self.ahead = 0
+            self._work.synchronize()
+            self._mended.copy_to_device(_ZERO)
+            self._begun = 0
+
+    def _launch(self, flow: Any, steps: int) -> None:
+        """Begin to carry the particles through steps."""
+        self._arrange(steps)
+        tracker = self._cloud.tracker
+        arrays, rows = self._copy(flow), cuda.to_device(self._rows, stream=self._work)
+        if len(self._rows):
+            self._track[_blocks(len(self._rows)), _THREADS, self._work](
+                arrays, self._table, tracker.medium, self._state, rows,
+                self._cloud.step, steps, tracker.dt, tracker.start, tracker.options, self._mended,
+            )  # fmt: skip
+        self._in_use = arrays, rows
+        self._begun = steps
 
     def _arrange(self, steps: int) -> None:
         """List the particles that move, now and then sorted, so that neighbours read the same cells."""
-        assert self._held is not None
-        status = self._held.status
+        status = self._cloud.particles.status
         if self._steps_since_sort >= _STEPS_PER_SORT:
             rows = np.flatnonzero(status <= ACTIVE)
             host = self._state.host.copy_to_host(stream=self._work)
@@ -271,7 +260,7 @@ class Device:
         self._steps_since_sort += steps
 
     def _copy(self, value: Any) -> Any:
-        """The same with its arrays on the device."""
+        """The same with its arrays on the device; those that are the same objects as before are there."""
         known = self._copies
         self._copies = []
         return self._copy_with(value, known)
@@ -288,12 +277,21 @@ class Device:
         return value
 
 
-def kernels(
-    loop: Callable[..., int],
-    rows: int,
-    bindings: Mapping[str, Any],
-    separate: Collection[Callable[..., Any]],
-) -> tuple[Any, Any]:
-    """Compile :func:`track_each` for a loop, and :func:`find_longest`."""
-    bound = {**bindings, "track": loop, "ROWS": rows, "LANES": 1}
-    return link(track_each, bound, separate, target="cuda"), link(find_longest, target="cuda")
+def kernels(tracker: Tracker) -> tuple[Any, Any]:
+    """Compile :func:`track_each` for the loop of a tracker, and :func:`find_longest`."""
+    loop = tracker.loop
+    bindings = {**tracker.bindings, "track": loop.entry, "ROWS": loop.rows, "LANES": 1}
+    return link(track_each, bindings, tracker.separate, target="cuda"), link(find_longest, target="cuda")
+
+
+def _blocks(n: int) -> int:
+    """Number of blocks of threads for n particles."""
+    return -(-n // _THREADS)
+
+
+def _pinned(array: NDArray[Any]) -> NDArray[Any]:
+    """Memory of the host for a copy of an array, to which the device can write while others work."""
+    if array.size == 0 or cuda.config.ENABLE_CUDASIM:
+        return np.empty_like(array)
+    pinned: NDArray[Any] = cuda.pinned_array(array.shape, array.dtype)
+    return pinned

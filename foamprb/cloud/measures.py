@@ -28,7 +28,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.cloud.state import Particles, Status
-from foamprb.flow.base import Flow
+from foamprb.flow.base import Flow, Sampled
 
 Floats = NDArray[np.float64]
 
@@ -141,19 +141,23 @@ rate where the particle is.
 """
 
 
-def context(particles: Particles, flow: Flow, mu: float, time: float) -> Context:
+def context(
+    particles: Particles, flow: Sampled, mu: float, time: float, ids: NDArray[np.int64] | None = None
+) -> Context:
     """Prepare the injected particles of a cloud for measuring.
 
     Parameters
     ----------
     particles
-        The whole cloud.
+        The whole cloud, or a part of it.
     flow
         The flow around them.
     mu
         Viscosity of the fluid, Pa s.
     time
         Time of the state, s.
+    ids
+        Row numbers of a part in the whole cloud.
     """
     rows = np.flatnonzero(particles.status != Status.PENDING)
     p = particles.take(rows)
@@ -164,7 +168,7 @@ def context(particles: Particles, flow: Flow, mu: float, time: float) -> Context
     if known.any():
         gradient[known] = flow.sample(p.x[known], p.host[known], time)[1].reshape(-1, 9)
     l_f: Tensor = tuple(gradient.T)  # type: ignore[assignment]
-    return Context(p, F, frame, stretches, l_f, rows, time, mu)
+    return Context(p, F, frame, stretches, l_f, rows if ids is None else ids[rows], time, mu)
 
 
 def measure(c: Context) -> dict[str, NDArray[Any]]:

@@ -1,21 +1,26 @@
 """What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
 
-The names ``sample``, ``walk``, ``gap``, ``normal`` and ``recover`` are bound to the flow that was chosen when
-the loop is compiled.
+The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross`` and ``recover`` are bound to the flow that was
+chosen when the loop is compiled.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, transpose
 from foamprb.cloud.block import (
+    AT_A,
     AT_F,
+    AT_FRAME,
+    AT_M,
     AT_R,
+    AT_RENEWED,
     AT_V,
     AT_VERDICT,
     AT_X,
@@ -24,9 +29,11 @@ from foamprb.cloud.block import (
     load3,
     load9,
     store3,
+    store9,
 )
-from foamprb.cloud.patches import ESCAPE, STICK, rebound_velocity
+from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Status
+from foamprb.flow.analytic import cross_free as cross
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import recover_free as recover
@@ -38,6 +45,9 @@ PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
 _MAX_BOUNCES = 10
+# A particle near the axis of a wedge goes through it many times in a step.
+_MAX_PATCHES = 1000
+_HALVINGS = 40
 
 
 class PatchTable(NamedTuple):
@@ -72,8 +82,7 @@ def reach_end(
     -------
     The number of walks that the tree had to mend.
     """
-    start = load3(block, AT_X, i)
-    end, spent, mended = move_centre(flow, patches, p, k, block, i, goal, h)
+    end, start, spent, mended = move_centre(flow, patches, p, k, block, i, goal, h)
     store3(block, AT_X, i, end)
     if p.status[k] == ACTIVE or p.status[k] == STUCK:
         clearance[i], f = touch(flow, patches, p, k, block, i, clearance[i], start)
@@ -93,44 +102,150 @@ def settle(p: Particles, k: int, patch: int, code: int) -> None:
     p.patch[k] = patch
 
 
+def beyond(
+    flow: Any, p: Particles, k: int, block: Any, i: int, code: int, triangle: int, x0: Vector, x1: Vector
+) -> tuple[Vector, Vector, Tensor, Vector]:
+    """Take particle k, which meets a mirror or a coupled patch at x0 on its way to x1, to the other side.
+
+    Everything of it that has a direction is mirrored or turned.
+
+    Returns
+    -------
+    x0, x1, turn, shift
+        Both points as seen from the other side; what was done to them, x → turn·x + shift.
+    """
+    F, A, Q = load9(block, AT_F, i), load9(block, AT_A, i), load9(block, AT_FRAME, i)
+    v = load3(block, AT_V, i)
+    if code == MIRROR:
+        n = normal(flow, triangle, x0)
+        turn = (
+            1.0 - 2.0 * n[0] * n[0], -2.0 * n[0] * n[1], -2.0 * n[0] * n[2],
+            -2.0 * n[0] * n[1], 1.0 - 2.0 * n[1] * n[1], -2.0 * n[1] * n[2],
+            -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
+        )  # fmt: skip
+        y0 = x0
+        # The state at rest is mirrored too, and one axis turned round: J and det Q stay positive.
+        F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
+        store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
+        f = p.F0
+        F0 = (f[k, 0], f[k, 1], f[k, 2], f[k, 3], f[k, 4], f[k, 5], f[k, 6], f[k, 7], f[k, 8])
+        F0 = dot(turn, dot(F0, turn))
+        for c in range(9):
+            f[k, c] = F0[c]
+        Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
+    else:
+        host, y0, turn = cross(flow, triangle, x0)
+        p.host[k] = host
+        Q = dot(Q, transpose(turn))
+    store9(block, AT_F, i, dot(turn, F))
+    store9(block, AT_A, i, dot(turn, A))
+    store9(block, AT_FRAME, i, Q)
+    block[AT_RENEWED * LANES + i] = 1.0
+    store3(block, AT_V, i, dot_vector(turn, v))
+    m = dot_vector(turn, x0)
+    shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
+    return y0, moved(turn, shift, x1), turn, shift
+
+
+def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:
+    """turn·x + shift."""
+    y = dot_vector(turn, x)
+    return y[0] + shift[0], y[1] + shift[1], y[2] + shift[2]
+
+
+def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
+    """Host of the last place between x0 and x1 that the tree finds, −1 for none; its share of the way."""
+    host = recover(flow, x1)
+    if host >= 0:
+        return host, 1.0
+    host, low, high = recover(flow, x0), 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        found = recover(flow, between(x0, x1, middle))
+        if found >= 0:
+            host, low = found, middle
+        else:
+            high = middle
+    return host, low
+
+
 def move_centre(
     flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int, goal: Vector, dt: float
-) -> tuple[Vector, float, int]:
-    """Carry the centre to its goal in Δt, through the mesh and off or onto the patches that it meets.
+) -> tuple[Vector, Vector, float, int]:
+    """Carry the centre to its goal in Δt, through the mesh and off, onto or across the patches that it meets.
 
-    Returns the position where it ended, the time that it took, and the number of walks that the tree had to
-    mend.
+    Where a walk fails it begins anew from the last place on its way that the tree finds in the mesh; if it
+    fails from there as well the centre stays there for the rest of the step.
+
+    Returns
+    -------
+    The position where it ended, its start as seen from there, the time that it took, and the number of walks
+    that the tree had to mend.
     """
-    recovered = 0
+    recovered, bounces = 0, 0
     spent = 0.0
     x0, x1 = load3(block, AT_X, i), goal
-    for _ in range(_MAX_BOUNCES):
+    start = x0
+    for _ in range(_MAX_PATCHES):
         rest = dt - spent
         host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
-        if patch == -1:
-            p.host[k] = host
-            return x1, dt, recovered
         if patch == -2:
-            host = recover(flow, x1)
             recovered += 1
+            host, done = last_inside(flow, x0, x1)
             if host < 0:
                 fail(p, k, LOST)
-            else:
-                p.host[k] = host
-            return x1, dt, recovered
+                return x1, start, dt, recovered
+            p.host[k] = host
+            if done >= 1.0:
+                return x1, start, dt, recovered
+            x0 = between(x0, x1, done)
+            spent += done * rest
+            rest = dt - spent
+            host, fraction, patch, triangle = walk(flow, host, x0, x1)
+            if patch == -2:
+                return x0, start, dt, recovered
         p.host[k] = host
+        if patch == -1:
+            return x1, start, dt, recovered
         x0 = between(x0, x1, fraction)
         spent += fraction * rest
         code = patches.code[patch]
         if code in (STICK, ESCAPE):
             settle(p, k, patch, code)
-            return x0, spent, recovered
+            return x0, start, spent, recovered
+        bounces += code != CYCLIC
+        if bounces > _MAX_BOUNCES:
+            break
+        if code in (MIRROR, CYCLIC):
+            x0, x1, turn, shift = beyond(flow, p, k, block, i, code, triangle, x0, x1)
+            start = moved(turn, shift, start)
+            continue
         n = normal(flow, triangle, x0)
         v = rebound_velocity(load3(block, AT_V, i), n, patches.e[patch], patches.mu[patch])
         store3(block, AT_V, i, v)
         rest = dt - spent
         x1 = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2])
-    return x0, dt, recovered
+    return x0, start, dt, recovered
+
+
+def move_back(
+    flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int, x0: Vector, x1: Vector
+) -> tuple[Vector, bool]:
+    """Take the centre from x0 back to x1, through mirrors and coupled patches.
+
+    A patch of another kind that lies between, by round-off, does not stop it. Returns the place, and whether
+    the centre went there.
+    """
+    for _ in range(_MAX_BOUNCES):
+        host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
+        if patch == -2:
+            return x0, False
+        p.host[k] = host
+        code = patches.code[patch] if patch >= 0 else STICK
+        if code not in (MIRROR, CYCLIC):
+            return x1, True
+        x0, x1, _, _ = beyond(flow, p, k, block, i, code, triangle, between(x0, x1, fraction), x1)
+    return x0, True
 
 
 def touch(
@@ -150,9 +265,7 @@ def touch(
     if before > 0.0:
         f = before / (before - after) if before < math.inf else 1.0
     if patches.code[patch] == STICK:
-        contact = between(start, x, f)
-        host, _, _, _ = walk(flow, p.host[k], x, contact)
-        p.host[k] = host
+        contact, _ = move_back(flow, patches, p, k, block, i, x, between(start, x, f))
         store3(block, AT_X, i, contact)
         settle(p, k, patch, STICK)
         return 0.0, f
@@ -164,11 +277,10 @@ def touch(
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
     back = -(1.0 - f) * min(beyond, 0.0)
     place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
-    host, _, failed, _ = walk(flow, p.host[k], x, place)
-    if failed != -2:
-        p.host[k] = host
+    place, went = move_back(flow, patches, p, k, block, i, x, place)
+    if went:
         store3(block, AT_X, i, place)
-        after, _, _ = gap(flow, host, place, F, R)
+        after, _, _ = gap(flow, p.host[k], place, load9(block, AT_F, i), R)
     return after, 1.0
 
 
@@ -176,6 +288,7 @@ def release(flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i:
     """Make a pending particle active, or stuck if it appears in touch with a sticky wall."""
     p.status[k] = ACTIVE
     p.t[k] = p.t0[k]
+    block[AT_RENEWED * LANES + i] = 1.0
     if math.isnan(block[AT_V * LANES + i]):
         u, _, _ = sample(flow, p.host[k], load3(block, AT_X, i), p.t0[k])
         store3(block, AT_V, i, u)
@@ -191,3 +304,7 @@ def is_sound(p: Particles, k: int, block: Any, i: int) -> bool:
     if verdict:
         fail(p, k, verdict)
     return verdict == 0
+
+
+RARE: tuple[Callable[..., Any], ...] = (beyond, last_inside, move_back)
+"""What few steps need: compiled on its own, it does not swell the loops."""

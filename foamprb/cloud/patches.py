@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 from foamprb.body.tensor import Scalar, Vector, select
 from foamprb.entries import Fraction, NonNegative
 
-STICK, ESCAPE, REBOUND = 0, 1, 2
+STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,28 @@ class Rebound:
     code: ClassVar[int] = REBOUND
 
 
-Interaction = Stick | Escape | Rebound
+@dataclass(frozen=True)
+class Mirror:
+    """The particle's mirror image comes in, velocity and shape, when its centre meets the plane."""
 
-INTERACTIONS: dict[str, type[Interaction]] = {"stick": Stick, "escape": Escape, "rebound": Rebound}
+    code: ClassVar[int] = MIRROR
+
+
+@dataclass(frozen=True)
+class Cyclic:
+    """The particle goes on from the neighbouring patch when its centre meets this one."""
+
+    code: ClassVar[int] = CYCLIC
+
+
+Interaction = Stick | Escape | Rebound | Mirror | Cyclic
+
+INTERACTIONS: dict[str, type[Stick | Escape | Rebound]] = {
+    "stick": Stick,
+    "escape": Escape,
+    "rebound": Rebound,
+}
+"""What a user may choose; the others follow from the type of the patch."""
 
 
 def rebound_velocity(v: Vector, n: Vector, e: Scalar, mu: Scalar) -> Vector:

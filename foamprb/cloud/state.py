@@ -75,9 +75,7 @@ class Particles(NamedTuple):
     k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one", fixed=True)]
     eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid", fixed=True)]
     gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension", fixed=True)]
-    F0: Annotated[
-        Array, Variable((9,), "f8", "1", "F at rest, from the sphere of the same volume", fixed=True)
-    ]
+    F0: Annotated[Array, Variable((9,), "f8", "1", "F at rest, from the sphere of the same volume")]
     Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate", fixed=True)]
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection", fixed=True)]
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection", fixed=True)]

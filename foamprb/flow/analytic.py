@@ -57,6 +57,11 @@ def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
     return 0.0, 0.0, 0.0
 
 
+def cross_free(flow: Any, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
+    """No patch is coupled to another."""
+    return 0, x, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+
 def recover_free(flow: Any, x: Vector) -> int:
     """The flow is everywhere."""
     return 0
@@ -193,6 +198,9 @@ class AnalyticFlow:
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:  # noqa: ARG002
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """There is nothing large."""
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """The parameters, by name."""

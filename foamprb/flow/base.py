@@ -40,7 +40,14 @@ class Tetrahedra(NamedTuple):
     """(n,) the host that each is."""
 
 
-class Flow(Protocol):
+class Sampled(Protocol):
+    """Something that has a velocity and its gradient at points."""
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at time t, s."""
+
+
+class Flow(Sampled, Protocol):
     """A flow: u and ∇u at a point and a time, and what bounds it.
 
     The ``kernels`` are plain functions that :func:`foamprb.compile.link` compiles into the loop; ``flow`` is
@@ -53,6 +60,8 @@ class Flow(Protocol):
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall, infinite when none is near;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
+    * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
+      coupled patch at x, and the rotation of everything that has a direction;
     * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
     """
 
@@ -75,13 +84,17 @@ class Flow(Protocol):
         """
 
     def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
-        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell."""
+        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell.
+
+        It is a tuple with names, perhaps with others in it. Where the contents of a large array, of many kB,
+        have changed in place, a number or a small array has changed as well.
+        """
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """Put what the kernels read, as far as it is large and does not change, where ``place`` copies it."""
 
     def locate(self, points: Floats) -> Ints:
         """Host of each point of shape (n, 3), −1 outside."""
-
-    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at time t, s."""
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of each host's cell, m; infinite without cells."""

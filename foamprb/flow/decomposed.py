@@ -188,9 +188,14 @@ class Rebuilt:
             raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
 
     def noted(self, flow: AFlow) -> AFlow:
-        """The flow, with a note that it comes from here."""
+        """The flow, with a note that it comes from here; the folder lives as long as the flow."""
+        weakref.finalize(flow, _let_go, self)
         flow.notes = (f"The flow was put together from {len(self._parts)} processor folders.", *flow.notes)
         return flow
+
+
+def _let_go(whole: Rebuilt) -> None:
+    """Hold the folder until this is called."""
 
 
 def read_decomposed_case(case: Path, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:

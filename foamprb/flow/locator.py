@@ -39,11 +39,17 @@ class MeshArrays(NamedTuple):
     tree_cells: Ints
     """(n_leaves, leaf size) cells, −1 where there is none."""
     triangles: Ints
-    """(n_triangles, 3) nodes of the boundary triangles."""
+    """(n_triangles, 3) nodes of the boundary triangles, then of images of walls beyond coupled patches."""
     triangle_patch: Ints
     """(n_triangles,) patch of each."""
     triangle_normals: Floats
     """(n_triangles, 3) unit normals, inward."""
+    triangle_tet: Ints
+    """(n_boundary_triangles,) the tetrahedron inside."""
+    across: Ints
+    """(n_boundary_triangles, 2): where a patch is coupled, first and last + 1 of the triangles across."""
+    motions: Floats
+    """(n_patches, 12): rotation row by row and shift from each coupled patch to its neighbour."""
     near_start: Ints
     """(n_cells + 1,) into ``near``."""
     near: Ints

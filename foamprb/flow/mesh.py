@@ -14,14 +14,18 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
 
 from foamprb.errors import InputError
+from foamprb.flow.coupling import Coupling, couple
 from foamprb.flow.patch import Patch
 
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int32]
 _Index: TypeAlias = NDArray[np.intp]
 _Hash: TypeAlias = NDArray[np.uint64]
+_Mask: TypeAlias = NDArray[np.bool_]
 
 __all__ = ["Mesh", "Patch", "PatchSurface", "build_mesh"]
 
@@ -37,6 +41,7 @@ CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _
 
 # Faces or cells handled at once: the temporary arrays then stay in the cache.
 _CHUNK = 1 << 15
+_MOST_TURNS = 5
 
 
 class PatchSurface(NamedTuple):
@@ -45,6 +50,8 @@ class PatchSurface(NamedTuple):
     name: str
     type: str
     surface: Any
+    neighbour: str = ""
+    """The patch that a cyclic patch leads to."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +105,8 @@ class Mesh:
     """(n_triangles, 3) unit normals, inward."""
     inverted: int
     """Number of tetrahedra of negative volume."""
+    couplings: tuple[Coupling, ...]
+    """Cyclic patches and wedges, each way."""
 
     @property
     def n_points(self) -> int:
@@ -142,33 +151,62 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     points = np.ascontiguousarray(grid.points, dtype=np.float64)
     half = _half_faces(grid, source)
     first, second = _match_halves(half, source)
+    cell_point_start, cell_points = _cell_array(grid.GetCells())
+    apart = _baffles(points, grid.points.dtype, half, first, second, surfaces)
+    if apart.any():
+        split = np.concatenate([first[apart], second[apart]])
+        first, second = (np.concatenate([ends[~apart], split]) for ends in (first, second))
+        points, half, cell_points = _part_points(points, half, first, second, cell_point_start, cell_points)
     half, owner_half, neighbour_half = _order_faces(points, half, first, second)
-    order, patches, patch_start = _assign_patches(
-        points, grid.points.dtype, half, owner_half, surfaces, source
+    cells = (_int32(cell_point_start), _int32(cell_points))
+    for _ in range(_MOST_TURNS):
+        mesh, astray = _assemble(
+            points, grid.points.dtype, half, owner_half, neighbour_half, cells, surfaces, source
+        )
+        if len(astray) == 0:
+            return mesh
+        half = _turn_alike(half, owner_half, neighbour_half, astray)
+    raise InputError(
+        f"{source}: the faces of {len(astray)} cells do not turn alike (the first is cell {astray[0]}); "
+        "is the mesh damaged?"
     )
+
+
+def _assemble(
+    points: Floats,
+    dtype: Any,
+    half: _Halves,
+    owner_half: _Index,
+    neighbour_half: _Index,
+    cells: tuple[Ints, Ints],
+    surfaces: Sequence[PatchSurface] | None,
+    source: str,
+) -> tuple[Mesh, _Index]:
+    """The mesh, and cells of which two neighbouring faces turn against each other."""
+    order, patches, patch_start = _assign_patches(points, dtype, half, owner_half, surfaces, source)
     n_internal = len(neighbour_half)
     owner_half = np.concatenate([owner_half[:n_internal], owner_half[n_internal:][order]])
     face_start, face_points = _take_lists(half.start, half.points, owner_half)
     owner, neighbour = half.cell[owner_half], half.cell[neighbour_half]
 
     face_centres, areas = _face_geometry(points, face_start, face_points)
+    patches, couplings = couple(patches, patch_start, face_centres[n_internal:], areas[n_internal:], source)
     centres, volumes = _cell_geometry(face_centres, areas, owner, neighbour, half.n_cells)
     face_points, inverted = _choose_bases(points, centres, face_start, face_points, owner, neighbour)
 
-    cell_start, tets, neighbours, triangle_tet = _tetrahedra(
+    cell_start, tets, neighbours, triangle_tet, astray = _tetrahedra(
         half, face_start, face_points, owner_half, neighbour_half, len(points), source
     )
     triangles = tets[triangle_tet][:, 1:]
-    cell_point_start, cell_points = _cell_array(grid.GetCells())
     counts = np.diff(face_start)[n_internal:] - 2
     triangle_face = np.repeat(np.arange(len(counts)), counts)
     boundary_patch = np.repeat(np.arange(len(patches)), np.diff(patch_start))
-    return Mesh(
+    mesh = Mesh(
         points=points,
         centres=centres,
         volumes=volumes,
-        cell_point_start=_int32(cell_point_start),
-        cell_points=_int32(cell_points),
+        cell_point_start=cells[0],
+        cell_points=cells[1],
         face_start=_int32(face_start),
         face_points=_int32(face_points),
         owner=_int32(owner),
@@ -186,7 +224,9 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         triangle_tet=_int32(triangle_tet),
         triangle_normals=_inward_normals(points, triangles, areas[n_internal:][triangle_face]),
         inverted=inverted,
+        couplings=couplings,
     )
+    return mesh, astray
 
 
 class _Halves(NamedTuple):
@@ -279,6 +319,78 @@ def _match_halves(half: _Halves, source: str) -> tuple[_Index, _Index]:
     return owners, mate[owners]
 
 
+def _baffles(
+    points: Floats,
+    dtype: Any,
+    half: _Halves,
+    first: _Index,
+    second: _Index,
+    surfaces: Sequence[PatchSurface] | None,
+) -> _Mask:
+    """Which of the matched faces belong to patches: walls without thickness, with a patch on either side."""
+    inside = first != second
+    faces = sum(surface.surface.n_cells for surface in surfaces or ())
+    none = np.zeros(len(first), dtype=bool)
+    if surfaces is None or faces <= np.count_nonzero(~inside):
+        return none
+    polygons = [_cell_array(surface.surface.GetPolys()) for surface in surfaces]
+    clouds = [np.asarray(surface.surface.points, dtype=dtype).reshape(-1, 3) for surface in surfaces]
+    coordinates = np.concatenate([points.astype(dtype), *clouds]) + 0
+    place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
+    begin, wanted = len(points), []
+    for (start, lists), cloud in zip(polygons, clouds, strict=True):
+        if len(start) > 1:
+            wanted.append(np.add.reduceat(_mix(place[begin + lists]), start[:-1]))
+        begin += len(cloud)
+    codes = np.add.reduceat(_mix(place[half.points]), half.start[:-1])
+    found: _Mask = inside & np.isin(codes[first], np.concatenate(wanted))
+    return found
+
+
+def _part_points(
+    points: Floats, half: _Halves, first: _Index, second: _Index, start: _Index, cell_points: _Index
+) -> tuple[Floats, _Halves, _Index]:
+    """Give each side of a baffle points of its own, where no way around through cells joins the sides.
+
+    Around a point, cells are joined by the faces between them that hold the point; a point whose cells fall
+    into several groups is copied for each group but one.
+    """
+    on_wall = np.zeros(len(points), dtype=bool)
+    sizes = np.diff(half.start)
+    single = first[first == second]
+    on_wall[_take_lists(half.start, half.points, single)[1]] = True
+    # Corners: a cell and one of its points on a wall.
+    cells = np.repeat(np.arange(half.n_cells), np.diff(start))
+    at = np.flatnonzero(on_wall[cell_points])
+    keys = cells[at] * len(points) + cell_points[at]
+    order = np.argsort(keys)
+    keys = keys[order]
+    inside = first != second
+    owners = np.repeat(half.cell[first[inside]], sizes[first[inside]])
+    others = np.repeat(half.cell[second[inside]], sizes[first[inside]])
+    shared = _take_lists(half.start, half.points, first[inside])[1]
+    held = on_wall[shared]
+    joined = [
+        np.searchsorted(keys, side[held] * len(points) + shared[held]).astype(np.intp)
+        for side in (owners, others)
+    ]
+    graph = sparse.coo_array((np.ones(len(joined[0]), dtype=np.int8), joined), shape=(len(keys), len(keys)))
+    groups = csgraph.connected_components(graph, directed=False)[1]
+    point = cell_points[at[order]]
+    # The first group of a point keeps it, each other group gets a copy.
+    pairs, place = np.unique(np.stack([point, groups]), axis=1, return_inverse=True)
+    copy = np.concatenate([[False], pairs[0, 1:] == pairs[0, :-1]])
+    names = np.where(copy, len(points) + np.cumsum(copy) - 1, pairs[0])
+    named = names[place.reshape(-1)]
+    moved = cell_points.copy()
+    moved[at[order]] = named
+    lists = half.points.copy()
+    on_lists = np.flatnonzero(on_wall[lists])
+    of_half = np.repeat(half.cell, sizes)[on_lists]
+    lists[on_lists] = named[np.searchsorted(keys, of_half * len(points) + lists[on_lists])]
+    return np.concatenate([points, points[pairs[0, copy]]]), half._replace(points=lists), moved
+
+
 def _order_faces(
     points: Floats, half: _Halves, first: _Index, second: _Index
 ) -> tuple[_Halves, _Index, _Index]:
@@ -361,7 +473,7 @@ def _assign_patches(
             f"{source}: {np.count_nonzero(times > 1)} boundary faces belong to more than one of the patches "
             f"{names}."
         )
-    patches = tuple(Patch(surface.name, surface.type) for surface in surfaces)
+    patches = tuple(Patch(surface.name, surface.type, surface.neighbour) for surface in surfaces)
     return faces, patches, _starts(np.array([len(found) for found in chosen], dtype=np.intp))
 
 
@@ -466,8 +578,8 @@ def _tetrahedra(
     neighbour_half: _Index,
     n_points: int,
     source: str,
-) -> tuple[_Index, Ints, Ints, _Index]:
-    """Tetrahedra by cell with their neighbours, and the tetrahedron of each boundary triangle."""
+) -> tuple[_Index, Ints, Ints, _Index, _Index]:
+    """Tetrahedra by cell with their neighbours, the tetrahedron of each boundary triangle, cells astray."""
     sizes = np.diff(half.start)
     tet_start = _starts(sizes - 2)
     n_internal, n_tets = len(neighbour_half), int(tet_start[-1])
@@ -505,13 +617,19 @@ def _tetrahedra(
             triangle = boundary_start[at[inside:] - n_internal] + k
             neighbours[own[inside:], 0] = -1 - triangle
             triangle_tet[triangle] = own[inside:]
-    _join_within_cells(half, lists, tet_start, neighbours, source)
+    astray = _join_within_cells(half, lists, tet_start, neighbours, source)
     cell_start = tet_start[np.searchsorted(half.cell, np.arange(half.n_cells + 1))]
-    return cell_start, tets, neighbours, triangle_tet
+    return cell_start, tets, neighbours, triangle_tet, astray
 
 
-def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours: Ints, source: str) -> None:
-    """Join the tetrahedra of a cell across the edges at which two of its faces meet."""
+def _join_within_cells(
+    half: _Halves, lists: Ints, tet_start: _Index, neighbours: Ints, source: str
+) -> _Index:
+    """Join the tetrahedra of a cell across the edges at which two of its faces meet.
+
+    Returns the cells of which two faces run along a common edge in the same direction.
+    """
+    astray = []
     first_half = np.searchsorted(half.cell, np.arange(half.n_cells + 1))
     flat = neighbours.reshape(-1)
     for low in range(0, half.n_cells, _CHUNK):
@@ -531,7 +649,7 @@ def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours
         edge = (np.minimum(a, b) << 32) | np.maximum(a, b)
         # Stable: equal edges stay in the order of the cells, so that mates become consecutive.
         order = np.argsort(edge, kind="stable")
-        edge, cell, slot = edge[order], cell[order], slot[order]
+        edge, cell, slot, ahead = edge[order], cell[order], slot[order], (a < b)[order]
         fresh = np.ones(len(edge) + 1, dtype=bool)
         fresh[1:-1] = (edge[1:] != edge[:-1]) | (cell[1:] != cell[:-1])
         bad = np.diff(np.flatnonzero(fresh)) != 2
@@ -543,6 +661,52 @@ def _join_within_cells(half: _Halves, lists: Ints, tet_start: _Index, neighbours
             )
         flat[slot[0::2]] = slot[1::2] // 4
         flat[slot[1::2]] = slot[0::2] // 4
+        astray.append(np.unique(cell[0::2][ahead[0::2] == ahead[1::2]]))
+    return np.concatenate(astray)
+
+
+def _turn_alike(half: _Halves, owner_half: _Index, neighbour_half: _Index, cells: _Index) -> _Halves:
+    """Turn those faces of cells that run along an edge in the same direction as their neighbours there.
+
+    Which way a face turns has been judged by where the middle of the cell lies, which fails for single faces
+    of cells far from convex.
+    """
+    mate = np.full(len(half.cell), -1)
+    mate[owner_half[: len(neighbour_half)]] = neighbour_half
+    mate[neighbour_half] = owner_half[: len(neighbour_half)]
+    lists = half.points.copy()
+    first = np.searchsorted(half.cell, cells)
+    last = np.searchsorted(half.cell, cells, side="right")
+    for begin, end in zip(first.tolist(), last.tolist(), strict=True):
+        faces = [lists[half.start[h] : half.start[h + 1]].tolist() for h in range(begin, end)]
+        for h in np.flatnonzero(_against(faces)).tolist():
+            for side in (begin + h, int(mate[begin + h])):
+                if side >= 0:
+                    at = slice(half.start[side], half.start[side + 1])
+                    lists[at] = lists[at][::-1].copy()
+    return half._replace(points=lists)
+
+
+def _against(faces: list[list[int]]) -> _Mask:
+    """Which faces of a closed cell turn against the others, who are more."""
+    edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for k, face in enumerate(faces):
+        for a, b in zip(face, face[1:] + face[:1], strict=True):
+            edges.setdefault((min(a, b), max(a, b)), []).append((k, 1 if a < b else -1))
+    beside: list[list[tuple[int, int]]] = [[] for _ in faces]
+    for (k, way), (j, other) in (pair for pair in edges.values() if len(pair) == 2):
+        beside[k].append((j, -way * other))
+        beside[j].append((k, -way * other))
+    senses = np.zeros(len(faces))
+    senses[0], waiting = 1, [0]
+    while waiting:
+        k = waiting.pop()
+        for j, relation in beside[k]:
+            if senses[j] == 0:
+                senses[j] = senses[k] * relation
+                waiting.append(j)
+    against: _Mask = senses < 0 if senses.sum() >= 0 else senses > 0
+    return against
 
 
 def _inward_normals(points: Floats, triangles: Ints, areas: Floats) -> Floats:

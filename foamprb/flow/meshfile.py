@@ -1,77 +1,265 @@
-"""A flow from a mesh file: ``.vtu .vtk .vtkhdf .pvd .vtm`` through VTK, other formats through meshio.
+"""A flow from a mesh file: VTK's own formats, foamToVTK's output included, and others through meshio.
 
-Such a file names no patches. Its whole boundary is one patch, ``boundary``, of type ``wall``: particles touch
-it, but its velocity is what the field in the file says, at rest or not.
+Where the file has surfaces with names and velocities, as foamToVTK's ``boundary``, they are the patches.
+Elsewhere the whole boundary is one patch, ``boundary``, or it is divided by what its user says: by an array
+on the surface cells among the cells, or at edges. Types of patches are not in such files: a patch is a
+``wall`` unless the fluid moves on it by what the file says.
 """
 
 from __future__ import annotations
 
 import contextlib
 import io
+import json
+import os
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyvista
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
 
-from foamprb.errors import InputError
-from foamprb.flow.mesh import CELL_KINDS, Floats, build_mesh
-from foamprb.flow.openfoam import spoken
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
+from foamprb.flow.openfoam import listed, pick_time, require_numbers, require_volumes, spoken
 from foamprb.flow.reconstruct import Reconstruction, from_points
+from foamprb.flow.trial import require_survival
 from foamprb.flow.walk import MeshFlow
 
-__all__ = ["VTK_SUFFIXES", "read_mesh_file"]
+__all__ = ["VTK_SUFFIXES", "Division", "describe_file", "read_mesh_file"]
 
-VTK_SUFFIXES = frozenset({".vtu", ".vtk", ".vtkhdf", ".pvd", ".vtm"})
+VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
+BOUNDARY = "boundary"
+_MOST_PATCHES = 1000
+_HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
+_DATA = ("CELL_DATA", "POINT_DATA")
 
 
-def read_mesh_file(path: Path, velocity: str = "U") -> MeshFlow:
-    """Read a mesh with velocities, at its last time if it has several.
+@dataclass(frozen=True)
+class Division:
+    """How a boundary without named patches is divided into patches; not at all by default."""
+
+    array: str = ""
+    """Integer array on the surface cells of the file: each value is a patch."""
+    feature_angle: float | None = None
+    """Angle in degrees: patches end at edges where the boundary turns by more."""
+
+
+def read_mesh_file(
+    path: Path | str,
+    velocity: str = "U",
+    *,
+    time: float | str = "latestTime",
+    gradient: str = "",
+    division: Division | None = None,
+) -> MeshFlow:
+    """Read a mesh with velocities.
 
     Parameters
     ----------
     path
-        The file.
+        The file: of a VTK suffix, see :data:`VTK_SUFFIXES` (``.series`` is ParaView's list of files with
+        their times), or of a format that meshio reads.
     velocity
         Name of the velocity array (n, 3), m/s. Cell data are preferred; point data are taken as they are for
         the values at the mesh points when there is nothing else.
+    time
+        A time's value, or ``latestTime``, for files that have times.
+    gradient
+        Name of a cell array of the velocity's gradient, nine components of which the (3i + j)-th is
+        ∂u_j/∂x_i, as OpenFOAM writes ``grad(U)``. Without a name the gradient is reconstructed.
+    division
+        How a boundary without named patches is divided.
 
     Raises
     ------
     InputError
         The file cannot be read, holds no three-dimensional cells, or lacks the velocity.
     """
-    if not path.is_file():
-        raise InputError(f"{path}: no such file.")
-    grid = _solid_cells(_read_vtk(path) if path.suffix in VTK_SUFFIXES else _read_meshio(path), path)
-    mesh = build_mesh(grid, None, source=str(path))
+    path = Path(path)
+    grid, mesh, surfaces, note = _read_mesh(path, velocity, time, division)
+    notes = [note]
     if velocity in grid.cell_data:
-        nowhere = np.zeros(len(mesh.boundary_centres), dtype=bool)
         cells = _vectors(grid.cell_data[velocity], velocity, path)
-        u, l = Reconstruction(mesh, valued=nowhere)(cells, np.zeros((len(nowhere), 3)))
-        note = "Velocities are cell values; none were given on the boundary, where they are extrapolated."
+        valued = np.zeros(len(mesh.boundary_centres), dtype=bool)
+        boundary = np.zeros((len(valued), 3))
+        for index, surface in enumerate(surfaces):
+            if velocity in surface.surface.cell_data:
+                rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+                boundary[rows] = _vectors(surface.surface.cell_data[velocity], velocity, path)
+                valued[rows] = True
+        given = _gradients(grid, gradient, path) if gradient else None
+        u, l = Reconstruction(mesh, valued=valued)(cells, boundary, given)
+        if not valued.any():
+            notes.append("No velocities were given on the boundary, where those of the cells are continued.")
     elif velocity in grid.point_data:
+        if gradient:
+            raise InputError(f"{path}: {velocity} is given at points; {gradient} is only read beside cells.")
         u, l = from_points(mesh, _vectors(grid.point_data[velocity], velocity, path))
-        note = "Velocities are point values; their gradient is first-order accurate."
+        notes.append("Velocities are point values; their gradient is first-order accurate.")
     else:
         names = sorted({*grid.cell_data.keys(), *grid.point_data.keys()})
-        raise InputError(f"{path}: no array {velocity}; the arrays are {', '.join(names) or '(none)'}.")
-    return MeshFlow(mesh, u, l, [note, "The file names no patches: the whole boundary is one wall."])
+        raise InputError(f"{path}: no array {velocity}. {suggestion(velocity, names)}")
+    return MeshFlow(mesh, u, l, notes)
 
 
-def _read_vtk(path: Path) -> Any:
-    with spoken() as said:
+def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:
+    """What a mesh file holds, for a person to read.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_mesh_file`.
+    """
+    grid, mesh, _, note = _read_mesh(path, velocity, "latestTime", division)
+    kinds = [
+        (name, np.count_nonzero(np.asarray(grid.celltypes) == kind)) for kind, name in CELL_KINDS.items()
+    ]
+    low, high = (
+        "({:g} {:g} {:g})".format(*corner) for corner in (mesh.points.min(axis=0), mesh.points.max(axis=0))
+    )
+    lines = [f"File    {path}", "", "Mesh", f"    {'points':20s} {mesh.n_points:10d}"]
+    lines += [f"    {name:20s} {n:10d}" for name, n in kinds if n]
+    lines += [f"    {'bounds [m]':20s} {low} {high}", "", "Patches"]
+    for index, patch in enumerate(mesh.patches):
+        rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        centre = "({:g} {:g} {:g})".format(*mesh.boundary_centres[rows].mean(axis=0))
+        faces = rows.stop - rows.start
+        lines.append(f"    {patch.name:20s} {faces:10d} faces  {patch.type}  about {centre}")
+    lines += ["", "Arrays"]
+    for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
+        lines += [f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)]
+    return [*lines, "", note]
+
+
+def _read_mesh(
+    path: Path, velocity: str, time: float | str, division: Division | None
+) -> tuple[Any, Mesh, list[PatchSurface], str]:
+    """The cells of a file, their mesh, the patches that the file names, and what the user should know."""
+    if not path.is_file():
+        raise InputError(f"{path}: no such file.")
+    data = _read_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
+    whole, named = _parts(data, path)
+    grid = _solid_cells(whole, path)
+    require_numbers(np.asarray(grid.points, dtype=np.float64), path, "points")
+    surfaces = [PatchSurface(name, _type(surface, velocity), surface) for name, surface in named]
+    if not surfaces:
+        mesh, note = _divided(grid, whole, division or Division(), path)
+    elif division is not None:
+        raise InputError(f"{path}: the file names its patches, {listed([s.name for s in surfaces])}.")
+    else:
+        mesh = build_mesh(grid, surfaces, source=str(path))
+        note = f"The patches are those of the file: {_named(mesh)}."
+    require_volumes(mesh, path)
+    return grid, mesh, surfaces, note
+
+
+def _read_vtk(path: Path, time: float | str) -> Any:
+    if path.suffix == ".series":
+        path = _of_series(path, time)
+    require_survival(path)
+    with spoken() as said, _quiet(path):
         try:
             reader = pyvista.get_reader(path)
-            times = getattr(reader, "time_values", None)
+            times = list(getattr(reader, "time_values", None) or [])
             if times:
-                reader.set_active_time_value(times[-1])
+                reader.set_active_time_value(times[pick_time(path, [f"{t:g}" for t in times], time)])
             found = reader.read()
+        except InputError:
+            raise
         except Exception as error:
-            raise InputError(f"{path}: VTK cannot read it: {error}") from None
+            raise InputError(f"{path}: VTK cannot read it: {error or type(error).__name__}") from None
     if said.errors:
         raise InputError(f"{path}: VTK says: {said.errors[0]}")
+    if path.suffix == ".vtk":
+        _require_whole(path)
+    if path.suffix == ".pvtu":
+        # Cells that a piece has for its neighbours' sake come first; then points where the pieces meet.
+        ghosts = found.cell_data.get("vtkGhostType")
+        found = found if ghosts is None else found.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
+        found = found.clean(tolerance=0.0)
     return found
+
+
+def _require_whole(path: Path) -> None:
+    """Refuse a legacy file in text form that ends within its last array, which VTK reads without a word."""
+    data = path.read_bytes()
+    if data.split(b"\n", 3)[2:3] != [b"ASCII"]:
+        return
+    lines = data.decode("latin-1").splitlines()[3:]
+    heads = [k for k, line in enumerate(lines) if _HEAD.match(line)]
+    counts = {words[0]: words[1:] for words in (lines[k].split() for k in heads)}
+    if not heads:
+        return
+    words = lines[heads[-1]].split()
+    in_data = next((w[1] for k in reversed(heads) if (w := lines[k].split())[0] in _DATA and len(w) > 1), "0")
+    try:
+        match words:
+            case ["POINTS", n, *_]:
+                expected = 3 * int(n)
+            case ["CELL_TYPES", n, *_]:
+                expected = int(n)
+            case ["CELLS", _, n, *_]:
+                expected = int(n)
+            case ["OFFSETS" | "CONNECTIVITY", *_]:
+                expected = int(counts["CELLS"][words[0] == "CONNECTIVITY"])
+            case ["VECTORS" | "NORMALS", *_]:
+                expected = 3 * int(in_data)
+            case ["TENSORS", *_]:
+                expected = 9 * int(in_data)
+            case ["SCALARS" | "LOOKUP_TABLE", *_]:
+                scalars = counts.get("SCALARS", [])
+                expected = int(in_data) * (int(scalars[2]) if len(scalars) > 2 else 1)
+            case [_, components, tuples, _]:
+                expected = int(components) * int(tuples)
+            case _:
+                return
+    except (ValueError, LookupError):
+        return
+    found = sum(len(line.split()) for line in lines[heads[-1] + 1 :])
+    if found < expected:
+        raise InputError(
+            f"{path}: {words[0]} has {found} values, not {expected}; the file is broken or cut short."
+        )
+
+
+@contextlib.contextmanager
+def _quiet(path: Path) -> Iterator[None]:
+    """Keep the HDF5 library from printing what goes wrong, which it does beneath Python."""
+    if path.suffix != ".vtkhdf":
+        yield
+        return
+    sys.stderr.flush()
+    kept = os.dup(2)
+    with open(os.devnull, "wb") as nothing:  # noqa: PTH123
+        os.dup2(nothing.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+
+
+def _of_series(path: Path, time: float | str) -> Path:
+    """The file of a series at a time."""
+    try:
+        files = json.loads(path.read_text(encoding="utf-8"))["files"]
+        times = {f"{float(entry['time']):.12g}": str(entry["name"]) for entry in files}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{path}: not a list of files with their times: {error!r}") from None
+    names = sorted(times, key=float)
+    if not names:
+        raise InputError(f"{path}: the list of files is empty.")
+    file = path.parent / times[names[pick_time(path, names, time)]]
+    if file.suffix == ".series" or not file.is_file():
+        raise InputError(f"{path}: the file {file} is not there.")
+    return file
 
 
 def _read_meshio(path: Path) -> Any:
@@ -80,38 +268,166 @@ def _read_meshio(path: Path) -> Any:
     # Where a format is beyond it, meshio prints and ends the program.
     words = io.StringIO()
     try:
-        with contextlib.redirect_stdout(words), contextlib.redirect_stderr(words):
-            return pyvista.from_meshio(meshio.read(path))
+        with contextlib.redirect_stdout(words), contextlib.redirect_stderr(words), np.errstate(all="ignore"):
+            mesh = meshio.read(path)
+            grid = pyvista.from_meshio(mesh)
     except (Exception, SystemExit) as error:
         reason = str(error) if not isinstance(error, SystemExit) else " ".join(words.getvalue().split())
         raise InputError(f"{path}: meshio cannot read it: {reason or type(error).__name__}") from None
+    for name, value in (mesh.field_data or {}).items():
+        # Gmsh's names of physical groups: number and dimension.
+        if np.size(value) == 2:
+            grid.field_data[name] = np.asarray(value)
+    return grid
 
 
-def _solid_cells(data: Any, path: Path) -> Any:
-    """The one unstructured grid in what was read, without its points, lines and surfaces."""
-    parts = [data]
-    if isinstance(data, pyvista.MultiBlock):
-        parts = list(data.recursive_iterator())
-    grids = [part for part in parts if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
+def _parts(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]]:
+    """The one unstructured grid in what was read, and the surfaces beside it by name."""
+    leaves = list(_leaves("", data))
+    grids = [part for _, part in leaves if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
     if len(grids) != 1:
         raise InputError(f"{path}: {len(grids)} unstructured grids with cells; exactly one is needed.")
-    grid = grids[0]
-    solid = np.isin(grid.celltypes, list(CELL_KINDS))
-    if not solid.any():
+    surfaces = [(name, part) for name, part in leaves if isinstance(part, pyvista.PolyData) and part.n_faces]
+    names = [name for name, _ in surfaces]
+    if len(set(names)) < len(names):
+        raise InputError(f"{path}: two surfaces have the same name; their names are {listed(names)}.")
+    return grids[0], surfaces
+
+
+def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
+    if not isinstance(block, pyvista.MultiBlock):
+        return [] if block is None else [(name, block)]
+    return [leaf for key, part in zip(block.keys(), block, strict=True) for leaf in _leaves(str(key), part)]
+
+
+def _solid_cells(grid: Any, path: Path) -> Any:
+    """The grid without its points, lines and surfaces."""
+    kinds = np.unique(grid.celltypes).tolist()
+    if not set(kinds) & set(CELL_KINDS):
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
-    flat = np.array([pyvista.CellType(kind).dimension < 3 for kind in np.unique(grid.celltypes).tolist()])
-    if flat.any():
-        kinds = np.unique(grid.celltypes)[~flat]
-        grid = grid.extract_cells(np.flatnonzero(np.isin(grid.celltypes, kinds)))
-    return grid
+    flat = [kind for kind in kinds if pyvista.CellType(kind).dimension < 3]
+    if not flat:
+        return grid
+    return grid.extract_cells(np.flatnonzero(~np.isin(grid.celltypes, flat)))
+
+
+def _type(surface: Any, velocity: str) -> str:
+    """Whether a surface is a wall: unless the fluid moves there."""
+    given = [data[velocity] for data in (surface.cell_data, surface.point_data) if velocity in data]
+    return "patch" if given and np.any(np.asarray(given[0]) != 0.0) else "wall"
+
+
+def _divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh, str]:
+    """The mesh with its boundary divided as asked, and what the user should know."""
+    mesh = build_mesh(grid, None, source=str(path))
+    if division.array:
+        labels, names = _by_array(mesh, whole, division.array, path)
+    elif division.feature_angle is not None:
+        labels = _by_angle(mesh, division.feature_angle)
+        names = [f"{BOUNDARY}{k}" for k in range(labels.max() + 1)]
+    else:
+        return mesh, "The file names no patches: the whole boundary is one wall, named boundary."
+    if len(names) > _MOST_PATCHES:
+        raise InputError(f"{path}: the boundary falls into {len(names)} patches; at most {_MOST_PATCHES}.")
+    sizes = np.diff(mesh.face_start)[mesh.n_internal :]
+    surfaces = []
+    for label, name in enumerate(names):
+        faces = np.flatnonzero(labels == label)
+        stream = [
+            np.concatenate([[sizes[f]], mesh.face_points[slice(*mesh.face_start[mesh.n_internal + f :][:2])]])
+            for f in faces
+        ]
+        if stream:
+            surfaces.append(
+                PatchSurface(name, "wall", pyvista.PolyData(mesh.points, faces=np.concatenate(stream)))
+            )
+    exact = grid.copy()
+    exact.points = mesh.points
+    mesh = build_mesh(exact, surfaces, source=str(path))
+    return mesh, f"The boundary is divided into {_named(mesh)}."
+
+
+def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[np.intp], list[str]]:
+    """The patch of each boundary face by an array on the surface cells, and the patches' names."""
+    if array not in whole.cell_data:
+        raise InputError(f"{path}: no cell array {array}. {suggestion(array, whole.cell_data.keys())}")
+    values = np.asarray(whole.cell_data[array])
+    if values.ndim != 1 or values.dtype.kind not in "iu":
+        raise InputError(f"{path}: cell array {array} is not one of whole numbers, one for each cell.")
+    flat = [kind for kind in np.unique(whole.celltypes).tolist() if pyvista.CellType(kind).dimension == 2]
+    rows = np.flatnonzero(np.isin(whole.celltypes, flat))
+    if len(rows) == 0:
+        raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")
+    names = {int(value[0]): name for name, value in _groups(whole) if int(value[1]) == 2}
+    found = {
+        frozenset(
+            map(tuple, np.asarray(whole.points, dtype=np.float64)[whole.get_cell(row).point_ids] + 0.0)
+        ): (int(values[row]))
+        for row in rows.tolist()
+    }
+    labels = np.empty(len(mesh.boundary_centres), dtype=np.intp)
+    used: dict[str, int] = {}
+    for face in range(len(labels)):
+        begin, end = mesh.face_start[mesh.n_internal + face : mesh.n_internal + face + 2]
+        corners = frozenset(map(tuple, mesh.points[mesh.face_points[begin:end]] + 0.0))
+        value = found.get(corners)
+        name = BOUNDARY if value is None else names.get(value, f"{BOUNDARY}{value}")
+        labels[face] = used.setdefault(name, len(used))
+    return labels, list(used)
+
+
+def _groups(grid: Any) -> list[tuple[str, Any]]:
+    return [
+        (str(name), grid.field_data[name])
+        for name in grid.field_data.keys()  # noqa: SIM118
+        if np.size(grid.field_data[name]) == 2
+    ]
+
+
+def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
+    """The patch of each boundary face: faces are together across edges that turn by less than the angle."""
+    start = mesh.face_start[mesh.n_internal :].astype(np.intp)
+    sizes = np.diff(start)
+    a = mesh.face_points[start[0] :].astype(np.int64)
+    b = np.roll(a, -1)
+    b[start[1:] - start[0] - 1] = a[start[:-1] - start[0]]
+    edges = (np.minimum(a, b) << 32) | np.maximum(a, b)
+    face = np.repeat(np.arange(len(sizes)), sizes)
+    order = np.argsort(edges, kind="stable")
+    same = edges[order[1:]] == edges[order[:-1]]
+    one, other = face[order[:-1]][same], face[order[1:]][same]
+    normals = mesh.boundary_areas / np.maximum(
+        np.linalg.norm(mesh.boundary_areas, axis=1, keepdims=True), 1e-300
+    )
+    smooth = np.einsum("ei,ei->e", normals[one], normals[other]) > np.cos(np.radians(angle))
+    graph = sparse.coo_array(
+        (np.ones(np.count_nonzero(smooth), dtype=np.int8), (one[smooth], other[smooth])),
+        shape=(len(sizes), len(sizes)),
+    )
+    labels: NDArray[np.intp] = csgraph.connected_components(graph, directed=False)[1].astype(np.intp)
+    return labels
+
+
+def _named(mesh: Mesh) -> str:
+    """The patches by name, type and number of faces."""
+    faces = np.diff(mesh.patch_start).tolist()
+    return listed([f"{p.name} ({p.type}, {n} faces)" for p, n in zip(mesh.patches, faces, strict=True)])
 
 
 def _vectors(values: Any, name: str, path: Path) -> Floats:
     vectors = np.asarray(values, dtype=np.float64)
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InputError(f"{path}: array {name} has shape {vectors.shape}, but a velocity has 3 components.")
-    if not np.isfinite(vectors).all():
-        raise InputError(
-            f"{path}: array {name} has {np.count_nonzero(~np.isfinite(vectors))} values that are no number."
-        )
+    require_numbers(vectors, path, f"values of {name}")
     return vectors
+
+
+def _gradients(grid: Any, name: str, path: Path) -> Floats:
+    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j."""
+    if name not in grid.cell_data:
+        raise InputError(f"{path}: no cell array {name}. {suggestion(name, grid.cell_data.keys())}")
+    values = np.asarray(grid.cell_data[name], dtype=np.float64)
+    if values.shape != (grid.n_cells, 9):
+        raise InputError(f"{path}: array {name} has shape {values.shape}, but a gradient has 9 components.")
+    require_numbers(values, path, f"values of {name}")
+    return values.reshape(-1, 3, 3).transpose(0, 2, 1)

@@ -7,12 +7,13 @@ what it passes over is checked.
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pyvista
@@ -20,7 +21,9 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
-from foamprb.errors import InputError
+from foamprb.dictionary import read_dictionary_list, unquoted
+from foamprb.entries import NonNegative
+from foamprb.errors import InputError, suggestion
 from foamprb.flow.foamfile import existing as _existing
 from foamprb.flow.foamfile import header as _header
 from foamprb.flow.foamfile import read_bytes as _read_bytes
@@ -28,6 +31,7 @@ from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
 from foamprb.flow.zones import parse_cell_zones
+from foamprb.records import read_entries
 
 __all__ = [
     "PRECISION_NOTE",
@@ -37,15 +41,24 @@ __all__ = [
     "VelocityReader",
     "available_times",
     "describe",
+    "listed",
+    "pick_time",
     "read_case",
+    "regions",
+    "require_numbers",
+    "require_volumes",
     "select_time",
     "spoken",
 ]
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
-_PATCH = re.compile(r'("[^"]*"|[^\s(){};"]+)\s*\{([^{}]*)\}')
-_SPOKEN = re.compile(r"^(ERROR|Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE)
+_LIST = re.compile(rb"\n\s*(\d+)\s*\(")
+LARGEST = 1e30
+"""Larger numbers, in m or m/s, are none: products of a few of them must stay finite."""
+_SPOKEN = re.compile(
+    r"^(ERROR|Warning|Generic Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE
+)
 _MOST_SPOKEN = 100
 PRECISION_NOTE = (
     "Coordinates and velocities have passed through single precision in VTK's OpenFOAM reader: a relative "
@@ -59,6 +72,10 @@ class PatchInfo(NamedTuple):
     name: str
     type: str
     faces: int
+    start: int
+    """Its first face."""
+    neighbour: str = ""
+    """The patch that a coupled patch leads to."""
 
 
 class TimeInfo(NamedTuple):
@@ -80,12 +97,18 @@ class CaseInfo:
     """Number of cells of each kind."""
     bounds: tuple[Floats, Floats]
     """Lowest and highest coordinates, m."""
+    region: str = ""
+    """The region that this is about."""
+    regions: tuple[str, ...] = ()
+    """All regions."""
 
     def lines(self) -> list[str]:
         """The same for a person to read."""
         low, high = ("({:g} {:g} {:g})".format(*corner) for corner in self.bounds)
         return [
             f"Case    {self.case}",
+            *([f"Region  {self.region}"] if self.region else []),
+            *([f"Regions {', '.join(self.regions)}"] if self.regions else []),
             "",
             "Mesh",
             f"    {'points':20s} {self.points:10d}",
@@ -109,7 +132,12 @@ def available_times(case: Path) -> tuple[str, ...]:
     return tuple(sorted(names, key=float))
 
 
-def select_time(case: Path, time: float | str = "latestTime") -> str:
+def regions(case: Path) -> tuple[str, ...]:
+    """Names of the regions of a case whose mesh is divided into regions; none for a case of one mesh."""
+    return tuple(sorted(path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")))
+
+
+def select_time(case: Path, time: float | str = "latestTime", region: str = "") -> str:
     """Name of the time directory that ``time`` means: ``latestTime``, or a value.
 
     Raises
@@ -117,39 +145,51 @@ def select_time(case: Path, time: float | str = "latestTime") -> str:
     InputError
         The case has no such time; the message lists those that it has.
     """
-    _require_case(case)
+    _require_case(case, region)
     names = available_times(case)
     if not names:
         split = " Only decomposed times are there: run reconstructPar." if _is_decomposed(case) else ""
         raise InputError(f"{case}: no time directories; has the solver been run?{split}")
+    return names[pick_time(case, names, time)]
+
+
+def pick_time(source: Path, names: Sequence[str], time: float | str) -> int:
+    """Position of a time among the names of times, in their order.
+
+    Raises
+    ------
+    InputError
+        There is no such time; the message lists those that there are.
+    """
     if time == "latestTime":
-        return names[-1]
+        return len(names) - 1
     try:
         value = float(time)
     except ValueError:
         raise InputError(
-            f"{case}: time '{time}' is neither a number nor latestTime; the times are {_list(names)}."
+            f"{source}: time '{time}' is neither a number nor latestTime; the times are {listed(names)}."
         ) from None
-    for name in names:
+    for position, name in enumerate(names):
         if abs(float(name) - value) <= 1e-9 * max(abs(value), 1e-30):
-            return name
-    raise InputError(f"{case}: no time {time}; the times are {_list(names)}.")
+            return position
+    raise InputError(f"{source}: no time {time}; the times are {listed(names)}.")
 
 
-def describe(case: Path) -> CaseInfo:
-    """Tell what a case holds, without reading a field.
+def describe(case: Path, region: str = "") -> CaseInfo:
+    """Tell what a case, or a region of it, holds, without reading a field.
 
     Raises
     ------
     InputError
         The folder is no case, or its mesh cannot be read.
     """
-    _require_case(case)
+    _require_case(case, region)
     names = available_times(case)
-    times = tuple(TimeInfo(name, _fields(case / name)) for name in names)
-    folder = _mesh_folder(case, names[-1] if names else None)
-    patches = _read_boundary(folder)
-    blocks, said = _read_blocks(case, names[-1] if names else None, None, patches=False)
+    times = tuple(TimeInfo(name, _fields(case / name / region)) for name in names)
+    folder = _mesh_folder(case, names[-1] if names else None, region)
+    patches = _read_boundary(case, folder)
+    _require_labels(folder, _noted_counts(folder))
+    blocks, said = _read_blocks(case, names[-1] if names else None, None, region, patches=False)
     _raise_spoken(case, said)
     grid = blocks["internalMesh"]
     kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)
@@ -159,10 +199,16 @@ def describe(case: Path) -> CaseInfo:
     }
     points = np.asarray(grid.points, dtype=np.float64)
     bounds = (points.min(axis=0), points.max(axis=0))
-    return CaseInfo(case, times, patches, len(points), cells, bounds)
+    return CaseInfo(case, times, patches, len(points), cells, bounds, region, regions(case))
 
 
-def read_case(case: Path | str, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
+def read_case(
+    case: Path | str,
+    time: float | str = "latestTime",
+    velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
+) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
     Parameters
@@ -173,23 +219,36 @@ def read_case(case: Path | str, time: float | str = "latestTime", velocity: str 
         A time's value, or ``latestTime``.
     velocity
         Name of the velocity field, a ``volVectorField`` in m/s.
+    region
+        Name of the mesh region, if the case has several.
+    gradient
+        Name of the velocity's gradient, a ``volTensorField`` in 1/s such as ``grad(U)``, to be taken for the
+        gradient at the cells; without a name it is reconstructed from the velocity.
 
     Raises
     ------
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    case = Path(case)
-    mesh, cells, boundary, name = read_fields(case, time, velocity)
-    u, l = Reconstruction(mesh)(cells, boundary)
+    mesh, cells, boundary, name = read_fields(Path(case), time, velocity, region)
+    given = _read_gradient(Path(case), name, gradient, region) if gradient else None
+    u, l = Reconstruction(mesh)(cells, boundary, given)
     notes = [PRECISION_NOTE]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    return MeshFlow(mesh, u, l, notes, zones=lambda: _read_cell_zones(_mesh_folder(case, name)))
+    return MeshFlow(mesh, u, l, notes, zones=lambda: _read_cell_zones(_mesh_folder(Path(case), name, region)))
+
+
+def _read_gradient(case: Path, time: str, field: str, region: str) -> Floats:
+    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j, 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
+    path = _field_path(case / time / region, field, "volTensorField", "the gradient of a velocity")
+    blocks, said = _read_blocks(case, time, field, region, patches=False)
+    _raise_spoken(case, said)
+    return _values(blocks["internalMesh"], field, path, "the cells", 9).reshape(-1, 3, 3).transpose(0, 2, 1)
 
 
 def read_fields(
-    case: Path, time: float | str = "latestTime", velocity: str = "U"
+    case: Path, time: float | str = "latestTime", velocity: str = "U", region: str = ""
 ) -> tuple[Mesh, Floats, Floats, str]:
     """Read the mesh with the velocity at its cells (n_cells, 3) and boundary faces (n_boundary, 3), m/s.
 
@@ -203,12 +262,13 @@ def read_fields(
     InputError
         As :func:`read_case`.
     """
-    name = select_time(case, time)
-    path = _field_path(case, name, velocity)
-    folder = _mesh_folder(case, name)
-    patches = _read_boundary(folder)
+    name = select_time(case, time, region)
+    path = _field_path(case / name / region, velocity)
+    folder = _mesh_folder(case, name, region)
+    patches = _read_boundary(case, folder)
     noted = _noted_counts(folder)
-    blocks, said = _read_blocks(case, name, velocity, patches=True)
+    _require_labels(folder, noted)
+    blocks, said = _read_blocks(case, name, velocity, region, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
         if word in noted and noted[word] != found:
@@ -225,9 +285,11 @@ def read_fields(
                 f"{_shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
                 f"{0 if block is None else block.n_cells} could be read."
             )
-        surfaces.append(PatchSurface(patch.name, patch.type, block))
+        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
     cells, boundary = _velocities(blocks, patches, velocity, path)
+    require_numbers(np.asarray(grid.points, dtype=np.float64), folder / "points", "points")
     mesh = build_mesh(grid, surfaces, source=str(folder))
+    require_volumes(mesh, folder)
     return mesh, cells, boundary, name
 
 
@@ -246,10 +308,10 @@ class VelocityReader:
 
     def __init__(self, case: Path, time: str, velocity: str) -> None:
         self._case, self._velocity = case, velocity
-        self._folder = _mesh_folder(case, time)
-        self._patches = _read_boundary(self._folder)
+        self._folder = _mesh_folder(case, time, "")
+        self._patches = _read_boundary(case, self._folder)
         with spoken():
-            self._reader = _open(case, velocity, patches=True)
+            self._reader = _open(case, velocity, "", patches=True)
 
     def __call__(self, time: str) -> tuple[Floats, Floats]:
         """Velocity at the cells (n_cells, 3) and boundary faces (n_boundary, 3) at a time, m/s.
@@ -259,7 +321,7 @@ class VelocityReader:
         InputError
             The field is missing, broken or not of the mesh's size.
         """
-        path = _field_path(self._case, time, self._velocity)
+        path = _field_path(self._case / time, self._velocity)
         with spoken() as said:
             blocks = _update(self._reader, time)
         _raise_spoken(self._case, said)
@@ -284,11 +346,55 @@ def _velocities(
     return cells, np.concatenate(values)
 
 
+def require_numbers(values: Floats, source: Path, what: str) -> None:
+    """Refuse rows that are not finite, or larger than any length or velocity.
+
+    Raises
+    ------
+    InputError
+        How many of them, and the first.
+    """
+    bad = np.flatnonzero(~(np.abs(values) <= LARGEST).all(axis=1))
+    if len(bad):
+        raise InputError(
+            f"{source}: {len(bad)} of {len(values)} {what} are not finite numbers below {LARGEST:g}; the "
+            f"first is number {bad[0]}."
+        )
+
+
+def require_volumes(mesh: Mesh, source: Path) -> None:
+    """Refuse a mesh that cannot be one.
+
+    Raises
+    ------
+    InputError
+        Cells have no volume or are inside out.
+    """
+    flat = np.flatnonzero(~(mesh.volumes > 0.0))
+    if len(flat):
+        x = "({:g} {:g} {:g})".format(*mesh.centres[flat[0]])
+        raise InputError(
+            f"{source}: {len(flat)} of {mesh.n_cells} cells have no positive volume; the first is cell "
+            f"{flat[0]} at {x}. Is the mesh damaged? (checkMesh tells)"
+        )
+
+
 class Spoken(NamedTuple):
     """What VTK said, each message once."""
 
     errors: list[str]
     warnings: list[str]
+
+
+class _Records(logging.Handler):
+    """Keeps the errors in the log."""
+
+    def __init__(self, errors: list[str]) -> None:
+        super().__init__(logging.ERROR)
+        self._errors = errors
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._errors.append(" ".join(record.getMessage().split()))
 
 
 @contextmanager
@@ -298,9 +404,13 @@ def spoken() -> Iterator[Spoken]:
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(window)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    # Of some of its errors pyvista makes records of the log.
+    records = _Records(said.errors)
+    logging.getLogger().addHandler(records)
     try:
         yield said
     finally:
+        logging.getLogger().removeHandler(records)
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_INFO)
         vtkOutputWindow.SetInstance(before)
         text: Any = window.GetOutput()
@@ -308,29 +418,31 @@ def spoken() -> Iterator[Spoken]:
             # So when a broken file's contents are quoted.
             text = text.decode("utf-8", "replace")
         for kind, message in _SPOKEN.findall(text):
-            messages = said.errors if kind == "ERROR" else said.warnings
             message = " ".join(message.split())
+            # Of a file cut short VTK's old reader only warns.
+            fatal = kind == "ERROR" or (kind == "Generic Warning" and message.startswith("Error"))
+            messages = said.errors if fatal else said.warnings
             if message not in messages and len(messages) < _MOST_SPOKEN:
                 messages.append(message)
 
 
 def _read_blocks(
-    case: Path, time: str | None, velocity: str | None, *, patches: bool
+    case: Path, time: str | None, velocity: str | None, region: str, *, patches: bool
 ) -> tuple[dict[str, Any], Spoken]:
     """The reader's blocks by name, ``internalMesh`` and the patches; and what VTK said."""
     with spoken() as said:
-        blocks = _update(_open(case, velocity, patches=patches), time)
+        blocks = _update(_open(case, velocity, region, patches=patches), time)
     grid = blocks.get("internalMesh")
     if grid is None or grid.n_cells == 0:
         _raise_spoken(case, said)
         raise InputError(
-            f"{case / 'constant' / 'polyMesh'}: no mesh could be read; a file is missing, broken or cut "
-            "short."
+            f"{case / 'constant' / region / 'polyMesh'}: no mesh could be read; a file is missing, broken or "
+            "cut short."
         )
     return blocks, said
 
 
-def _open(case: Path, velocity: str | None, *, patches: bool) -> Any:
+def _open(case: Path, velocity: str | None, region: str, *, patches: bool) -> Any:
     """VTK's reader of the mesh, of the velocity if it is named, and of the patches."""
     reader = vtkOpenFOAMReader()
     # The name only tells the folder; the file need not be there.
@@ -346,7 +458,11 @@ def _open(case: Path, velocity: str | None, *, patches: bool) -> Any:
         reader.SetCellArrayStatus(velocity, 1)
     for index in range(reader.GetNumberOfPatchArrays()):
         part = reader.GetPatchArrayName(index)
-        wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
+        of_region = f"/{region}/" if region else ""
+        inner = part.removeprefix(of_region)
+        wanted = part.startswith(of_region) and (
+            inner == "internalMesh" or (patches and inner.startswith("patch/"))
+        )
         reader.SetPatchArrayStatus(part, int(wanted))
     return reader
 
@@ -374,28 +490,36 @@ def _leaves(block: Any) -> Iterator[tuple[str, Any]]:
             yield name, part
 
 
-def _values(block: Any, field: str, path: Path, where: str) -> Floats:
+def _values(block: Any, field: str, path: Path, where: str, components: int = 3) -> Floats:
     if field not in block.cell_data:
         raise InputError(f"{path}: no values could be read for {where}; the file is broken or cut short.")
     values = np.asarray(block.cell_data[field], dtype=np.float64)
-    if values.shape != (block.n_cells, 3):
-        raise InputError(f"{path}: {where} have values of shape {values.shape}, not {(block.n_cells, 3)}.")
-    bad = ~np.isfinite(values).all(axis=1)
-    if bad.any():
-        raise InputError(
-            f"{path}: {np.count_nonzero(bad)} of {len(values)} values of {where} are not finite numbers."
-        )
+    shape = (block.n_cells, components)
+    if values.shape != shape:
+        raise InputError(f"{path}: {where} have values of shape {values.shape}, not {shape}.")
+    require_numbers(values, path, f"values of {where}")
     return values
 
 
-def _require_case(case: Path) -> None:
+def _require_case(case: Path, region: str) -> None:
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
-    if _existing(case / "constant" / "polyMesh" / "faces") is not None:
+    names = regions(case)
+    if region and region not in names:
+        raise InputError(
+            f"{case}: no region {region}. {suggestion(region, names)}"
+            if names
+            else f"{case}: no region {region}; the case is not divided into regions."
+        )
+    if _existing(case / "constant" / region / "polyMesh" / "faces") is not None:
         return
     if _is_decomposed(case):
         raise InputError(
             f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
+        )
+    if names:
+        raise InputError(
+            f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
         )
     raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
 
@@ -404,30 +528,32 @@ def _is_decomposed(case: Path) -> bool:
     return any(case.glob("processor*/constant")) or any(case.glob("processors*/constant"))
 
 
-def _mesh_folder(case: Path, time: str | None) -> Path:
+def _mesh_folder(case: Path, time: str | None, region: str) -> Path:
     """The ``polyMesh`` folder whose topology holds at the time."""
-    folder = case / "constant" / "polyMesh"
+    folder = case / "constant" / region / "polyMesh"
     for name in available_times(case):
-        changed = case / name / "polyMesh"
+        changed = case / name / region / "polyMesh"
         if time is not None and float(name) <= float(time) and _existing(changed / "faces") is not None:
             folder = changed
     return folder
 
 
-def _field_path(case: Path, time: str, field: str) -> Path:
-    path = _existing(case / time / field)
+def _field_path(
+    folder: Path, field: str, wanted: str = "volVectorField", meaning: str = "a velocity"
+) -> Path:
+    path = _existing(folder / field)
     if path is None:
-        raise InputError(f"{case / time}: no field {field}; the fields are {_list(_fields(case / time))}.")
+        raise InputError(f"{folder}: no field {field}; the fields are {listed(_fields(folder))}.")
     kind = _header(path).get("class", "(none)")
-    if kind != "volVectorField":
-        raise InputError(f"{path}: the class is {kind}, but a velocity is a volVectorField.")
+    if kind != wanted:
+        raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
     return path
 
 
 def _fields(folder: Path) -> dict[str, str]:
     """Fields of a time directory, name → class."""
     found = {}
-    for path in sorted(folder.iterdir()):
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.is_file():
             kind = _header(path).get("class", "")
             if kind.endswith("Field"):
@@ -435,23 +561,39 @@ def _fields(folder: Path) -> dict[str, str]:
     return found
 
 
-def _read_boundary(folder: Path) -> tuple[PatchInfo, ...]:
+@dataclass(frozen=True, kw_only=True)
+class _BoundaryEntry:
+    """What is read of a patch in ``polyMesh/boundary``."""
+
+    type: str
+    nFaces: Annotated[int, NonNegative]
+    startFace: Annotated[int, NonNegative]
+    neighbourPatch: str = ""
+
+
+def _read_boundary(case: Path, folder: Path) -> tuple[PatchInfo, ...]:
     path = _existing(folder / "boundary")
     if path is None:
         raise InputError(f"{folder / 'boundary'}: no such file.")
-    text = _COMMENT.sub(" ", _read_bytes(path).decode("utf-8", "replace"))
-    body = text[text.find("}") + 1 :]
-    count = re.search(r"\d+(?=\s*\()", body)
-    patches = []
-    for match in _PATCH.finditer(body):
-        entries = {words[0]: words[1] for line in match[2].split(";") if len(words := line.split()) > 1}
-        if "type" not in entries or not entries.get("nFaces", "").isdigit():
-            raise InputError(f"{path}: patch {match[1]} lacks its type or nFaces.")
-        patches.append(PatchInfo(match[1].strip('"'), entries["type"], int(entries["nFaces"])))
-    if count is None or int(count[0]) != len(patches):
-        raise InputError(
-            f"{path}: {len(patches)} patches could be read, not {count[0] if count else '(no number)'}."
-        )
+    try:
+        return _boundary_entries(path, case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+
+
+def _boundary_entries(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    patches: list[PatchInfo] = []
+    for dictionary in read_dictionary_list(path, case).items:
+        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
+        name = unquoted(dictionary.key)
+        if any(name == patch.name for patch in patches):
+            raise dictionary.mistake("occurs twice.")
+        if patches and read.startFace != patches[-1].start + patches[-1].faces:
+            expected = patches[-1].start + patches[-1].faces
+            raise dictionary.mistake(
+                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
+            )
+        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch))
     return tuple(patches)
 
 
@@ -469,11 +611,50 @@ def _noted_counts(folder: Path) -> dict[str, int]:
     return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
 
 
+def _require_labels(folder: Path, noted: dict[str, int]) -> None:
+    """Refuse owners and neighbours that cannot be cells: VTK would make room for as many."""
+    faces = 0
+    for name in ("owner", "neighbour"):
+        path = _shown(folder / name)
+        labels = _labels(path)
+        faces = max(faces, 0 if labels is None else len(labels))
+        if labels is None or len(labels) == 0:
+            continue
+        # There are fewer cells than faces in any mesh.
+        limit = noted.get("nCells", faces)
+        wrong = np.flatnonzero((labels < 0) | (labels >= limit))
+        if len(wrong):
+            raise InputError(
+                f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {limit} cells."
+            )
+
+
+def _labels(path: Path) -> NDArray[np.int64] | None:
+    """A list of labels, None if it is not in the form that OpenFOAM writes."""
+    data = _read_bytes(path)
+    header = _header(path)
+    match = _LIST.search(data, max(data.find(b"}"), 0))
+    if match is None:
+        return None
+    count, body = int(match[1]), data[match.end() :]
+    if header.get("format") == "binary":
+        size = 8 if "label=64" in header.get("arch", "") else 4
+        if len(body) < count * size:
+            return None
+        return np.frombuffer(body, f"<i{size}", count).astype(np.int64)
+    words = body[: body.find(b")")].split()
+    try:
+        return np.array(words, dtype=np.int64) if len(words) == count else None
+    except (ValueError, OverflowError):
+        return None
+
+
 def _shown(path: Path) -> Path:
     return _existing(path) or path
 
 
-def _list(names: Any) -> str:
+def listed(names: Any) -> str:
+    """Names with commas between them, the middle left out where they are many."""
     names = list(names)
     if len(names) > 12:
         names = [*names[:5], "…", *names[-5:]]

@@ -10,3 +10,5 @@ class Patch(NamedTuple):
 
     name: str
     type: str
+    neighbour: str = ""
+    """The patch to which a particle goes on that meets this one, if the two are coupled."""

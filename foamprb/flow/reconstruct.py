@@ -4,16 +4,21 @@ Gradients come from least squares over face neighbours and boundary values. The 
 gives the second derivatives, whose part in the differences is then taken off again, so that quadratic fields
 are met beside a wall nearly as well as in the core. A node's value is the weighted mean of what its cells say
 about it by Taylor's formula; on a wall the wall's own values decide.
+
+Beyond a symmetry plane, an empty patch, a wedge or a cyclic patch the field goes on: each cell there has an
+image, whose values are known, and which counts as a neighbour like any other.
 """
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
+from scipy.spatial import KDTree
 
+from foamprb.flow.coupling import Coupling
 from foamprb.flow.mesh import Floats, Mesh
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]
@@ -33,7 +38,7 @@ VALUELESS = frozenset(
 )
 """Types of patches whose boundary values say nothing that the cells do not say."""
 
-_Matrix: TypeAlias = Any
+_MIRRORS = frozenset({"symmetry", "symmetryPlane", "empty", "wedge"})
 _Index: TypeAlias = NDArray[np.intp]
 _Mask: TypeAlias = NDArray[np.bool_]
 
@@ -62,11 +67,12 @@ class Reconstruction:
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
-        self._gradient = _Gradient(mesh, self._valued)
-        self._bend = _Gradient(mesh, np.empty(0, dtype=np.intp), least=0.01)
+        self._images = _Images(mesh)
+        self._gradient = _Gradient(mesh, self._valued, self._images)
+        self._bend = _Gradient(mesh, np.empty(0, dtype=np.intp), self._images, least=0.01)
         self._curvature = self._gradient.curvature()
 
-    def __call__(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+    def __call__(self, cells: Floats, boundary: Floats, l: Floats | None = None) -> tuple[Floats, Floats]:
         """Reconstruct a field.
 
         Parameters
@@ -75,13 +81,18 @@ class Reconstruction:
             (n_cells, 3) velocity at cell centres, m/s.
         boundary
             (n_boundary, 3) velocity at boundary faces; rows of faces without a value are not read.
+        l
+            (n_cells, 3, 3) gradient at cell centres, l_ij = ∂u_i/∂x_j, 1/s, if it is known already.
 
         Returns
         -------
         u, l
             (n_nodes, 3) and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j, mesh points first, then cell centres.
         """
-        l, h = self.derivatives(cells, boundary)
+        if l is None:
+            l, h = self.derivatives(cells, boundary)
+        else:
+            h = self._second(l)
         u_points, l_points = self._at_points(cells, boundary, l, h)
         return np.concatenate([u_points, cells]), np.concatenate([l_points, l])
 
@@ -92,31 +103,42 @@ class Reconstruction:
         """
         # One correction: beside a wall, the cell values of a finite-volume solution are themselves off by as
         # much as a second would change.
-        plain = self._gradient(cells, boundary[self._valued])
-        slopes = self._bend(plain.reshape(-1, 9), np.empty((0, 9))).reshape(-1, 3, 3, 3)
-        h = np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
+        beyond = self._images.turned(cells)
+        plain = self._gradient(cells, np.concatenate([boundary[self._valued], beyond]))
+        h = self._second(plain)
         return plain - np.einsum("njp,nip->nij", self._curvature, h), h
 
+    def _second(self, l: Floats) -> Floats:
+        """Second derivatives from the first."""
+        slopes = self._bend(l.reshape(-1, 9), self._images.turned(l).reshape(-1, 9)).reshape(-1, 3, 3, 3)
+        return np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
+
     def _at_points(self, cells: Floats, boundary: Floats, l: Floats, h: Floats) -> tuple[Floats, Floats]:
-        mesh, faces = self.mesh, self._valued
+        mesh, faces, images = self.mesh, self._valued, self._images
         rows, columns = _face_points(mesh, faces)
+        more_rows, more_columns = _face_points(mesh, images.faces)
         around = _Taylor(
             mesh.points,
-            np.concatenate([mesh.centres, mesh.boundary_centres[faces]]),
-            np.concatenate([mesh.cell_points, rows]),
+            np.concatenate([mesh.centres, mesh.boundary_centres[faces], images.places]),
+            np.concatenate([mesh.cell_points, rows, more_rows]),
             np.concatenate(
-                [np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start)), mesh.n_cells + columns]
+                [
+                    np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start)),
+                    mesh.n_cells + columns,
+                    mesh.n_cells + len(faces) + more_columns,
+                ]
             ),
         )
         # A boundary face is a place like a cell centre; its derivatives are those of its cell.
-        from_cell = np.concatenate([np.arange(mesh.n_cells), self._owner[faces]])
         slopes = h[:, :, _PAIR_OF]
         l_faces = self._at_faces(faces, l, slopes)
-        l_sites = np.concatenate([l, l_faces])
-        u_points = around(np.concatenate([cells, boundary[faces]]), l_sites, h[from_cell])
-        l_points = around(l_sites.reshape(-1, 9), slopes[from_cell].reshape(-1, 9, 3)).reshape(-1, 3, 3)
+        l_sites = np.concatenate([l, l_faces, images.turned(l)])
+        bends = np.concatenate([slopes, slopes[self._owner[faces]], images.turned(slopes)])
+        h_sites = np.stack([bends[:, :, j, k] for j, k in _PAIRS], axis=2)
+        u_points = around(np.concatenate([cells, boundary[faces], images.turned(cells)]), l_sites, h_sites)
+        l_points = around(l_sites.reshape(-1, 9), bends.reshape(-1, 9, 3)).reshape(-1, 3, 3)
         self._impose_walls(u_points, boundary, self._at_faces(self._walls, l, slopes))
-        return u_points, l_points
+        return images.agree(u_points), images.agree(l_points)
 
     def _at_faces(self, faces: _Index, l: Floats, slopes: Floats) -> Floats:
         """Gradients continued from the cells to their boundary faces."""
@@ -144,6 +166,103 @@ class Reconstruction:
         u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean[on_wall])
 
 
+class _Images:
+    """Cells beyond the patches over which the field goes on, each the image of a cell inside."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        owner = mesh.owner[mesh.n_internal :].astype(np.intp)
+        areas = mesh.boundary_areas
+        normals = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
+        coupled = {coupling.patch for coupling in mesh.couplings}
+        faces, cells, places, turns = [], [], [], []
+        self._planes, self._seams = [], []
+        for index, patch in enumerate(mesh.patches):
+            own = np.arange(mesh.patch_start[index], mesh.patch_start[index + 1])
+            if patch.type not in _MIRRORS or index in coupled or len(own) == 0:
+                continue
+            n = normals[own]
+            away = np.einsum("fi,fi->f", mesh.boundary_centres[own] - mesh.centres[owner[own]], n)
+            faces.append(own)
+            cells.append(owner[own])
+            places.append(mesh.centres[owner[own]] + 2.0 * away[:, None] * n)
+            mirror = np.eye(3) - 2.0 * n[:, :, None] * n[:, None, :]
+            # On a plane mesh the flow is the same at every height.
+            turns.append(np.broadcast_to(np.eye(3), mirror.shape) if patch.type == "empty" else mirror)
+            if patch.type != "empty":
+                self._planes.append(_mean_normals(mesh, own, n))
+        for coupling in mesh.couplings:
+            faces.append(coupling.faces)
+            cells.append(owner[coupling.partners])
+            # Backwards: what lies beyond the first patch is what lies before the second.
+            places.append((mesh.centres[cells[-1]] - coupling.shift) @ coupling.turn)
+            turns.append(np.broadcast_to(coupling.turn.T, (len(coupling.faces), 3, 3)))
+            if coupling.patch < coupling.other and len(coupling.faces):
+                self._seams.append(_seam(mesh, coupling))
+        self.faces: _Index = np.concatenate([np.empty(0, dtype=np.intp), *faces])
+        self.cells: _Index = np.concatenate([np.empty(0, dtype=np.intp), *cells])
+        self.places: Floats = np.concatenate([np.empty((0, 3)), *places])
+        self._turns: Floats = np.concatenate([np.empty((0, 3, 3)), *turns])
+
+    def turned(self, values: Floats) -> Floats:
+        """What the images have of the cells' tensors of any rank, (n_cells, 3, …, 3)."""
+        return _turned(self._turns, values[self.cells])
+
+    def agree(self, points: Floats) -> Floats:
+        """Tensors at the mesh points (n_points, 3, …, 3), made to agree with their images."""
+        points = points.copy()
+        for rows, mirrors in self._planes:
+            points[rows] = 0.5 * (points[rows] + _turned(mirrors, points[rows]))
+        for here, there, turn in self._seams:
+            turns = np.broadcast_to(turn, (len(here), 3, 3))
+            mean = 0.5 * (_turned(turns, points[here]) + points[there])
+            points[here], points[there] = _turned(turns.transpose(0, 2, 1), mean), mean
+            still = here[here == there]
+            if len(still) and np.any(turn != np.eye(3)):
+                points[still] = _about(turn, points[still])
+        return points
+
+
+def _turned(turns: Floats, values: Floats) -> Floats:
+    """Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T (n, 3, …, 3)."""
+    rank = values.ndim - 1
+    old, new = "abc"[:rank], "ijk"[:rank]
+    factors = ",".join(f"n{i}{a}" for i, a in zip(new, old, strict=True))
+    turned: Floats = np.einsum(f"{factors},n{old}->n{new}", *[turns] * rank, values, optimize=True)
+    return turned
+
+
+def _about(turn: Floats, values: Floats) -> Floats:
+    """The part of vectors (n, 3) or tensors (n, 3, 3) that no rotation about the axis of ``turn`` changes."""
+    axis = np.linalg.svd(turn - np.eye(3))[2][2]
+    along = np.outer(axis, axis)
+    kept = np.zeros_like(values)
+    if values.ndim == 2:
+        kept += values @ along
+        return kept
+    for part in (along, np.eye(3) - along, np.cross(np.eye(3), axis)):
+        kept += np.einsum("nij,ij->n", values, part)[:, None, None] * part / np.sum(part * part)
+    return kept
+
+
+def _mean_normals(mesh: Mesh, faces: _Index, normals: Floats) -> tuple[_Index, Floats]:
+    """Points of a patch of mirrors, and for each the mirror about the mean plane of its faces."""
+    rows, columns = _face_points(mesh, faces)
+    points, place = np.unique(rows, return_inverse=True)
+    total = np.stack([np.bincount(place, normals[columns, i], len(points)) for i in range(3)], axis=1)
+    mean = total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+    return points, np.eye(3) - 2.0 * mean[:, :, None] * mean[:, None, :]
+
+
+def _seam(mesh: Mesh, coupling: Coupling) -> tuple[_Index, _Index, Floats]:
+    """Points of a coupled patch beside those of the other that continue them, and the rotation between."""
+    here, there = (np.unique(_face_points(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
+    images = mesh.points[here] @ coupling.turn.T + coupling.shift
+    size = np.sqrt(np.linalg.norm(mesh.boundary_areas[coupling.faces], axis=1).min())
+    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * size)
+    near = np.isfinite(distance)
+    return here[near], there[np.asarray(nearest)[near]], coupling.turn
+
+
 class _Gradient:
     """Least-squares gradient at cell centres, differences weighted by the inverse square of the distance.
 
@@ -152,13 +271,14 @@ class _Gradient:
     one of a mesh one cell thick.
     """
 
-    def __init__(self, mesh: Mesh, valued: _Index, least: float = 1e-6) -> None:
+    def __init__(self, mesh: Mesh, valued: _Index, images: _Images, least: float = 1e-6) -> None:
         n = mesh.n_cells
         owner, neighbour = mesh.owner.astype(np.intp), mesh.neighbour.astype(np.intp)
         inner = owner[: mesh.n_internal]
-        rows = np.concatenate([inner, neighbour, owner[mesh.n_internal + valued]])
-        columns = np.concatenate([neighbour, inner, n + np.arange(len(valued))])
-        sites = np.concatenate([mesh.centres, mesh.boundary_centres[valued]])
+        outer = np.concatenate([valued, images.faces])
+        rows = np.concatenate([inner, neighbour, owner[mesh.n_internal + outer]])
+        columns = np.concatenate([neighbour, inner, n + np.arange(len(outer))])
+        sites = np.concatenate([mesh.centres, mesh.boundary_centres[valued], images.places])
         matrix = _directions(mesh.centres, sites, rows, columns)
         open_cells = np.flatnonzero(_nearly_singular(matrix, least))
         if len(open_cells):
@@ -180,7 +300,7 @@ class _Gradient:
             self._own[:, i] = np.bincount(rows, data, n)
 
     def __call__(self, cells: Floats, boundary: Floats) -> Floats:
-        """Gradients (n_cells, m, 3) of m fields at cells (n_cells, m) and valued faces (n_valued, m)."""
+        """Gradients (n_cells, m, 3) of m fields at cells (n_cells, m), valued faces and images (…, m)."""
         values = np.concatenate([cells, boundary])
         gradient = np.empty((*cells.shape, 3))
         for i, part in enumerate(self._parts):

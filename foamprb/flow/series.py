@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.compile import link
 from foamprb.errors import InputError
 from foamprb.flow.base import PatchFaces, Tetrahedra
 from foamprb.flow.locator import MeshArrays, locate
@@ -32,7 +31,8 @@ from foamprb.flow.openfoam import (
     select_time,
 )
 from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.walk import MeshFlow, corners, interpolate, inward, sample_all, shape
+from foamprb.flow.walk import MeshFlow, corners, interpolate, inward, sample_with, shape
+from foamprb.flow.walk import cross as still_cross
 from foamprb.flow.walk import gap as still_gap
 from foamprb.flow.walk import walk as still_walk
 
@@ -98,6 +98,11 @@ def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG
     return inward(flow.mesh, triangle)
 
 
+def cross(flow: SeriesArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
+    """:func:`foamprb.flow.walk.cross`."""
+    return still_cross(flow.mesh, triangle, x)
+
+
 def recover(flow: SeriesArrays, x: Vector) -> int:
     """:func:`foamprb.flow.walk.recover`."""
     return locate(flow.mesh, x)
@@ -136,6 +141,7 @@ class SeriesFlow:
         "walk": walk,
         "gap": gap,
         "normal": normal,
+        "cross": cross,
         "recover": recover,
     }
 
@@ -208,6 +214,11 @@ class SeriesFlow:
             self._slack,
         )
 
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """As :meth:`MeshFlow.move`; the fields change, and stay."""
+        self._still.move(place)
+        self.mesh = self._still.mesh
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, times, and velocities at the first of them, by name."""
         self.load(self.times[0], self.times[0])
@@ -227,11 +238,7 @@ class SeriesFlow:
             As :meth:`load`.
         """
         self.load(t, t)
-        points = np.ascontiguousarray(points, dtype=np.float64)
-        values = np.empty((len(points), 12))
-        sampler = link(sample_all, {"sample": sample})
-        sampler(self.arrays(), points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
-        return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+        return sample_with(sample, self.arrays(), points, hosts, t)
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of the hosts' cells, (n,), m."""

@@ -8,7 +8,8 @@ is met exactly where it is crossed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, TypeAlias
+from dataclasses import fields, replace
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,7 @@ __all__ = [
     "REACHED",
     "MeshArrays",
     "MeshFlow",
+    "cross",
     "gap",
     "near_walls",
     "normal",
@@ -168,6 +170,45 @@ def inward(flow: MeshArrays, triangle: int) -> Vector:
     return n[triangle, 0], n[triangle, 1], n[triangle, 2]
 
 
+def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
+    """Go from x on a triangle of a coupled patch to where the neighbouring patch continues it.
+
+    Returns
+    -------
+    host, x, turn
+        The tetrahedron behind the neighbouring face, −1 if the patch is coupled to none; the place, which
+        lies in it to round-off however well the two faces fit; the rotation from this side to that.
+    """
+    first, end = flow.across[triangle, 0], flow.across[triangle, 1]
+    m, k = flow.motions, flow.triangle_patch[triangle]
+    turn = (m[k, 0], m[k, 1], m[k, 2], m[k, 3], m[k, 4], m[k, 5], m[k, 6], m[k, 7], m[k, 8])
+    y = dot_vector(turn, x)
+    y = (y[0] + m[k, 9], y[1] + m[k, 10], y[2] + m[k, 11])
+    host, depth = -1, -np.inf
+    for other in range(first, end):
+        tet = flow.triangle_tet[other]
+        origin, c1, c2, c3, volume = frame(flow, tet)
+        if volume != 0.0:
+            w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
+            smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
+            if smallest > depth:
+                host, depth = tet, smallest
+    if host >= 0 and depth < 0.0:
+        origin, c1, c2, c3, volume = frame(flow, host)
+        w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
+        s = 1.0 / volume
+        w0, w1, w2, w3 = max(s * w0, 0.0), max(s * w1, 0.0), max(s * w2, 0.0), max(s * w3, 0.0)
+        s = 1.0 / (w0 + w1 + w2 + w3)
+        nodes, tets = flow.nodes, flow.tets
+        a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
+        y = (
+            s * (w0 * nodes[a, 0] + w1 * nodes[b, 0] + w2 * nodes[c, 0] + w3 * nodes[d, 0]),
+            s * (w0 * nodes[a, 1] + w1 * nodes[b, 1] + w2 * nodes[c, 1] + w3 * nodes[d, 1]),
+            s * (w0 * nodes[a, 2] + w1 * nodes[b, 2] + w2 * nodes[c, 2] + w3 * nodes[d, 2]),
+        )
+    return host, y, turn
+
+
 def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """Clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
 
@@ -240,10 +281,77 @@ def _dot(p: Vector, q: Vector) -> Any:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
+def _across(mesh: Mesh) -> Ints:
+    """See :class:`MeshArrays`."""
+    count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
+    start = np.concatenate([[0], np.cumsum(count)])
+    partner = np.full(len(mesh.boundary_centres), -1)
+    for coupling in mesh.couplings:
+        partner[coupling.faces] = coupling.partners
+    other = partner[mesh.triangle_face]
+    across = np.stack([start[other], start[other + 1]], axis=1)
+    across[other < 0] = 0
+    return across.astype(np.int32)
+
+
+def _motions(mesh: Mesh) -> Floats:
+    """See :class:`MeshArrays`."""
+    motions = np.zeros((len(mesh.patches), 12))
+    motions[:, [0, 4, 8]] = 1.0
+    for coupling in mesh.couplings:
+        motions[coupling.patch] = [*coupling.turn.ravel(), *coupling.shift]
+    return motions
+
+
+class _Walls(NamedTuple):
+    """Triangles that a body may touch: corners (n, 3, 3), inward unit normals (n, 3), patches (n,)."""
+
+    corners: Floats
+    normals: Floats
+    patches: Ints
+
+    def moved(self, turn: Floats, shift: Floats) -> _Walls:
+        return _Walls(self.corners @ turn.T + shift, self.normals @ turn.T, self.patches)
+
+    def take(self, rows: Any) -> _Walls:
+        return _Walls(*(array[rows] for array in self))
+
+
+def _images(mesh: Mesh, walls: _Walls, reach: float) -> _Walls:
+    """What lies of the walls beyond the coupled patches, within ``reach`` (m) of the patch.
+
+    Where two pairs of patches meet there are images of images.
+    """
+    found: list[_Walls] = []
+    sources = [(-1, walls)]
+    for _ in range(2):
+        images = []
+        for pair, seen in sources:
+            for coupling in mesh.couplings:
+                if min(coupling.patch, coupling.other) == pair or len(coupling.faces) == 0:
+                    continue
+                # Beyond the patch lies what lies before its neighbour.
+                boxes = _face_box(mesh, coupling.partners)
+                low, high = seen.corners.min(axis=1), seen.corners.max(axis=1)
+                near = np.all((high >= boxes[0] - reach) & (low <= boxes[1] + reach), axis=1)
+                back = coupling.reverse()
+                image = seen.take(near).moved(back.turn, back.shift)
+                images.append((min(coupling.patch, coupling.other), image))
+        found += [image for _, image in images]
+        sources = images
+    return _Walls(*(np.concatenate(arrays) for arrays in zip(walls.take(slice(0)), *found, strict=True)))
+
+
+def _face_box(mesh: Mesh, faces: Any) -> tuple[Floats, Floats]:
+    """Corners of the box around boundary faces."""
+    points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
+    return points.min(axis=0), points.max(axis=0)
+
+
 def near_walls(
-    mesh: Mesh, boxes: Floats, tree: tuple[Floats, Ints], reach: float, patches: Iterable[int]
+    mesh: Mesh, boxes: Floats, tree: tuple[Floats, Ints], reach: float, names: Ints, corners: Floats
 ) -> tuple[Ints, Ints]:
-    """List, cell by cell, the boundary triangles within ``reach`` of the cell's box.
+    """List, cell by cell, the wall triangles within ``reach`` of the cell's box.
 
     Parameters
     ----------
@@ -251,8 +359,8 @@ def near_walls(
         The mesh, its cells' boxes and the tree over them.
     reach
         Distance in metres, at least the longest semi-axis of a particle; 0 lists nothing.
-    patches
-        Indices of the patches that count.
+    names, corners
+        Indices (n,) of the triangles that count, and their corners (n, 3, 3).
 
     Returns
     -------
@@ -260,15 +368,14 @@ def near_walls(
         As in :class:`MeshArrays`; a box distance is never larger than the true one, so none is missed.
     """
     start = np.zeros(mesh.n_cells + 1, dtype=np.int32)
-    wanted = np.flatnonzero(np.isin(mesh.triangle_patch, list(patches))).astype(np.int32)
-    if reach <= 0.0 or len(wanted) == 0:
+    if reach <= 0.0 or len(names) == 0:
         return start, np.empty(0, dtype=np.int32)
-    corners = mesh.points[mesh.triangles[wanted]]
     targets = np.concatenate([corners.min(axis=1) - reach, corners.max(axis=1) + reach], axis=1)
     meet = link(_meetings)
-    count = meet(*tree, boxes, targets, wanted, np.empty(0, dtype=np.int32), np.empty(0, dtype=np.int32))
+    nothing = np.empty(0, dtype=np.int32)
+    count = meet(*tree, boxes, targets, names, nothing, nothing)
     cells, triangles = np.empty(count, dtype=np.int32), np.empty(count, dtype=np.int32)
-    meet(*tree, boxes, targets, wanted, cells, triangles)
+    meet(*tree, boxes, targets, names, cells, triangles)
     np.cumsum(np.bincount(cells, minlength=mesh.n_cells), out=start[1:])
     return start, triangles[np.argsort(cells, kind="stable")]
 
@@ -336,6 +443,7 @@ class MeshFlow:
         "walk": walk,
         "gap": gap,
         "normal": normal,
+        "cross": cross,
         "recover": recover,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
@@ -363,7 +471,7 @@ class MeshFlow:
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
         self.span = (-np.inf, np.inf)
-        self._near: tuple[Any, tuple[Ints, Ints]] | None = None
+        self._near: tuple[Any, MeshArrays] | None = None
         self._tree = build_tree(cell_boxes(mesh))
         self._arrays = MeshArrays(
             nodes=nodes,
@@ -376,6 +484,9 @@ class MeshFlow:
             triangles=mesh.triangles,
             triangle_patch=mesh.triangle_patch,
             triangle_normals=mesh.triangle_normals,
+            triangle_tet=mesh.triangle_tet,
+            across=_across(mesh),
+            motions=_motions(mesh),
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
         )
@@ -395,9 +506,44 @@ class MeshFlow:
             return self._arrays
         key = reach, tuple(touchable)
         if self._near is None or self._near[0] != key:
-            self._near = key, near_walls(self.mesh, cell_boxes(self.mesh), self._tree, reach, touchable)
-        start, near = self._near[1]
-        return self._arrays._replace(near_start=start, near=near)
+            self._near = key, self._with_walls(reach, touchable)
+        return self._near[1]
+
+    def _with_walls(self, reach: float, touchable: Sequence[int]) -> MeshArrays:
+        """The arrays with the walls that bodies can touch, and with their images beyond coupled patches."""
+        mesh, boxes, arrays = self.mesh, cell_boxes(self.mesh), self._arrays
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, list(touchable))).astype(np.int32)
+        corners = mesh.points[mesh.triangles[names]]
+        if mesh.couplings:
+            walls = _Walls(corners, mesh.triangle_normals[names], mesh.triangle_patch[names])
+            images = _images(mesh, walls, reach)
+            n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
+            beyond = np.zeros((3 * n, 16))
+            beyond[:, :3] = images.corners.reshape(-1, 3)
+            names = np.concatenate([names, np.arange(triangles, triangles + n, dtype=np.int32)])
+            corners = np.concatenate([corners, images.corners])
+            arrays = arrays._replace(
+                nodes=np.concatenate([arrays.nodes, beyond]),
+                triangles=np.concatenate(
+                    [arrays.triangles, np.arange(nodes, nodes + 3 * n, dtype=np.int32).reshape(-1, 3)]
+                ),
+                triangle_patch=np.concatenate([arrays.triangle_patch, images.patches]),
+                triangle_normals=np.concatenate([arrays.triangle_normals, images.normals]),
+            )
+        start, near = near_walls(mesh, boxes, self._tree, reach, names, corners)
+        return arrays._replace(near_start=start, near=near)
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """Put what the kernels read, but for the lists of walls nearby, where ``place`` copies it."""
+        fixed: dict[str, Any] = {
+            name: place(array)
+            for name, array in self._arrays._asdict().items()
+            if isinstance(array, np.ndarray) and not name.startswith("near")
+        }
+        self._arrays = self._arrays._replace(**fixed)
+        self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
+        held = {field.name for field in fields(self.mesh)}
+        self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""
@@ -412,10 +558,7 @@ class MeshFlow:
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
-        points = np.ascontiguousarray(points, dtype=np.float64)
-        values = np.empty((len(points), 12))
-        link(sample_all)(self._arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
-        return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+        return sample_with(sample, self._arrays, points, hosts, t)
 
     def cell_of(self, hosts: Ints) -> Ints:
         """Cells to which the tetrahedra belong, (n,)."""
@@ -476,7 +619,18 @@ def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
 
 
-def sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
+def sample_with(
+    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
+) -> tuple[Floats, Floats]:
+    """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    values = np.empty((len(points), 12))
+    sampler = link(_sample_all, {"sample": kernel})
+    sampler(arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
+    return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+
+
+def _sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
     """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
     for i in range(points.shape[0]):
         u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)

@@ -25,7 +25,7 @@ from foamprb.output.atomic import atomic_write, remove_unfinished
 
 log = logging.getLogger("foamprb")
 
-VERSION = 1
+VERSION = 2
 KEPT = 2
 
 _FORMAT = b"foamprb checkpoint "

@@ -1,8 +1,9 @@
-"""Clouds as ParaView reads them: one ``.vtp`` per time and a ``.pvd`` that lists them."""
+"""Clouds as ParaView reads them: one ``.vtp`` per time, or a ``.pvtp`` with pieces, and a ``.pvd``."""
 
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -84,6 +85,71 @@ def write_snapshot(path: Path, snapshot: Snapshot) -> None:
     _write(path, _poly_data(snapshot))
 
 
+class PieceArray(NamedTuple):
+    """An array of a cloud as a ``.pvtp`` declares it: its name, VTK's name of its type, its components."""
+
+    name: str
+    type: str
+    components: int
+
+
+def layout(snapshot: Snapshot) -> tuple[PieceArray, ...]:
+    """The arrays of a cloud, the points first."""
+    arrays = {"Points": np.asarray(snapshot.points, dtype=np.float64), **snapshot.arrays}
+    return tuple(
+        PieceArray(name, _type_name(array.dtype), 1 if array.ndim == 1 else array.shape[1])
+        for name, array in arrays.items()
+    )
+
+
+def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path]) -> None:
+    """Write the file by which several ``.vtp`` are one cloud, in one step.
+
+    Parameters
+    ----------
+    path
+        The file, ``.pvtp``.
+    arrays
+        What :func:`layout` says of each of the pieces.
+    pieces
+        The files of the pieces, in a folder in that of ``path``.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    points, *values = (
+        f'<PDataArray type="{a.type}" Name={quoteattr(a.name)} NumberOfComponents="{a.components}"/>\n'
+        for a in arrays
+    )
+    sources = (quoteattr(piece.relative_to(path.parent).as_posix()) for piece in pieces)
+    text = (
+        '<?xml version="1.0"?>\n'
+        '<VTKFile type="PPolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+        '  <PPolyData GhostLevel="0">\n'
+        f"    <PPointData>\n{''.join(f'      {value}' for value in values)}    </PPointData>\n"
+        f"    <PPoints>\n      {points}    </PPoints>\n"
+        f"{''.join(f'    <Piece Source={source}/>{chr(10)}' for source in sources)}"
+        "  </PPolyData>\n</VTKFile>\n"
+    )
+    with atomic_write(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def files_of(path: Path) -> tuple[Path, ...]:
+    """A cloud's file and those of its pieces, if it has any, whether they are there or not."""
+    if path.suffix != ".pvtp" or not path.exists():
+        return (path,)
+    root = ElementTree.fromstring(path.read_bytes())
+    return (path, *(path.parent / piece.attrib["Source"] for piece in root.iter("Piece")))
+
+
+def _type_name(dtype: np.dtype[Any]) -> str:
+    kind = {"f": "Float", "i": "Int", "u": "UInt", "b": "Int"}[dtype.kind]
+    return f"{kind}{8 * dtype.itemsize}"
+
+
 def _write(path: Path, data: vtkPolyData) -> None:
     """Write PolyData in one step."""
     writer = vtkXMLPolyDataWriter()
@@ -162,7 +228,8 @@ class Entry(NamedTuple):
 class Series:
     """The files ``<name>_<index>.vtp`` of one cloud and the ``<name>.pvd`` that lists them with their times.
 
-    At any moment the ``.pvd`` on disk names whole files only.
+    A cloud that several processes write is a ``.pvtp``, with pieces in a folder of the same name. At any
+    moment the ``.pvd`` on disk names whole files only.
 
     Parameters
     ----------
@@ -214,27 +281,47 @@ class Series:
         OSError
             If a file cannot be written.
         """
-        time = float(snapshot.time)
+        file = self.next(snapshot.time).with_suffix(".vtp")
+        write_snapshot(file, snapshot)
+        self.add(snapshot.time, file)
+        return file
+
+    def next(self, time: float) -> Path:
+        """The file for the cloud of a time, s, but for its suffix.
+
+        Raises
+        ------
+        ValueError
+            If the time is not later than that of the cloud before.
+        """
         if self.entries and not time > self.entries[-1].time:
             raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
-        file = self._next_file()
-        write_snapshot(file, snapshot)
-        self._list((*self.entries, Entry(time, file.name)))
-        return file
+        last = re.search(r"_(\d+)\.p?vtp$", self.entries[-1].file) if self.entries else None
+        index = int(last[1]) + 1 if last else len(self.entries)
+        return self.folder / f"{self.name}_{index:06d}"
+
+    def add(self, time: float, file: Path) -> None:
+        """List a file that is whole, named by :meth:`next`.
+
+        Raises
+        ------
+        OSError
+            If the list cannot be written.
+        """
+        self._list((*self.entries, Entry(float(time), file.name)))
 
     def _remove_unlisted(self) -> None:
         """Remove the files that the list does not name, and those that killed processes were writing."""
         listed = {entry.file for entry in self.entries}
-        own = re.compile(re.escape(self.name) + r"_\d{6,}\.vtp")
+        own = re.compile(re.escape(self.name) + r"_\d{6,}(\.p?vtp)?")
         for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
-            if own.fullmatch(file.name) and file.name not in listed:
+            if not own.fullmatch(file.name) or file.name in listed:
+                continue
+            if file.suffix:
                 file.unlink(missing_ok=True)
+            elif f"{file.name}.pvtp" not in listed:
+                shutil.rmtree(file)
         remove_unfinished(self.folder)
-
-    def _next_file(self) -> Path:
-        last = re.search(r"_(\d+)\.vtp$", self.entries[-1].file) if self.entries else None
-        index = int(last[1]) + 1 if last else len(self.entries)
-        return self.folder / f"{self.name}_{index:06d}.vtp"
 
     def _list(self, entries: tuple[Entry, ...]) -> None:
         with atomic_write(self.pvd) as temporary:
@@ -262,8 +349,10 @@ def read_pvd(path: Path) -> tuple[Entry, ...]:
             f"{path}: not a readable list of VTK files ({error}). Remove it to begin anew."
         ) from error
     for entry in entries:
-        if Path(entry.file).name != entry.file or not entry.file.endswith(".vtp"):
-            raise InputError(f"{path}: names '{entry.file}', which is not a .vtp file in its own folder.")
+        if Path(entry.file).name != entry.file or not entry.file.endswith((".vtp", ".pvtp")):
+            raise InputError(
+                f"{path}: names '{entry.file}', which is not a .vtp or .pvtp file in its own folder."
+            )
     return tuple(sorted(entries))
 
 

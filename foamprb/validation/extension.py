@@ -1,25 +1,15 @@
-"""Extension, settling and volume: beyond the paper's figures."""
+"""Extension and volume: beyond the paper's figures."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from foamprb import Medium
-from foamprb.body.drag import DRAGS
-from foamprb.body.ellipsoid import integrals
-from foamprb.cloud.cloud import Cloud, Models
-from foamprb.cloud.state import spheres
+from foamprb.cloud.cloud import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Outcome, Panel, Row
 from foamprb.validation.runs import (
-    DIAMETER,
-    GRAVITY,
-    MU_F,
     NEARLY_INCOMPRESSIBLE,
-    RHO_F,
-    RHO_S,
-    SETTLING,
     advance_to,
     measures,
     unit_cloud,
@@ -72,79 +62,6 @@ def steady_extension(quick: bool) -> Outcome:
         "a neo-Hooke solid can hold, and there is no steady shape."
     ]
     return Outcome(rows, [figure], remarks)
-
-
-def settling(quick: bool) -> Outcome:
-    """Settling of a sphere and of a deformed body."""
-    R = DIAMETER / 2.0
-    p = spheres([[0.0, 0.0, 0.0]], d=DIAMETER, rho=RHO_S, mu=100.0)
-    still = analytic.linear(np.zeros((3, 3)))
-    air = Medium(MU_F, RHO_F, (0.0, -GRAVITY, 0.0))
-    cloud = Cloud(p, still, air, (), 2e-5, Models(integrator="paper"), threads=1)
-    cloud.advance(1000)
-    rows = [
-        Row(
-            "sphere: velocity [m/s]",
-            float(-p.v[0, 1]),
-            SETTLING,
-            "Stokes: d² (ρ_s − ρ_f) g/(18 μ_f)",
-            1e-8,
-            True,
-        )
-    ]
-
-    # A planar extension keeps the body triaxial; gravity acts along one of its axes after the other.
-    Ca, rate, t = 0.2, 300.0, 2e-3
-    axes = ref.steady_compressible_extension(ref.EXTENSIONS["planar"], Ca, 0.499)
-    rates = rate * ref.EXTENSIONS["planar"]
-    mass = 4.0 / 3.0 * np.pi * R**3 * RHO_S
-    for drag in ["oberbeck"] if quick else ref.DRAGS:
-        K = ref.DRAGS[drag](axes) * R
-        for k in range(3):
-            g = np.zeros(3)
-            g[k] = -GRAVITY
-            found = []
-            for dt in (4e-6, 2e-6):
-                p = spheres([[0.0, 0.0, 0.0]], d=DIAMETER, rho=RHO_S, mu=MU_F * rate / Ca)
-                p.F[:] = np.diag(axes).ravel()
-                medium = Medium(MU_F, RHO_F, (float(g[0]), float(g[1]), float(g[2])))
-                flow = analytic.linear(np.diag(rates))
-                cloud = Cloud(p, flow, medium, (), dt, Models(drag=drag, integrator="paper"), threads=1)
-                advance_to(cloud, t)
-                found.append(float(p.v[0, k]))
-            a = (1.0 - float(np.prod(axes)) * RHO_F / RHO_S) * g
-            expected = ref.settling_in_extension(K, mass, MU_F, rates, a, t)[1][k]
-            name = f"deformed body, gravity along axis {k + 1}, {drag}: velocity [m/s]"
-            # Δt → 0 from two steps of a first-order scheme.
-            rows.append(Row(name, 2.0 * found[1] - found[0], float(expected), QUADRATURE, 1e-4, True))
-    for shape in ((5.0, 3.0, 1.0), (2.0, 1.0, 1.0)):
-        ours = np.array(DRAGS["oberbeck"](shape, integrals(shape))) / np.pi
-        expected_k = ref.resistances(np.array(shape)) / np.pi
-        rows += [
-            Row(
-                "resistance {:g}:{:g}:{:g}, K_{}/(π r_min)".format(*shape, k + 1),
-                float(ours[k]),
-                float(expected_k[k]),
-                "Oberbeck's resistances by quadrature",
-                1e-10,
-                True,
-            )
-            for k in range(3)
-        ]
-    printed = (15.501, 17.066, 20.565)
-    ours = np.array(DRAGS["oberbeck"]((5.0, 3.0, 1.0), integrals((5.0, 3.0, 1.0)))) / np.pi
-    rows += [
-        Row(
-            f"resistance 5:3:1, K_{k + 1}/(π r_min)",
-            float(ours[k]),
-            printed[k],
-            "Štrakl et al. 2022",
-            2e-3,
-            True,
-        )
-        for k in range(3)
-    ]
-    return Outcome(rows, [], [])
 
 
 def volume(quick: bool) -> Outcome:
@@ -206,8 +123,12 @@ def volume(quick: bool) -> Outcome:
         ],
     )
     remarks = [
-        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: without "
-        "inertia the volume would grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I, the exact "
-        "flow around an expanding sphere, which is the same where the particle keeps its volume."
+        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: +2/3 tr(d_s) on "
+        "each axis where the exact flow around an expanding sphere has −4/3 tr(d_s), so that without inertia "
+        "the volume would grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I, which is the same "
+        "where the particle keeps its volume.",
+        "Two more formulas are misprinted: the elastic stress (24) is μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ, and the "
+        "traction as a Piola stress J σ̃ F⁻ᵀ, where the paper has F⁻¹. With F⁻¹ neither is a stress: P·Fᵀ "
+        "would not be symmetric, nor σ̃ the traction on the deformed surface.",
     ]
     return Outcome(rows, [] if quick else [figure], remarks)

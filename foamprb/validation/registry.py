@@ -2,11 +2,27 @@
 
 from __future__ import annotations
 
-from foamprb.validation import cost, extension, order, pipe, rotation, shear
+from foamprb.validation import (
+    cost,
+    device,
+    extension,
+    forces,
+    jeffery,
+    order,
+    pipe,
+    rotation,
+    settling,
+    shear,
+    suspension,
+    tension,
+    tumbling,
+    viscoelastic,
+)
 from foamprb.validation.case import Case
 
 CASES: dict[str, Case] = {
     "rotation": Case("5.1, Fig. 4", rotation.spin_up),
+    "extensionDevice": Case("5.2, Fig. 5", device.beads),
     "shear": Case("5.3, Figs. 6 and 7", shear.steady),
     "roscoe": Case("5.3, references", shear.formulas),
     "transient": Case("5.3, Fig. 8", shear.transient),
@@ -14,9 +30,15 @@ CASES: dict[str, Case] = {
     "pipeRigid": Case("5.4, Figs. 11 and 12", pipe.rigid),
     "pipeSoft": Case("5.4, Figs. 13 and 14", pipe.soft),
     "pipeOpenFOAM": Case("5.4, Figs. 10 and 14", pipe.openfoam),
+    "jeffery": Case("beyond the paper; shapes at rest", jeffery.orbits),
+    "tumbling": Case("beyond the paper; shapes at rest", tumbling.regimes),
+    "viscoelastic": Case("beyond the paper; Kelvin–Voigt solids", viscoelastic.steady),
+    "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
+    "surfaceTension": Case("beyond the paper; surface tension", tension.drops),
+    "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
-    "settling": Case("beyond the paper", extension.settling),
+    "settling": Case("beyond the paper", settling.settling),
     "order": Case("beyond the paper", order.order),
     "volume": Case("beyond the paper", extension.volume),
 }

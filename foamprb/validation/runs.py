@@ -14,7 +14,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.cloud import Cloud, Models
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Escape, Stick
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
 from foamprb.validation import references
@@ -24,6 +24,7 @@ NEARLY_INCOMPRESSIBLE = 0.499999
 """Poisson's ratio of the runs that are compared with incompressible solutions."""
 
 REST = (0.0, 0.0, 0.0)
+IDENTITY = np.eye(3)
 
 
 def unit_cloud(
@@ -33,8 +34,13 @@ def unit_cloud(
     dt: float,
     models: Models | None = None,
     poissons_ratio: float = NEARLY_INCOMPRESSIBLE,
+    *,
+    ratios: ArrayLike = (1.0, 1.0, 1.0),
+    axes: ArrayLike = IDENTITY,
+    eta: ArrayLike = 0.0,
+    tension: ArrayLike = 0.0,
 ) -> Cloud:
-    """Spheres of radius 1 at the origin in a fluid of viscosity 1 without gravity.
+    """Bodies of the volume of a sphere of radius 1 at the origin in a fluid of viscosity 1 without gravity.
 
     Parameters
     ----------
@@ -46,10 +52,23 @@ def unit_cloud(
         Shape Stokes number τ_s, which gives the density of solid and fluid.
     dt
         Time step.
+    ratios, axes
+        Of the shape at rest, as :func:`foamprb.cloud.state.set_rest_shape` takes them.
+    eta, tension
+        η_s/μ_f and γ/(R μ_f).
     """
     Ca = np.atleast_1d(np.asarray(Ca, dtype=float))
     rho = 15.0 * stokes
-    p = spheres(np.zeros((len(Ca), 3)), d=2.0, rho=rho, mu=1.0 / Ca, poissons_ratio=poissons_ratio)
+    p = spheres(
+        np.zeros((len(Ca), 3)),
+        d=2.0,
+        rho=rho,
+        mu=1.0 / Ca,
+        poissons_ratio=poissons_ratio,
+        eta=eta,
+        gamma=tension,
+    )
+    set_rest_shape(p, ratios, axes)
     return Cloud(p, flow, Medium(1.0, rho, REST), (), dt, models or Models(), threads=1)
 
 
@@ -62,6 +81,13 @@ def gradients(p: Particles) -> tuple[Floats, Floats]:
     """Deformation gradients F and velocity gradients l_s = A·F⁻¹ (1/s), each (n, 3, 3)."""
     F = p.F.reshape(-1, 3, 3)
     return F, p.A.reshape(-1, 3, 3) @ np.linalg.inv(F)
+
+
+def principal_axes(p: Particles) -> tuple[Floats, Floats]:
+    """Semi-axes over R in rising order, (n, 3), and their directions as rows, (n, 3, 3)."""
+    F = p.F.reshape(-1, 3, 3)
+    squares, vectors = np.linalg.eigh(F @ F.transpose(0, 2, 1))
+    return np.sqrt(squares), vectors.transpose(0, 2, 1)
 
 
 def shear_shapes(cloud: Cloud) -> Floats:

@@ -1,0 +1,188 @@
+"""Arrays that all processes of a computer see in the same memory, by MPI's shared windows."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import RunStopped
+
+Array = NDArray[Any]
+
+_SMALLEST = 1 << 16
+"""Bytes from which an array is worth a window."""
+_MOST_AT_ONCE = 1 << 30
+"""Bytes sent at once: their number is a 32-bit integer to MPI."""
+
+
+class Place(NamedTuple):
+    """Stands for an array in shared memory where the array itself would be."""
+
+    key: int
+
+
+class Windows:
+    """The shared arrays of a process: on each computer there is one of each.
+
+    All processes make, fill and free arrays together, in the same order.
+
+    Parameters
+    ----------
+    MPI
+        The module ``mpi4py.MPI``.
+    comm
+        All processes; the first is the root, which fills the arrays.
+    """
+
+    def __init__(self, MPI: Any, comm: Any) -> None:
+        self._MPI = MPI
+        self.node = comm.Split_type(MPI.COMM_TYPE_SHARED)
+        # The first process of each computer, the root first among them.
+        first = self.node.rank == 0
+        self.leaders = comm.Split(0 if first else MPI.UNDEFINED)
+        self.nodes: int = comm.allreduce(int(first))
+        self.arrays: dict[int, Array] = {}
+        self._windows: dict[int, Any] = {}
+
+    def make(self, key: int, shape: tuple[int, ...], dtype: str) -> None:
+        """Make an array.
+
+        Raises
+        ------
+        RunStopped
+            If the computer has not so much memory to share.
+        """
+        size = int(np.prod(shape)) * np.dtype(dtype).itemsize
+        try:
+            window = self._MPI.Win.Allocate_shared(size if self.node.rank == 0 else 0, 1, comm=self.node)
+        except self._MPI.Exception as error:
+            where = self._MPI.Get_processor_name()
+            raise RunStopped(
+                f"{size / 1e6:.0f} MB of memory could not be shared on {where}: {error}."
+            ) from error
+        window.Lock_all(self._MPI.MODE_NOCHECK)
+        memory, _ = window.Shared_query(0)
+        self._windows[key] = window
+        self.arrays[key] = np.ndarray(shape, dtype, buffer=memory)
+
+    def spread(self, key: int) -> None:
+        """Bring what the root has written into an array to all processes."""
+        self._windows[key].Sync()
+        if self.leaders != self._MPI.COMM_NULL:
+            flat = self.arrays[key].reshape(-1).view(np.uint8)
+            for start in range(0, len(flat), _MOST_AT_ONCE):
+                self.leaders.Bcast(flat[start : start + _MOST_AT_ONCE], root=0)
+        self.node.Barrier()
+        self._windows[key].Sync()
+
+    def free(self, key: int) -> None:
+        """Give the memory of an array back; whoever looks at it afterwards is lost."""
+        del self.arrays[key]
+        window = self._windows.pop(key)
+        window.Unlock_all()
+        window.Free()
+
+    def find(self, tree: Any) -> Any:
+        """The tuple, with tuples in it, in which places stand for the arrays of this process."""
+        return _map(tree, lambda leaf: self.arrays[leaf.key] if isinstance(leaf, Place) else leaf)
+
+
+class Publisher:
+    """What the root does with the windows: it decides what is in them.
+
+    Parameters
+    ----------
+    windows
+        Those of the root.
+    order
+        Lets all processes call a method of their windows, by its name and arguments.
+    """
+
+    def __init__(self, windows: Windows, order: Callable[..., Any]) -> None:
+        self._windows, self._order = windows, order
+        self._next = 0
+        self._sources: dict[int, Array] = {}
+        """Arrays from which the windows were filled."""
+        self._own: dict[tuple[int, tuple[int, ...], str], int] = {}
+        """Windows that take the place of their sources, by where they are."""
+        self._small = b""
+
+    @property
+    def size(self) -> int:
+        """Bytes shared on each computer."""
+        return sum(array.nbytes for array in self._windows.arrays.values())
+
+    def move(self, array: Array) -> Array:
+        """Put an array that will not change into shared memory for good."""
+        if not _is_large(array):
+            return array
+        key = self._fill_new(array)
+        moved = self._windows.arrays[key]
+        self._own[_where(moved)] = key
+        return moved
+
+    def publish(self, tree: Any) -> Any:
+        """Make the arrays in a tuple known to all processes; those of the call before are forgotten.
+
+        What :meth:`foamprb.flow.base.Flow.arrays` says of arrays that change is relied upon.
+
+        Returns
+        -------
+        The tuple with a :class:`Place` for each large array.
+        """
+        used: set[int] = set()
+        small = pickle.dumps(_map(tree, lambda leaf: None if _is_large(leaf) else leaf))
+        changed, self._small = small != self._small, small
+
+        def place(leaf: Any) -> Any:
+            if not _is_large(leaf):
+                return leaf
+            key = self._own.get(_where(leaf))
+            if key is None:
+                key = self._update(leaf, changed)
+                used.add(key)
+            return Place(key)
+
+        placed = _map(tree, place)
+        for key in set(self._sources) - used:
+            del self._sources[key]
+            self._order("free", key)
+        return placed
+
+    def _update(self, array: Array, changed: bool) -> int:
+        for key, source in self._sources.items():
+            if _where(source) == _where(array):
+                shared = self._windows.arrays[key]
+                if changed and not np.array_equal(shared.view(np.uint8), array.view(np.uint8)):
+                    shared[...] = array
+                    self._order("spread", key)
+                return key
+        key = self._fill_new(array)
+        self._sources[key] = array
+        return key
+
+    def _fill_new(self, array: Array) -> int:
+        key, self._next = self._next, self._next + 1
+        self._order("make", key, array.shape, array.dtype.str)
+        self._windows.arrays[key][...] = array
+        self._order("spread", key)
+        return key
+
+
+def _is_large(leaf: Any) -> bool:
+    return isinstance(leaf, np.ndarray) and leaf.nbytes >= _SMALLEST
+
+
+def _where(array: Array) -> tuple[int, tuple[int, ...], str]:
+    return array.__array_interface__["data"][0], array.shape, array.dtype.str
+
+
+def _map(tree: Any, function: Callable[[Any], Any]) -> Any:
+    """Apply a function to the leaves of a tuple with named items, and of those in it."""
+    if isinstance(tree, tuple) and hasattr(tree, "_fields") and not isinstance(tree, Place):
+        return type(tree)(*(_map(item, function) for item in tree))
+    return function(tree)

@@ -1,0 +1,349 @@
+"""Runs on several processes, against the run on one: the same bits, and the same manners."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+from test_run import PIPE, edit
+from test_run_restart import short_case
+from test_run_series import write_transient_case
+
+from foamprb.cli import main
+from foamprb.output.pieces import XMLPPolyDataReader
+from foamprb.output.vtk import read_pvd
+
+pytestmark = [
+    pytest.mark.mpi,
+    pytest.mark.skipif(shutil.which("mpirun") is None, reason="mpirun is not on PATH"),
+]
+
+FUNCTIONS = """cloudFunctions
+{
+    hits    { type patchPostProcessing; patches (wall); }
+    paths   { type particleTracks; trackInterval 10; maxSamples 100; }
+    loads   { type particleHistogram; sampleInterval 7; }
+    plane   { type particleCollector; mode plane; origin (0.0005 0 0); normal (1 0 0); }
+    stress  { type suspensionStress; }
+}"""
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": os.pathsep.join([str(PIPE.parents[1]), *sys.path]),
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    # Else mpirun gives a run one second to end.
+    "OMPI_MCA_odls_base_sigkill_timeout": "60",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+}
+
+
+def case_with_functions(folder: Path) -> Path:
+    case = short_case(folder)
+    edit(case, r"cloudFunctions\s*\{\}", FUNCTIONS)
+    return case
+
+
+@pytest.fixture(scope="module")
+def truth(tmp_path_factory):
+    """A case and its results on one process."""
+    case = case_with_functions(tmp_path_factory.mktemp("truth"))
+    assert main(["run", "-case", str(case)]) == 0
+    return case
+
+
+@pytest.fixture
+def case(tmp_path):
+    return case_with_functions(tmp_path)
+
+
+def command(n: int, case: Path, *options: str, script: Path | None = None) -> list[str]:
+    program = [str(script)] if script else ["-m", "foamprb"]
+    words = ["run", "-case", str(case), "-parallel", *options]
+    return ["mpirun", "-np", str(n), sys.executable, *program, *words]
+
+
+def run(n: int, case: Path, *options: str, script: Path | None = None) -> subprocess.CompletedProcess[str]:
+    words = command(n, case, *options, script=script)
+    return subprocess.run(words, capture_output=True, text=True, env=ENVIRONMENT, timeout=300, check=False)
+
+
+def finish(n: int, case: Path, *options: str) -> str:
+    done = run(n, case, *options)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stderr == ""
+    return done.stdout
+
+
+def after_hook(folder: Path, hook: str) -> Path:
+    """A script that changes something and then is ``foamprb``; ``rank`` is the number of the process."""
+    script = folder / "hooked.py"
+    script.write_text(
+        "import errno, os, signal, sys\n"
+        "from foamprb import parallel\n"
+        "from foamprb.cli import main\n"
+        "rank = int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
+        f"{hook}\n"
+        "sys.exit(main())\n"
+    )
+    return script
+
+
+def at_write(action: str, number: int, when: float = 0.0029) -> str:
+    """Let a process do something as it writes its piece of the cloud of 3 ms."""
+    return f"""
+write = parallel.Rank.write
+def hooked(self, folder, at, view):
+    if rank == {number} and {when} < at < {when} + 0.0002:
+        {action}
+    return write(self, folder, at, view)
+parallel.Rank.write = hooked
+"""
+
+
+def folder_of(case: Path) -> Path:
+    return case / "postProcessing/softCloud"
+
+
+def clouds(case: Path) -> list[tuple[float, dict[str, np.ndarray]]]:
+    """Times and point arrays in the order of the particles' numbers."""
+    found = []
+    for entry in read_pvd(folder_of(case) / "softCloud.pvd"):
+        path = folder_of(case) / entry.file
+        cloud = XMLPPolyDataReader(path).read() if path.suffix == ".pvtp" else pyvista.read(path)
+        order = np.argsort(cloud["origId"], kind="stable")
+        arrays = {"points": cloud.points, **{name: cloud[name] for name in cloud.point_data}}
+        found.append((entry.time, {name: np.asarray(array)[order] for name, array in arrays.items()}))
+    return found
+
+
+def assert_same(case: Path, truth: Path, functions: bool = True) -> None:
+    """Every table and the last checkpoint byte for byte, and the clouds bit for bit."""
+    expected = [f.relative_to(folder_of(truth)) for f in folder_of(truth).rglob("*") if f.is_file()]
+    last = max((f for f in expected if f.suffix == ".checkpoint"), key=lambda f: float(f.stem))
+    assert functions == any(f.name == "tracks.vtp" for f in expected)
+    for file in expected:
+        if file.suffix == ".csv" or file in (last, Path("paths/tracks.vtp")):
+            assert (folder_of(case) / file).read_bytes() == (folder_of(truth) / file).read_bytes(), file
+    for (at, found), (at_there, arrays) in zip(clouds(case), clouds(truth), strict=True):
+        assert at == at_there
+        assert list(found) == list(arrays)
+        for name, array in arrays.items():
+            assert found[name].dtype == array.dtype
+            assert found[name].tobytes() == array.tobytes(), (at, name)
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_results_are_those_of_one_process(n, case, truth):
+    out = finish(n, case)
+    assert f"310 particles among {n} processes" in out
+    assert out.count("Starting time loop") == 1
+    assert_same(case, truth)
+    first = folder_of(case) / "softCloud_000000"
+    assert sorted(file.name for file in first.iterdir()) == [f"{i}.vtp" for i in range(n)]
+
+
+def test_one_process_writes_what_it_writes_without_mpi(case, truth):
+    words = [sys.executable, "-m", "foamprb", "run", "-case", str(case), "-parallel"]
+    subprocess.run(words, check=True, capture_output=True, env=ENVIRONMENT)
+    found = {f.relative_to(case): f.read_bytes() for f in folder_of(case).rglob("*") if f.is_file()}
+    expected = {f.relative_to(truth): f.read_bytes() for f in folder_of(truth).rglob("*") if f.is_file()}
+    assert found == expected
+
+
+def test_a_killed_run_goes_on_with_other_numbers_of_processes(case, truth, tmp_path):
+    kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
+    assert run(2, case, script=kill).returncode != 0
+    assert not (folder_of(case) / "fates.csv").exists()
+    # On three, until 4 ms; then on one.
+    stop = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGTERM)", 2, 0.0039))
+    done = run(3, case, "-resume", script=stop)
+    assert "Continuing from the checkpoint at t = 0.002 s" in done.stdout
+    assert done.returncode == 143
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    assert_same(case, truth)
+    suffixes = [Path(entry.file).suffix for entry in read_pvd(folder_of(case) / "softCloud.pvd")]
+    assert suffixes == [".pvtp"] * 4 + [".vtp"] * 2
+
+
+def test_a_run_begun_alone_goes_on_with_others(case, truth):
+    edit(case, r"endTime\s+\S+;", "endTime 0.003;")
+    assert main(["run", "-case", str(case)]) == 0
+    edit(case, r"endTime\s+\S+;", "endTime 0.006;")
+    finish(2, case, "-resume")
+    assert_same(case, truth)
+
+
+ERRORS = {
+    "full disk": (
+        at_write("raise OSError(errno.ENOSPC, 'No space left on device', str(folder))", 1),
+        r"No space left on device: '.*softCloud_000002'\. To go on .*-resume",
+    ),
+    "bug": (at_write("1 / 0", 2), "rank 2: ZeroDivisionError: division by zero"),
+}
+
+
+@pytest.mark.parametrize("name", ERRORS)
+def test_an_error_on_one_process_has_one_message_and_ends_all(name, case, truth, tmp_path):
+    hook, expected = ERRORS[name]
+    done = run(3, case, script=after_hook(tmp_path, hook))
+    assert done.returncode == 1
+    ours = [line for line in done.stderr.splitlines() if "foamprb" in line]
+    assert len(ours) == 1, done.stderr
+    assert re.match(f"--> foamprb Error : .*{expected}", ours[0])
+    assert "Traceback" not in done.stderr
+    assert "MPI_ABORT" not in done.stderr
+    finish(2, case, "-resume")
+    assert_same(case, truth)
+
+
+def test_a_mistake_in_the_input_has_one_message(case):
+    edit(case, r"deltaT\s", "deltat ")
+    done = run(2, case)
+    assert done.returncode == 1
+    assert done.stderr.count("foamprb Error") == 1
+    assert "Did you mean 'deltaT'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_ctrl_c_on_any_process_leaves_a_checkpoint(number, case, truth, tmp_path):
+    hook = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGINT)", number))
+    done = run(2, case, script=hook)
+    assert done.returncode == 130
+    ours = [line for line in done.stderr.splitlines() if "foamprb" in line]
+    assert ours == [
+        "--> foamprb stopped at t = 0.003 s. To go on from the last checkpoint: foamprb run -resume."
+    ]
+    assert "Traceback" not in done.stderr
+    assert (folder_of(case) / "checkpoint/0.003.checkpoint").exists()
+    finish(3, case, "-resume")
+    assert_same(case, truth)
+
+
+def test_ctrl_c_to_mpirun_ends_the_run_in_order(case):
+    edit(case, r"endTime\s+\S+;", "endTime 1000;")
+    with subprocess.Popen(
+        command(2, case), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT
+    ) as process:
+        deadline = time.monotonic() + 200.0
+        while not (folder_of(case) / "checkpoint/0.002.checkpoint").exists():
+            assert time.monotonic() < deadline
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=100)
+    assert process.returncode != 0
+    assert err.count("foamprb stopped at t = ") == 1, out + err
+    assert "Traceback" not in err
+
+
+def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
+    case = write_transient_case(tmp_path / "case")
+    alone = Path(shutil.copytree(case, tmp_path / "alone"))
+    assert main(["run", "-case", str(alone)]) == 0
+    # However small, every array is shared.
+    done = run(2, case, script=after_hook(tmp_path, "from foamprb import shared; shared._SMALLEST = 1"))
+    assert done.returncode == 0, done.stderr
+    assert_same(case, alone, functions=False)
+
+
+LANDING = """
+advance = parallel.Root.advance
+def hooked(self, flow, steps):
+    mended = advance(self, flow, steps)
+    with open({log!r}, "a") as file:
+        print(*(int(share.counts[1]) for share in self._shares), file=file)
+    return mended
+parallel.Root.advance = hooked
+"""
+
+
+def test_work_is_shared_anew_when_the_particles_of_one_process_land(tmp_path):
+    case = short_case(tmp_path)
+    edit(case, r"parcelsPerSecond\s+\S+;", "parcelsPerSecond 1;")
+    # Every other particle lands within a millisecond.
+    pairs = "(0 -0.002096 0) (0 -0.0003 0)"
+    edit(case, r"\(0 -0\.00165 0\) \(0 -0\.002096 0\)", f"{pairs} " * 100, "constant/softCloudPositions")
+    serial = Path(shutil.copytree(case, tmp_path / "serial"))
+    assert main(["run", "-case", str(serial)]) == 0
+    log = tmp_path / "active"
+    done = run(2, case, script=after_hook(tmp_path, LANDING.format(log=str(log))))
+    assert done.returncode == 0, done.stderr
+    assert_same(case, serial, functions=False)
+    active = np.loadtxt(log, dtype=int)
+    assert active[0].sum() > active[-1].sum() > 400
+    # Of the particles of one process nearly all are gone, and others in their place.
+    assert abs(active[-1, 0] - active[-1, 1]) <= 1
+
+
+SHARING = """
+import json, pathlib, sys
+import numpy as np
+from foamprb.parallel import Rank, Root, connect
+from foamprb.run import prepare
+
+def private():
+    # Memory that is this process' alone, kB.
+    text = pathlib.Path("/proc/self/smaps_rollup").read_text()
+    return sum(int(line.split()[1]) for line in text.splitlines() if line.startswith("Private"))
+
+def mapping(array):
+    # Device and file of the mapping that holds an array, and this process' share of its memory, kB.
+    address, found = array.__array_interface__["data"][0], None
+    for line in open("/proc/self/smaps"):
+        words = line.split()
+        if not words[0].endswith(":"):
+            low, high = (int(word, 16) for word in words[0].split("-"))
+            found = words[3:5] if low <= address < high else None
+        elif found and words[0] == "Pss:":
+            return found, int(words[1])
+
+def touch(self):
+    self.before = private()
+    return float(self.windows.arrays[0].sum())
+
+def tell(self):
+    return *mapping(self.windows.arrays[0]), private() - self.before
+
+Rank.touch, Rank.tell = touch, tell
+member = connect()
+if isinstance(member, Rank):
+    sys.exit(member.serve(()))
+shared = member._published.move(np.full(1 << 24, 1.5))
+job = prepare(sys.argv[1], threads=1)
+member.take(job.cloud)
+# The flow's own arrays and those of its mesh are the shared ones.
+flow, windows = job.cloud.flow, member.rank.windows.arrays.values()
+for array in (flow.arrays().nodes, flow.arrays().tets, flow.arrays().neighbours):
+    assert any(array is window for window in windows)
+assert flow.mesh.tets is flow.arrays().tets
+shared[-1] = 2.5
+print(json.dumps([member.order("touch"), member.order("tell")]))
+member.dismiss(0)
+"""
+
+
+def test_memory_of_the_flow_is_shared(case, tmp_path):
+    """128 MB that all see, and nobody has for himself."""
+    script = tmp_path / "sharing.py"
+    script.write_text(SHARING)
+    words = ["mpirun", "-np", "3", sys.executable, str(script), str(case)]
+    done = subprocess.run(words, capture_output=True, text=True, env=ENVIRONMENT, check=False, timeout=200)
+    assert done.returncode == 0, done.stderr
+    totals, told = json.loads(done.stdout.splitlines()[-1])
+    assert totals == [1.5 * (1 << 24) + 1.0] * 3
+    files, shares, grown = zip(*told, strict=True)
+    # One file in memory that all have mapped, so that their shares of it add up to one array.
+    assert len({tuple(file) for file in files}) == 1
+    assert sum(shares) == pytest.approx(1 << 17, rel=0.02)
+    assert max(grown) < 1 << 14

@@ -1,0 +1,52 @@
+"""The pages under docs/: links lead somewhere, the index knows every page, and examples run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from foamprb.body.material import MATERIALS
+from foamprb.validation.registry import CASES
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted((ROOT / "docs").rglob("*.md"))
+MODELS = sorted((ROOT / "docs" / "models").glob("*.md"))
+
+
+def targets(page: Path) -> list[str]:
+    return [t for t in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()) if "://" not in t]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def test_links_lead_to_files(page):
+    missing = [t for t in targets(page) if not (page.parent / t).exists()]
+    assert not missing
+
+
+def test_index_links_every_page():
+    index = ROOT / "docs" / "README.md"
+    known = {(index.parent / t).resolve() for t in targets(index)}
+    assert {p.resolve() for p in PAGES if p != index} <= known
+
+
+@pytest.mark.parametrize("page", MODELS, ids=lambda p: p.name)
+def test_pages_of_models_name_the_cases_that_check_them(page):
+    text = page.read_text().partition("**Checked by**")[2].partition("\n\n")[0]
+    named = set(re.findall(r"`([A-Za-z]+)`", text))
+    assert named & set(CASES)
+    assert named <= {*CASES, "solve_ivp", "stokes", "rosenbrock", "paper"}
+
+
+def test_example_of_a_solid_runs(monkeypatch):
+    before = dict(MATERIALS)
+    monkeypatch.setattr("foamprb.body.material.MATERIALS", dict(before))
+    page = (ROOT / "docs" / "models" / "materials.md").read_text()
+    (code,) = re.findall(r"<!-- run -->\n```python\n(.*?)```", page, re.DOTALL)
+    exec(code, {"__name__": "example"})
+    import foamprb.body.material as material
+
+    yeoh = material.MATERIALS["yeoh"]
+    # Twice the stiffness of neo-Hooke's at I₁ = 3 + 1/k.
+    assert yeoh.derivatives(5.0, 3.0, 1.0, 1.0, 3.0, 0.5)[0] == pytest.approx(1.0)

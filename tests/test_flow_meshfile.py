@@ -1,0 +1,203 @@
+from __future__ import annotations
+
+import json
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+from test_flow_shapes import block, box_patches, corners, grid
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh import Patch, build_mesh
+from foamprb.flow.meshfile import Division, read_mesh_file
+
+GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
+
+
+def flowing(kind="hexahedra", factor=1.0):
+    shape = block(4 if kind == "polyhedra" else 3, 0.2, kind)
+    shape.cell_data["U"] = factor * build_mesh(shape).centres @ GRADIENT.T
+    return shape
+
+
+def write_series(folder):
+    """Two times of a flow as foamToVTK leaves them."""
+    for name, factor in (("case_1", 1.0), ("case_2", 2.0)):
+        shape = flowing(factor=factor)
+        patches = {}
+        for patch in box_patches(shape):
+            moving = factor * patch.surface.cell_centers().points @ GRADIENT.T
+            patch.surface.cell_data["U"] = moving * (patch.name != "sides")
+            patches[patch.name] = patch.surface
+        pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(
+            folder / f"{name}.vtm"
+        )
+    path = folder / "case.vtm.series"
+    times = [{"name": "case_1.vtm", "time": 0.5}, {"name": "case_2.vtm", "time": 10}]
+    path.write_text(json.dumps({"file-series-version": "1.0", "files": times}))
+    return path
+
+
+def test_a_series_of_foam_to_vtk(tmp_path):
+    path = write_series(tmp_path)
+    assert read_mesh_file(path).patches == (
+        Patch("floor", "patch"), Patch("lid", "patch"), Patch("sides", "wall")
+    )  # fmt: skip
+    x = np.array([[0.4, 0.5, 0.6]])
+    flow = read_mesh_file(tmp_path / "case_1.vtm")
+    first, _ = flow.sample(x, flow.locate(x), 0.0)
+    for time, factor in (("latestTime", 2.0), (0.5, 1.0), ("10", 2.0)):
+        flow = read_mesh_file(path, time=time)
+        u, _ = flow.sample(x, flow.locate(x), 0.0)
+        # The sides are at rest, which the middle feels.
+        assert u == pytest.approx(factor * first, rel=1e-6)
+    with pytest.raises(InputError, match=r"no time 3; the times are 0\.5, 10"):
+        read_mesh_file(path, time=3)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "not a list of files"),
+        ("[]", "not a list of files"),
+        ('{"files": []}', "the list of files is empty"),
+        ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu is not there"),
+        ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series is not there"),
+        ('{"files": [{"time": 1}]}', "not a list of files"),
+    ],
+)
+def test_broken_series(text, message, tmp_path):
+    (tmp_path / "case.vtm.series").write_text(text)
+    with pytest.raises(InputError, match=message):
+        read_mesh_file(tmp_path / "case.vtm.series")
+
+
+def test_patches_end_at_edges(tmp_path):
+    flowing().save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=30.0))
+    assert [patch.type for patch in flow.patches] == ["wall"] * 6
+    assert np.diff(flow.mesh.patch_start).tolist() == [9] * 6
+    for index in range(6):
+        normals = flow.mesh.triangle_normals[flow.mesh.triangle_patch == index]
+        assert np.all(normals == normals[0])
+    whole = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=100.0))
+    assert [patch.name for patch in whole.patches] == ["boundary0"]
+
+
+def test_patches_by_an_array_on_surface_cells(tmp_path):
+    points, hexes = corners(2, 0.1)
+    low = hexes[points[hexes].mean(axis=1)[:, 2] < 0.5][:, :4]
+    high = hexes[points[hexes].mean(axis=1)[:, 2] > 0.5][:, 4:]
+    shape = grid(points, [(12, hexes), (9, low), (9, high)])
+    shape.cell_data["U"] = np.ones((16, 3))
+    shape.cell_data["CellEntityIds"] = np.repeat([7, 1, 2], [8, 4, 4])
+    shape.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityIds"))
+    assert {patch.name for patch in flow.patches} == {"boundary", "boundary1", "boundary2"}
+    assert np.all(flow.patch_faces("boundary1").vertices[..., 2] == 0.0)
+    assert np.all(flow.patch_faces("boundary2").vertices[..., 2] == 1.0)
+    assert len(flow.patch_faces("boundary").areas) == 32
+    with pytest.raises(InputError, match=r"no cell array CellEntityId\. Did you mean 'CellEntityIds'"):
+        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityId"))
+    with pytest.raises(InputError, match="cell array U is not one of whole numbers"):
+        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="U"))
+
+
+def test_physical_groups_of_gmsh_name_the_patches(tmp_path):
+    points, hexes = corners(1, 0.0)
+    mesh = meshio.Mesh(
+        points,
+        [("hexahedron", hexes), ("quad", np.concatenate([hexes[:, :4], hexes[:, 4:]]))],
+        point_data={"U": np.ones((8, 3))},
+        cell_data={
+            name: [np.array([9]), np.array([1, 2])] for name in ("gmsh:physical", "gmsh:geometrical")
+        },
+        field_data={"air": np.array([9, 3]), "inlet": np.array([1, 2]), "outlet": np.array([2, 2])},
+    )  # fmt: skip
+    mesh.write(tmp_path / "flow.msh", file_format="gmsh22")
+    flow = read_mesh_file(tmp_path / "flow.msh", division=Division(array="gmsh:physical"))
+    assert {patch.name for patch in flow.patches} == {"boundary", "inlet", "outlet"}
+
+
+def test_a_given_gradient_is_taken(tmp_path, random):
+    shape = flowing("prisms")
+    gradients = random.random((shape.n_cells, 3, 3))
+    shape.cell_data["grad(U)"] = gradients.transpose(0, 2, 1).reshape(-1, 9)
+    shape.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", gradient="grad(U)")
+    centres = flow.mesh.centres
+    assert flow.sample(centres, flow.locate(centres), 0.0)[1] == pytest.approx(gradients, abs=1e-12)
+    with pytest.raises(InputError, match=r"no cell array grad\(V\)"):
+        read_mesh_file(tmp_path / "flow.vtu", gradient="grad(V)")
+    with pytest.raises(InputError, match="a gradient has 9 components"):
+        read_mesh_file(tmp_path / "flow.vtu", gradient="U")
+
+
+@pytest.mark.parametrize("suffix", [".vtkhdf", ".vtu"])
+@pytest.mark.parametrize("kind", ["hexahedra", "polyhedra", "mixed"])
+def test_kinds_of_cells_in_vtk_files(suffix, kind, tmp_path, random):
+    if suffix == ".vtkhdf" and kind == "polyhedra":
+        pytest.skip("VTK does not write polyhedra to this format")
+    flowing(kind).save(tmp_path / f"flow{suffix}")
+    flow = read_mesh_file(tmp_path / f"flow{suffix}")
+    x = random.random((100, 3))
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+
+
+def test_pieces_of_a_parallel_file_are_joined(tmp_path):
+    shape = flowing()
+    left = shape.cell_centers().points[:, 0] < 0.34
+    for k, part in enumerate((left, ~left)):
+        shape.extract_cells(np.flatnonzero(part)).save(tmp_path / f"flow_{k}.vtu")
+    arrays = '<PDataArray type="Float64" Name="U" NumberOfComponents="3"/>'
+    (tmp_path / "flow.pvtu").write_text(
+        '<?xml version="1.0"?><VTKFile type="PUnstructuredGrid" version="1.0" header_type="UInt32">'
+        f'<PUnstructuredGrid GhostLevel="0"><PCellData>{arrays}</PCellData><PPoints>'
+        '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
+        '<Piece Source="flow_0.vtu"/><Piece Source="flow_1.vtu"/></PUnstructuredGrid></VTKFile>'
+    )
+    flow = read_mesh_file(tmp_path / "flow.pvtu")
+    assert flow.mesh.n_points == 64
+    assert len(flow.mesh.boundary_centres) == 54
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.97])
+@pytest.mark.parametrize("binary", [True, False])
+def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
+    points, hexes = corners(3, 0.1)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.random.default_rng(0).random((27, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=binary)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: int(share * len(whole))])
+    with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
+    """The points are said to lie in no compressed block instead of one."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    text = path.read_text()
+    assert "AQAAAACAAACIAgAA" in text
+    path.write_text(text.replace("AQAAAACAAACIAgAA", "AAAAAACAAACIAgAA"))
+    with pytest.raises(InputError, match=r"flow\.vtu: VTK"):
+        read_mesh_file(path)
+
+
+def test_inside_out_cells_are_refused(tmp_path):
+    points, hexes = corners(1, 0.0)
+    points[:, 2] *= -0.0
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((1, 3))
+    shape.save(tmp_path / "flow.vtu")
+    with pytest.raises(InputError, match="1 of 1 cells have no positive volume; the first is cell 0"):
+        read_mesh_file(tmp_path / "flow.vtu")
