@@ -65,7 +65,7 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
                 found[:, i].ravel(),
                 expected[:, i].ravel(),
                 SPHEROID,
-                2e-3,
+                1e-3,
                 size,
             )
         )
