@@ -136,7 +136,7 @@ class TestRefusal:
             "-m", "foamprb", "run", "-case", str(cases[0]), "-device", "cuda", CUDA_VISIBLE_DEVICES=""
         )
         assert done.returncode == 1
-        assert re.match(r"--> foamprb Error : device cuda: there is no CUDA device", done.stderr)
+        assert re.match(r"--> foamprb Error : -device cuda: there is no CUDA device.*\n$", done.stderr)
         assert "Traceback" not in done.stderr
 
     def test_an_unknown_device_is_one_message(self, cases, capsys):

@@ -43,8 +43,10 @@ def device_name() -> str:
         If there is none, or its driver cannot be used.
     """
     if not cuda.is_available():
-        reason = str(cuda.cuda_error() or "none was found").strip().rstrip(":.")
-        raise InputError(f"device cuda: there is no CUDA device that can be used ({reason})")
+        reason = str(cuda.cuda_error() or "").strip().partition("\n")[0].rstrip(":.")
+        raise InputError(
+            f"-device cuda: there is no CUDA device that can be used. {reason}".rstrip(". ") + "."
+        )
     if cuda.config.ENABLE_CUDASIM:
         return "simulated by numba"
     name = cuda.get_current_device().name
@@ -198,7 +200,7 @@ class Device:
         free = cuda.current_context().get_memory_info()[0]
         if size > free:
             raise InputError(
-                f"device cuda: {p.size} particles need {size / 1e9:.1f} GB of its memory, of which "
+                f"-device cuda: {p.size} particles need {size / 1e9:.1f} GB of its memory, of which "
                 f"{free / 1e9:.1f} GB are free."
             )
         self._work.synchronize()
