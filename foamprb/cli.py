@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from foamprb.flow.source import Source
     from foamprb.parallel import Root
     from foamprb.settings import StartFrom
+    from foamprb.team import OnDevice
 
 _COMMANDS = ("run", "info", "validate")
 
@@ -88,6 +89,9 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--parallel", action="store_true", help="share the particles among the processes of mpirun"
     )
+    run.add_argument(
+        "--device", choices=("cpu", "cuda"), default="cpu", help="what advances the particles [cpu]"
+    )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
         "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
@@ -107,6 +111,7 @@ def _run(arguments: argparse.Namespace, team: Root | None) -> int:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
     threads = arguments.threads or (team.threads if team else None)
     time = "latestTime" if arguments.latestTime else arguments.time
+    on_device = _on_device(arguments, team)
     job = prepare(arguments.case, time, arguments.dict, threads, _source(arguments))
     describe(job)
     if arguments.dry_run:
@@ -121,7 +126,7 @@ def _run(arguments: argparse.Namespace, team: Root | None) -> int:
     with _stopped_by_signals() as received:
         elsewhere = team.signals if team else ()
         try:
-            execute(job, start_from, stop=lambda: bool(received or elsewhere), team=team)
+            execute(job, start_from, stop=lambda: bool(received or elsewhere), team=on_device or team)
         except RunStopped as stopped:
             signals: list[int] = [*received, *elsewhere]
             if not signals:
@@ -129,6 +134,16 @@ def _run(arguments: argparse.Namespace, team: Root | None) -> int:
             print(f"--> foamprb {stopped}", file=sys.stderr)
             return 128 + signals[0]
     return 0
+
+
+def _on_device(arguments: argparse.Namespace, team: Root | None) -> OnDevice | None:
+    if arguments.device == "cpu":
+        return None
+    if team is not None:
+        raise InputError("-device cuda does not go together with -parallel: it is for one process.")
+    from foamprb.team import OnDevice
+
+    return OnDevice()
 
 
 @contextmanager

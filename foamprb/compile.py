@@ -2,8 +2,9 @@
 
 The mathematics of foamprb is written once, as plain functions of floats, tuples and array elements.
 :func:`link` follows the functions that an entry function calls, through their module globals, and compiles
-the whole with numba; the plain text stays callable as it is, on floats or on numpy arrays. A model that the
-user chooses (a traction, a drag law, a flow) is bound to the name by which the entry function calls it.
+the whole with numba, for the processor or for a CUDA device; the plain text stays callable as it is, on
+floats or on numpy arrays. A model that the user chooses (a traction, a drag law, a flow) is bound to the name
+by which the entry function calls it, and so is a constant that is not the same for both targets.
 """
 
 from __future__ import annotations
@@ -11,16 +12,21 @@ from __future__ import annotations
 import hashlib
 import os
 from collections.abc import Callable, Collection, Mapping
+from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from types import CodeType, FunctionType
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numba
+import numpy as np
 import platformdirs
 
 from foamprb.body.tensor import select
 
-__all__ = ["cache_directory", "is_compiled", "link"]
+__all__ = ["Target", "cache_directory", "is_compiled", "link"]
+
+Target: TypeAlias = Literal["cpu", "cuda"]
 
 # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
 _FAST_MATH = ("contract", "nsz")
@@ -43,8 +49,9 @@ def cache_directory() -> Path:
 
 def link(
     entry: Callable[..., Any],
-    bindings: Mapping[str, Callable[..., Any]] | None = None,
+    bindings: Mapping[str, Any] | None = None,
     separate: Collection[Callable[..., Any]] = (),
+    target: Target = "cpu",
 ) -> Any:
     """Compile ``entry`` with everything it calls.
 
@@ -53,23 +60,34 @@ def link(
     entry
         A plain function whose callees are module globals (imported by name, not as ``module.name``).
     bindings
-        Functions to put under a global name that ``entry`` or its callees use, e.g. ``{"traction": roscoe}``.
+        Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
+        ``{"traction": roscoe}``.
     separate
         Callees that are compiled and cached on their own, and called, so that several entries share them;
         every other callee is inlined.
+    target
+        ``"cuda"`` makes a kernel of ``entry`` and device functions of its callees; it needs numba-cuda.
 
     Returns
     -------
     A numba dispatcher. Equal code with equal bindings is compiled once per process and kept on disk in
     :func:`cache_directory`, under a key made of the code of every function that was linked.
     """
-    return _link(entry, dict(bindings or {}), frozenset(separate), _ENTRY).dispatcher
+    return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
 
 
 def is_compiled(dispatcher: Any) -> bool:
     """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
     folder = _folders.get(id(dispatcher))
     return bool(dispatcher.signatures) or (folder is not None and any(folder.glob("*.nbc")))
+
+
+class _Linkage(NamedTuple):
+    """What holds for all functions of one linking."""
+
+    bindings: dict[str, Any]
+    separate: frozenset[Callable[..., Any]]
+    target: Target
 
 
 class _Part(NamedTuple):
@@ -79,57 +97,104 @@ class _Part(NamedTuple):
     key: str
 
 
-@numba.njit(inline="always")  # type: ignore[untyped-decorator]
-def _select_scalar(condition: Any, a: Any, b: Any) -> Any:
+_Role: TypeAlias = Literal["entry", "separate", "inlined"]
+
+# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
+_UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_ROLES: dict[_Role, dict[str, Any]] = {
+    "entry": {},
+    "separate": _UNWRAPPED,
+    "inlined": {"forceinline": True, **_UNWRAPPED},
+}
+
+
+def _branch(condition: Any, a: Any, b: Any) -> Any:
     return a if condition else b
 
 
-# A set has another order in every process.
-_COMPILER = (
-    f"{numba.__version__} {_FAST_MATH} {[_OPTIONS[name] for name in sorted(_OPTIONS) if name != 'fastmath']}"
-)
-_ENTRY: dict[str, Any] = {}
-# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
-_SEPARATE: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-_INLINE: dict[str, Any] = {"forceinline": True, **_SEPARATE}
-
 _parts: dict[str, _Part] = {}
 _folders: dict[int, Path] = {}
-_SELECT = _Part(_select_scalar, "select")
 
 
-def _link(
-    function: Callable[..., Any],
-    bindings: dict[str, Callable[..., Any]],
-    separate: frozenset[Callable[..., Any]],
-    role: dict[str, Any],
-) -> _Part:
+def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part:
     """Compile a function after its callees; a part that has been compiled before is used again."""
+    target = linkage.target
     if function is select:
-        return _SELECT
+        return _link_select(target)
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    own = f"{_COMPILER} {role} {function.__module__} {function.__qualname__}"
+    own = f"{_compiler(target)} {role} {function.__module__} {function.__qualname__}"
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     for name in sorted(_global_names(function.__code__)):
-        value = bindings.get(name, scope.get(name))
+        value = linkage.bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
-            part = _link(value, bindings, separate, _SEPARATE if value in separate else _INLINE)
+            part = _link(value, linkage, "separate" if value in linkage.separate else "inlined")
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
+            scope[name] = value
             digest.update(f"{name}={value!r};".encode())
+    if target == "cuda":
+        scope |= _for_cuda(scope)
     key = digest.hexdigest()[:24]
     if key not in _parts:
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
         clone.__qualname__ = function.__qualname__
         clone.__module__ = function.__module__
-        dispatcher = numba.njit(**role, **_OPTIONS)(clone)
-        if role is not _INLINE:
-            _enable_cache(dispatcher, key)
-        _parts[key] = _Part(dispatcher, key)
+        compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
+        _parts[key] = _Part(compile_part(clone, role, key), key)
     return _parts[key]
+
+
+def _link_select(target: Target) -> _Part:
+    """The branch that ``select`` is of scalars."""
+    key = f"select {target}"
+    if key not in _parts:
+        cpu = target == "cpu"
+        inlined = numba.njit(inline="always") if cpu else partial(_compile_for_cuda, role="inlined", key=key)
+        _parts[key] = _Part(inlined(_branch), key)
+    return _parts[key]
+
+
+def _compiler(target: Target) -> str:
+    """What makes the code, and how."""
+    if target == "cpu":
+        # A set has another order in every process.
+        options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
+        return f"{numba.__version__} {_FAST_MATH} {options} {_ROLES}"
+    return f"numba-cuda {version('numba-cuda')}"
+
+
+def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
+    dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
+    if role != "inlined":
+        _enable_cache(dispatcher, key, numba.config)
+    return dispatcher
+
+
+def _for_cuda(scope: Mapping[str, Any]) -> dict[str, Any]:
+    """What must stand for some globals in device functions."""
+    from numba import cuda
+
+    if cuda.config.ENABLE_CUDASIM:
+        return {}
+    from foamprb.cudamath import numpy_on_device
+
+    return {name: numpy_on_device for name, value in scope.items() if value is np}
+
+
+def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> Any:
+    from numba import cuda
+
+    if cuda.config.ENABLE_CUDASIM:
+        # In the simulator a kernel calls plain functions.
+        return cuda.jit(function) if role == "entry" else function
+    if role != "entry":
+        return cuda.jit(device=True, forceinline=role == "inlined")(function)
+    kernel = cuda.jit(function)
+    _enable_cache(kernel, key, cuda.config)
+    return kernel
 
 
 def _global_names(code: CodeType) -> set[str]:
@@ -145,15 +210,16 @@ def _fingerprint(code: CodeType) -> bytes:
     return b"|".join(parts)
 
 
-def _enable_cache(dispatcher: Any, key: str) -> None:
+def _enable_cache(dispatcher: Any, key: str, config: Any) -> None:
+    """Keep the machine code under ``key``; ``config`` is where the compiler looks for the folder."""
     folder = _folders[id(dispatcher)] = cache_directory() / key
-    previous = numba.config.CACHE_DIR
+    previous = config.CACHE_DIR
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        numba.config.CACHE_DIR = str(folder)
+        config.CACHE_DIR = str(folder)
         dispatcher.enable_caching()
     except (OSError, RuntimeError):
         # A read-only home costs the compilation anew in each run, nothing else.
         pass
     finally:
-        numba.config.CACHE_DIR = previous
+        config.CACHE_DIR = previous

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.block import LANES
-from foamprb.cloud.cloud import Cloud, Tracker, longest_semi_axis
+from foamprb.cloud.cloud import AT_ONCE, Cloud, Tracker, longest_semi_axis
 from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
@@ -253,6 +253,8 @@ class Root:
         Number of threads of each process, as many as its computer has for it.
     """
 
+    at_once = AT_ONCE
+
     def __init__(self, rank: Rank, threads: int) -> None:
         self.rank, self.threads = rank, threads
         self.size: int = rank.comm.size
@@ -326,6 +328,14 @@ class Root:
         series.add(cloud.time, file)
 
     # As a crew
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled here."""
+        return self._cloud.tracker.compiled
+
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """Wait until told to advance."""
 
     def advance(self, flow: Any, steps: int) -> int:
         """Even out the shares if they have become too different, and let all go on."""

@@ -43,7 +43,6 @@ from foamprb.team import Serial, Team, View
 
 log = logging.getLogger("foamprb")
 
-_CHUNK_OF_WORK = 10_000_000
 _MAX_LISTED_FAILURES = 10
 TIME_TOLERANCE = 1e-9
 """Relative error of a time that has been written and read."""
@@ -351,14 +350,16 @@ def _execute(
     started, cpu = clock.perf_counter(), clock.process_time()
     reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
     failing = _failing(job)
+    team.take(cloud)
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
-    team.take(cloud)
     log.info("\nStarting time loop\n")
     with _progress(cloud.start, solution.endTime) as show:
         while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
             target = min(last, (cloud.step // per_write + 1) * per_write)
             reached = _advance_to(job, target, show, stop)
+            if reached and target < last and _moving(cloud):
+                cloud.begin(_next_chunk(job, min(last, target + per_write)))
             cloud.gather()
             if not reached:
                 checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
@@ -433,15 +434,21 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
     while cloud.step < target and _moving(cloud):
         if stop():
             return False
-        counts = cloud.counts()
-        work = counts[Status.PENDING] + counts[Status.ACTIVE]
         until = job.functions.next_look(target)
-        cloud.advance(min(until - cloud.step, max(1, _CHUNK_OF_WORK // work)))
+        cloud.advance(_next_chunk(job, target))
         if cloud.step == until:
             job.functions.see()
         show(cloud.time)
     cloud.step = target
     return True
+
+
+def _next_chunk(job: Job, target: int) -> int:
+    """Number of steps that the cloud takes at once on its way to a target."""
+    cloud = job.cloud
+    counts = cloud.counts()
+    work = counts[Status.PENDING] + counts[Status.ACTIVE]
+    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.crew.at_once // work))
 
 
 @contextmanager

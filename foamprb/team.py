@@ -6,8 +6,10 @@ one that writes them.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Protocol
 
 import numpy as np
@@ -16,8 +18,11 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import MEASURES, context, measure
 from foamprb.cloud.state import Particles
+from foamprb.errors import InputError
 from foamprb.flow.base import Sampled
 from foamprb.output.vtk import Series, Snapshot
+
+log = logging.getLogger("foamprb")
 
 
 @dataclass(frozen=True)
@@ -71,3 +76,27 @@ class Serial:
     def write(self, series: Series, cloud: Cloud, view: View) -> None:
         """Write one file."""
         series.append(view.snapshot(cloud.time, cloud.particles, cloud.flow))
+
+
+class OnDevice(Serial):
+    """One process with a CUDA device, which carries the particles.
+
+    Raises
+    ------
+    InputError
+        If numba-cuda or a device that it can use is missing.
+    """
+
+    def __init__(self) -> None:
+        if find_spec("numba_cuda") is None:
+            raise InputError("-device cuda needs numba-cuda: pip install 'foamprb[cuda]'.")
+        from foamprb.cloud.device import device_name
+
+        self._name = device_name()
+
+    def take(self, cloud: Cloud) -> None:
+        """Hand all particles over to the device."""
+        from foamprb.cloud.device import Device
+
+        cloud.hand_over(Device(cloud))
+        log.info("\nParticles on the CUDA device %s", self._name)

@@ -23,6 +23,7 @@ from foamprb.body.tensor import (
 from foamprb.cloud.state import Particles, Reason
 
 LANES = 32
+"""On a CUDA device, where each thread has a block of its own, 1 is bound in its place."""
 
 LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
 

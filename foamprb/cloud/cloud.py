@@ -131,16 +131,15 @@ class Tracker:
             bindings["finger"] = finger_of_ellipsoid
         if tense:
             bindings["interface"] = laplace_stress
-        loop = LOOPS[models.integrator]
+        self.loop = loop = LOOPS[models.integrator]
         bindings.update(loop.bindings)
+        self.kernels, self.bindings = kernels, bindings
         # The walk and the wall test are long and called from several places: inlined they would multiply.
-        parts = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
-        self.kernels = kernels
-        self._track = link(loop.entry, bindings, separate=parts)
-        self._rows = loop.rows
-        self._options = (models.tolerance,) if loop.adaptive else ()
-        self._table = _patch_table(interactions)
-        self._medium, self._dt, self._start = medium, dt, start
+        self.separate = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
+        self.table = _patch_table(interactions)
+        self.medium, self.dt, self.start = medium, dt, start
+        self.options = (models.tolerance,) if loop.adaptive else ()
+        self._track = link(loop.entry, bindings, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Another process compiles for itself.
@@ -170,15 +169,15 @@ class Tracker:
 
         def work(share: Sequence[NDArray[np.int64]]) -> int:
             scratch = Scratch(
-                np.empty(self._rows * LANES),
+                np.empty(self.loop.rows * LANES),
                 np.empty(LANES),
                 np.empty(LANES, dtype=np.int64),
                 np.empty((9, 10)),
             )
             return sum(
                 self._track(
-                    flow, self._table, self._medium, p, members,
-                    step, steps, self._dt, self._start, scratch, *self._options,
+                    flow, self.table, self.medium, p, members,
+                    step, steps, self.dt, self.start, scratch, *self.options,
                 )
                 for members in share
             )  # fmt: skip
@@ -189,8 +188,26 @@ class Tracker:
             return sum(pool.map(work, [blocks[i::threads] for i in range(threads)]))
 
 
+AT_ONCE = 10_000_000
+"""Steps of a particle that threads take in a second or so."""
+
+
 class Crew(Protocol):
     """Who carries the particles of a cloud through their steps, and knows the state of each until asked."""
+
+    at_once: int
+    """Number of steps of a particle that it takes in a second or so."""
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled."""
+
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """Begin with steps while the cloud's arrays stay as they are or are gathered, if that can be done.
+
+        ``prepare`` gives what the flow's kernels read, and the number of steps. The next :meth:`advance`
+        takes these steps if it asks for as many; else they are as if they had never been begun.
+        """
 
     def advance(self, flow: Any, steps: int) -> int:
         """Take steps with what the flow's kernels read; return the number of walks mended by the tree."""
@@ -208,8 +225,17 @@ class Crew(Protocol):
 class _Threads:
     """The crew of a cloud by itself: the threads of this process, in the cloud's own arrays."""
 
+    at_once = AT_ONCE
+
     def __init__(self, cloud: Cloud) -> None:
         self._cloud = cloud
+
+    @property
+    def compiled(self) -> bool:
+        return self._cloud.tracker.compiled
+
+    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+        """They would take the time from what is done meanwhile."""
 
     def advance(self, flow: Any, steps: int) -> int:
         cloud = self._cloud
@@ -300,7 +326,7 @@ class Cloud:
     @property
     def compiled(self) -> bool:
         """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
-        return self.tracker.compiled
+        return self.crew.compiled
 
     @property
     def time(self) -> float:
@@ -319,15 +345,24 @@ class Cloud:
         """
         last = self.step + steps
         while self.step < last:
-            until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
-            ready = (until - self.time) / self.dt + _ROUND_OFF
-            self._advance(last - self.step if ready > last - self.step else max(1, int(ready)))
+            flow, ready = self._prepare(last - self.step)
+            self.recovered += self.crew.advance(flow, ready)
+            self.step += ready
 
-    def _advance(self, steps: int) -> None:
-        """Take steps for which the flow is ready."""
+    def begin(self, steps: int) -> None:
+        """Let the crew begin with steps while this process does something else, if it is one that can.
+
+        Until :meth:`advance` is called with the same number nothing is seen of them, and when it is called
+        with another they are dropped.
+        """
+        self.crew.begin(lambda: self._prepare(steps))
+
+    def _prepare(self, steps: int) -> tuple[Any, int]:
+        """Make the flow ready for as many steps as it can be, of ``steps``: its arrays, and how many."""
+        until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
+        ready = (until - self.time) / self.dt + _ROUND_OFF
         self._grow_reach()
-        self.recovered += self.crew.advance(self.flow_arrays(), steps)
-        self.step += steps
+        return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
     def hand_over(self, crew: Crew) -> None:
         """Let others carry the particles, which know them and the flow."""

@@ -52,6 +52,8 @@ class Variable(NamedTuple):
     dtype: str
     unit: str
     meaning: str
+    fixed: bool = False
+    """Whether it stays what it was when the particle was made."""
 
 
 class Particles(NamedTuple):
@@ -64,24 +66,26 @@ class Particles(NamedTuple):
     F: Annotated[Array, Variable((9,), "f8", "1", "deformation gradient from that sphere, row by row")]
     A: Annotated[Array, Variable((9,), "f8", "1/s", "material velocity gradient dF/dt, row by row")]
     Q: Annotated[Array, Variable((9,), "f8", "1", "particle frame, axes as rows; any frame for a new F")]
-    R: Annotated[Array, Variable((), "f8", "m", "radius at rest, of the sphere of the same volume")]
-    rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest")]
-    mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid")]
-    lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid")]
-    k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one")]
-    eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid")]
-    gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension")]
+    R: Annotated[
+        Array, Variable((), "f8", "m", "radius at rest, of the sphere of the same volume", fixed=True)
+    ]
+    rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest", fixed=True)]
+    mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid", fixed=True)]
+    lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid", fixed=True)]
+    k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one", fixed=True)]
+    eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid", fixed=True)]
+    gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension", fixed=True)]
     F0: Annotated[Array, Variable((9,), "f8", "1", "F at rest, from the sphere of the same volume")]
-    Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate")]
-    t0: Annotated[Array, Variable((), "f8", "s", "time of injection")]
-    x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection")]
+    Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate", fixed=True)]
+    t0: Annotated[Array, Variable((), "f8", "s", "time of injection", fixed=True)]
+    x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection", fixed=True)]
     t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
     h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 until it has one")]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
     patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]
     host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
-    injector: Annotated[Array, Variable((), "i4", "", "injection model that released it")]
+    injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
 
     @property
     def size(self) -> int:

@@ -113,24 +113,29 @@ def peak(repeats: int) -> float:
     return 2.0 * 2.0 * _LENGTH * data.size * times / best
 
 
+def operations_by_stage(integrator: str) -> dict[str, collections.Counter[str]]:
+    """Operations of a particle-step in the stages of an integrator, by kind."""
+    flow = foamprb.analytic.pipe(pipe.RADIUS, pipe.MEAN, pipe.LENGTH)
+    cloud = pipe.soft_cloud(flow, LANES, STEP[integrator], integrator)
+    cloud.advance(20)
+    ((_, data),) = blocks_of(cloud, 1)
+    numbers = np.array([Counting(float(x)) for x in data], dtype=object)
+    found = {}
+    for name, stage in STAGES[integrator].items():
+        counts = operations(stage, numbers, cloud.medium)
+        found[name] = collections.Counter({kind: stage.times * counts[kind] for kind in COUNTED})
+    return found
+
+
 def measure(options: Options) -> list[Row]:
     """Operations of each stage and of the stages together, and the peak."""
-    flow = foamprb.analytic.pipe(pipe.RADIUS, pipe.MEAN, pipe.LENGTH)
     found = []
-    for integrator, stages in STAGES.items():
-        cloud = pipe.soft_cloud(flow, LANES, STEP[integrator], integrator)
-        cloud.advance(20)
-        ((_, data),) = blocks_of(cloud, 1)
-        numbers = np.array([Counting(float(x)) for x in data], dtype=object)
-        total: collections.Counter[str] = collections.Counter()
-        by_stage = {}
-        for name, stage in stages.items():
-            counts = operations(stage, numbers, cloud.medium)
-            by_stage[name] = stage.times * counts.total()
-            for kind in COUNTED:
-                total[kind] += stage.times * counts[kind]
+    for integrator in STAGES:
+        counts = operations_by_stage(integrator)
+        by_stage = {name: count.total() for name, count in counts.items()}
+        total = {kind: sum(count[kind] for count in counts.values()) for kind in COUNTED}
         found += rows("roofline", f"operations of {integrator}", by_stage, "per particle-step")
-        found += rows("roofline", f"of these, {integrator}", dict(total), "per particle-step")
+        found += rows("roofline", f"of these, {integrator}", total, "per particle-step")
     best = peak(3 if options.quick else 15) / KILO**3
     found += rows("roofline", "peak of one core", {"fused multiply-add": best}, "GFLOP/s")
     return found
