@@ -12,7 +12,6 @@ import pytest
 import pyvista
 from test_run import copy_of_pipe, edit
 
-import foamprb.run
 from foamprb import analytic, execute, prepare
 from foamprb.body.tensor import principal_frame
 from foamprb.cli import main
@@ -414,7 +413,7 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch
         edit(case, r"endTime\s+\S+;", "endTime 0.012;")
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
-            monkeypatch.setattr(foamprb.run, "_CHUNK_OF_WORK", 1000)
+            monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 1000)
             job = prepare(case, threads=1)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)

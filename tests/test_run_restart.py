@@ -18,7 +18,6 @@ import numpy as np
 import pytest
 from test_run import PIPE, copy_of_pipe, edit, message, time_folder
 
-import foamprb.run
 from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.cloud.cloud import Cloud
@@ -93,7 +92,7 @@ def test_a_stopped_run_goes_on_with_other_threads(stopped, truth):
 
 def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch):
     # A few steps at a time, so that it stops at any of them.
-    monkeypatch.setattr(foamprb.run, "_CHUNK_OF_WORK", 3000)
+    monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 3000)
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     assert expected["fates.csv"] == truth["fates.csv"]
