@@ -32,6 +32,7 @@ from foamprb.cloudfunctions import FUNCTIONS, CloudFunction
 from foamprb.dictionary import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, read_dictionary, unquoted
 from foamprb.entries import Bounds, Choice, Fraction, NonNegative, Only, PoissonsRatio, Positive, Vector3
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.patch import WALLS
 from foamprb.libs import load_libs
 from foamprb.records import (
     Files,
@@ -501,12 +502,12 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
 
 
 def _applies(rule: Rule, patch: Patch) -> bool:
-    constrained = patch.type in _MIRRORS or patch.type.startswith(_COUPLED)
+    group = "wall" if patch.type in WALLS else patch.type
+    constrained = group in _MIRRORS or group.startswith(_COUPLED)
     if isinstance(rule, KindRule):
-        kind = "wall" if patch.type == "wall" else "constrained" if constrained else "open"
+        kind = "wall" if group == "wall" else "constrained" if constrained else "open"
         return rule.kind in (kind, "any")
-    is_group = patch.type == "wall" or constrained
-    return rule.matches(patch.name) or (is_group and rule.matches(patch.type))
+    return rule.matches(patch.name) or ((group == "wall" or constrained) and rule.matches(group))
 
 
 # ---------------------------------------------------------------------------------------------------------

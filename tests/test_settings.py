@@ -767,6 +767,7 @@ def test_patches_of_a_constraint_type() -> None:
     planes = [Patch(name, name) for name in ("empty", "symmetry", "symmetryPlane", "wedge")]
     assert match_patches([], planes) == [Mirror()] * 4
     assert match_patches([PatchRule("symmetry", Stick())], planes)[1] == Stick()
+    assert match_patches([PatchRule("wall", Stick())], [Patch("to_solid", "mappedWall")]) == [Stick()]
     for kind in ("cyclic", "wedge"):
         pair = [Patch("left", kind, "right"), Patch("right", kind, "left")]
         assert match_patches([], pair) == [Cyclic()] * 2

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+WALLS = frozenset({"wall", "mappedWall"})
+"""The types of patches that are walls: also those to which another region's wall fits."""
+
 
 class Patch(NamedTuple):
     """A patch's name and its OpenFOAM type: wall, patch, symmetryPlane, wedge, …."""

@@ -20,6 +20,7 @@ from scipy.spatial import KDTree
 
 from foamprb.flow.coupling import Coupling
 from foamprb.flow.mesh import Floats, Mesh
+from foamprb.flow.patch import WALLS
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]
 
@@ -63,7 +64,7 @@ class Reconstruction:
         patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
         if valued is None:
             valued = np.array([p.type not in VALUELESS for p in mesh.patches], dtype=bool)[patch_of_face]
-        walls = np.array([p.type == "wall" for p in mesh.patches], dtype=bool)[patch_of_face] & valued
+        walls = np.array([p.type in WALLS for p in mesh.patches], dtype=bool)[patch_of_face] & valued
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)

@@ -20,6 +20,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import PatchFaces, Tetrahedra
 from foamprb.flow.locator import TOLERANCE, MeshArrays, build_tree, cell_boxes, frame, locate, weights
 from foamprb.flow.mesh import Floats, Ints, Mesh
+from foamprb.flow.patch import WALLS
 
 __all__ = [
     "FAILED",
@@ -501,7 +502,7 @@ class MeshFlow:
         The ``touchable`` patches are given by their indices; by default they are those of type wall.
         """
         if touchable is None:
-            touchable = [index for index, patch in enumerate(self.patches) if patch.type == "wall"]
+            touchable = [index for index, patch in enumerate(self.patches) if patch.type in WALLS]
         if reach <= 0.0 or len(touchable) == 0:
             return self._arrays
         key = reach, tuple(touchable)
