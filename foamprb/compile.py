@@ -22,7 +22,10 @@ import numba
 import numpy as np
 import platformdirs
 
+from foamprb import inlined
 from foamprb.body.tensor import select
+from foamprb.inlined import CALLED, INLINED
+from foamprb.kept import keep
 
 __all__ = ["Target", "cache_directory", "is_compiled", "link"]
 
@@ -79,7 +82,7 @@ def link(
 def is_compiled(dispatcher: Any) -> bool:
     """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
     folder = _folders.get(id(dispatcher))
-    return bool(dispatcher.signatures) or (folder is not None and any(folder.glob("*.nbc")))
+    return bool(dispatcher.signatures) or (folder is not None and any(folder.rglob("*.nbc")))
 
 
 class _Linkage(NamedTuple):
@@ -102,10 +105,14 @@ _Role: TypeAlias = Literal["entry", "separate", "inlined"]
 # Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
 _UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _ROLES: dict[_Role, dict[str, Any]] = {
-    "entry": {},
-    "separate": _UNWRAPPED,
-    "inlined": {"forceinline": True, **_UNWRAPPED},
+    "entry": {"forceinline": False},
+    "separate": {"forceinline": False, **_UNWRAPPED, **CALLED},
+    "inlined": {"forceinline": True, **_UNWRAPPED, **INLINED},
 }
+
+
+# How functions are linked is a part of what makes their code.
+_LINKING = hashlib.sha256(Path(inlined.__file__).read_bytes()).hexdigest()[:8]
 
 
 def _branch(condition: Any, a: Any, b: Any) -> Any:
@@ -133,7 +140,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
-            scope[name] = value
+            scope[name] = _constant(value, target)
             digest.update(f"{name}={value!r};".encode())
     if target == "cuda":
         scope |= _for_cuda(scope)
@@ -145,6 +152,12 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
         compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
         _parts[key] = _Part(compile_part(clone, role, key), key)
     return _parts[key]
+
+
+def _constant(value: Any, target: Target) -> Any:
+    """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
+    # Sizes of local arrays on a device must be Python's.
+    return np.int64(value) if type(value) is int and target == "cpu" else value
 
 
 def _link_select(target: Target) -> _Part:
@@ -162,14 +175,15 @@ def _compiler(target: Target) -> str:
     if target == "cpu":
         # A set has another order in every process.
         options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
-        return f"{numba.__version__} {_FAST_MATH} {options} {_ROLES}"
+        return f"{numba.__version__} {_FAST_MATH} {options} {_ROLES} {_LINKING}"
     return f"numba-cuda {version('numba-cuda')}"
 
 
 def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
     dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
     if role != "inlined":
-        _enable_cache(dispatcher, key, numba.config)
+        _folders[id(dispatcher)] = folder = cache_directory() / key
+        keep(dispatcher, folder, key)
     return dispatcher
 
 
@@ -193,7 +207,7 @@ def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> An
     if role != "entry":
         return cuda.jit(device=True, forceinline=role == "inlined")(function)
     kernel = cuda.jit(function)
-    _enable_cache(kernel, key, cuda.config)
+    _enable_cache_for_cuda(kernel, key)
     return kernel
 
 
@@ -210,16 +224,18 @@ def _fingerprint(code: CodeType) -> bytes:
     return b"|".join(parts)
 
 
-def _enable_cache(dispatcher: Any, key: str, config: Any) -> None:
-    """Keep the machine code under ``key``; ``config`` is where the compiler looks for the folder."""
-    folder = _folders[id(dispatcher)] = cache_directory() / key
-    previous = config.CACHE_DIR
+def _enable_cache_for_cuda(kernel: Any, key: str) -> None:
+    """Keep the machine code of a kernel under ``key``."""
+    from numba import cuda
+
+    folder = _folders[id(kernel)] = cache_directory() / key
+    previous = cuda.config.CACHE_DIR
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        config.CACHE_DIR = str(folder)
-        dispatcher.enable_caching()
+        cuda.config.CACHE_DIR = str(folder)
+        kernel.enable_caching()
     except (OSError, RuntimeError):
         # A read-only home costs the compilation anew in each run, nothing else.
         pass
     finally:
-        config.CACHE_DIR = previous
+        cuda.config.CACHE_DIR = previous

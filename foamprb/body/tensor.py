@@ -314,6 +314,24 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     return (np.sqrt(x), np.sqrt(y), np.sqrt(z)), largest / (x * y * z)
 
 
+def longest_stretch(F: Tensor) -> Scalar:
+    """An upper bound of the stretches of F, equal to the largest of a sphere or a prolate spheroid.
+
+    With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
+    (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
+    """
+    x = F[0] * F[0] + F[1] * F[1] + F[2] * F[2]
+    y = F[3] * F[3] + F[4] * F[4] + F[5] * F[5]
+    z = F[6] * F[6] + F[7] * F[7] + F[8] * F[8]
+    xy = F[0] * F[3] + F[1] * F[4] + F[2] * F[5]
+    xz = F[0] * F[6] + F[1] * F[7] + F[2] * F[8]
+    yz = F[3] * F[6] + F[4] * F[7] + F[5] * F[8]
+    m = (x + y + z) / 3.0
+    x, y, z = x - m, y - m, z - m
+    variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
+    return np.sqrt(m + np.sqrt(2.0 * variance))
+
+
 def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
     """Principal frame of F from a frame Q that is nearly principal.
 

@@ -7,7 +7,8 @@ the compiler turns into vector instructions. All lanes are computed alike, whate
 which makes the result independent of both and of the number of threads.
 
 The names ``traction``, ``drag``, ``coefficients``, ``sample``, ``walk``, ``gap``, ``normal`` and ``recover``
-are bound to the models that were chosen when the loop is compiled (:func:`foamprb.compile.link`).
+are bound to the models that were chosen when the loop is compiled (:func:`foamprb.compile.link`), and
+``track`` to the integrator's loop over steps.
 """
 
 from __future__ import annotations
@@ -280,6 +281,44 @@ def track_block(
             recovered += reach_end(flow, patches, p, k, block, i, goal, t_end, h, clearance)
     for i in range(len(members)):
         save_particle(p, members[i], block, i)
+    return recovered
+
+
+track = track_block
+
+
+def track_share(
+    flow: Any,
+    patches: PatchTable,
+    medium: Medium,
+    p: Particles,
+    rows: NDArray[np.int64],
+    first: int,
+    stride: int,
+    step: int,
+    steps: int,
+    dt: float,
+    start: float,
+    scratch: Scratch,
+    options: tuple[float, ...],
+) -> int:
+    """Carry a thread's share of the particles, of which there are ``rows``: every so many blocks one.
+
+    Parameters
+    ----------
+    first, stride
+        The blocks number ``first``, ``first + stride`` and so on.
+    options
+        What the integrator's loop wants beside what :func:`track_block` does; the rest is as there.
+
+    Returns
+    -------
+    The number of walks that failed and were mended by the tree.
+    """
+    recovered = 0
+    for begin in range(first * LANES, len(rows), stride * LANES):
+        members = rows[begin : begin + LANES]
+        recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
     return recovered
 
 

@@ -15,7 +15,6 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.interface import laplace_stress
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger as finger_of_ellipsoid
-from foamprb.body.tensor import principal_frame
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
@@ -28,16 +27,17 @@ from foamprb.cloud.adaptive import (
     second_inertialess,
     track_adaptive,
 )
-from foamprb.cloud.advance import STAGES, track_block
+from foamprb.cloud.advance import STAGES, track_block, track_share
 from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.motion import RARE, PatchTable
+from foamprb.cloud.motion import RARE, PatchTable, longest_of
 from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
+from foamprb.flow.walk import LONG
 
 __all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
 
@@ -134,12 +134,11 @@ class Tracker:
         self.loop = loop = LOOPS[models.integrator]
         bindings.update(loop.bindings)
         self.kernels, self.bindings = kernels, bindings
-        # The walk and the wall test are long and called from several places: inlined they would multiply.
-        self.separate = (*loop.stages, *RARE, bindings["walk"], bindings["gap"], bindings["recover"])
+        self.separate: tuple[Callable[..., Any], ...] = (*loop.stages, *RARE, *LONG)
         self.table = _patch_table(interactions)
         self.medium, self.dt, self.start = medium, dt, start
         self.options = (models.tolerance,) if loop.adaptive else ()
-        self._track = link(loop.entry, bindings, self.separate)
+        self._track = link(track_share, {**bindings, "track": loop.entry}, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Another process compiles for itself.
@@ -165,27 +164,25 @@ class Tracker:
         rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
         rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
-        blocks = [rows[i : i + LANES] for i in range(0, len(rows), LANES)]
 
-        def work(share: Sequence[NDArray[np.int64]]) -> int:
+        def work(first: int) -> int:
             scratch = Scratch(
                 np.empty(self.loop.rows * LANES),
                 np.empty(LANES),
                 np.empty(LANES, dtype=np.int64),
                 np.empty((9, 10)),
             )
-            return sum(
-                self._track(
-                    flow, self.table, self.medium, p, members,
-                    step, steps, self.dt, self.start, scratch, *self.options,
-                )
-                for members in share
+            mended: int = self._track(
+                flow, self.table, self.medium, p, rows, first, threads,
+                step, steps, self.dt, self.start, scratch, self.options,
             )  # fmt: skip
+            return mended
 
-        if threads == 1 or len(blocks) < 2:
-            return work(blocks)
+        threads = max(1, min(threads, -(-len(rows) // LANES)))
+        if threads == 1:
+            return work(0)
         with ThreadPoolExecutor(threads) as pool:
-            return sum(pool.map(work, [blocks[i::threads] for i in range(threads)]))
+            return sum(pool.map(work, range(threads)))
 
 
 AT_ONCE = 10_000_000
@@ -216,7 +213,7 @@ class Crew(Protocol):
         """Number of particles of each status."""
 
     def longest(self) -> float:
-        """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
+        """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
 
     def gather(self) -> None:
         """Put the state of every particle into the cloud's arrays."""
@@ -435,12 +432,8 @@ def _find_hosts(p: Particles, flow: Flow) -> None:
 
 
 def longest_semi_axis(p: Particles) -> float:
-    """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
-    live = (p.status == Status.PENDING) | (p.status == Status.ACTIVE)
-    if not live.any():
-        return 0.0
-    _, stretches = principal_frame(tuple(p.F[live].T))
-    return float((np.max(stretches, axis=0) * p.R[live]).max())
+    """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
+    return float(link(longest_of)(p))
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

@@ -16,11 +16,10 @@ import numpy as np
 from numba import cuda
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import principal_frame
 from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud, Tracker
-from foamprb.cloud.motion import ACTIVE, PatchTable
+from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
 from foamprb.cloud.state import VARIABLES, Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
@@ -86,11 +85,8 @@ def track_each(
 def find_longest(p: Particles, longest: NDArray[np.float64]) -> None:
     """Put the longest semi-axis of those particles that have not ended into ``longest``, m."""
     k = cuda.grid(1)
-    if k < p.status.shape[0] and p.status[k] <= ACTIVE:
-        f = p.F
-        F = (f[k, 0], f[k, 1], f[k, 2], f[k, 3], f[k, 4], f[k, 5], f[k, 6], f[k, 7], f[k, 8])
-        _, stretches = principal_frame(F)
-        length = p.R[k] * max(stretches[0], stretches[1], stretches[2])
+    if k < p.status.shape[0]:
+        length = longest_now(p, k)
         # Most threads need not queue for the one place.
         if length > longest[0]:
             cuda.atomic.max(longest, 0, length)
@@ -167,7 +163,7 @@ class Device:
         return self._cloud.particles.counts()
 
     def longest(self) -> float:
-        """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
+        """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
         self._hold()
         if not self._begun:
             longest = cuda.to_device(np.zeros(1), stream=self._work)

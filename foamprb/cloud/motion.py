@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, transpose
+from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
     AT_A,
     AT_F,
@@ -201,7 +201,7 @@ def move_centre(
             x0 = between(x0, x1, done)
             spent += done * rest
             rest = dt - spent
-            host, fraction, patch, triangle = walk(flow, host, x0, x1)
+            host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
             if patch == -2:
                 return x0, start, dt, recovered
         p.host[k] = host
@@ -241,7 +241,9 @@ def move_back(
         if patch == -2:
             return x0, False
         p.host[k] = host
-        code = patches.code[patch] if patch >= 0 else STICK
+        if patch < 0:
+            return x1, True
+        code = patches.code[patch]
         if code not in (MIRROR, CYCLIC):
             return x1, True
         x0, x1, _, _ = beyond(flow, p, k, block, i, code, triangle, between(x0, x1, fraction), x1)
@@ -304,6 +306,23 @@ def is_sound(p: Particles, k: int, block: Any, i: int) -> bool:
     if verdict:
         fail(p, k, verdict)
     return verdict == 0
+
+
+def longest_now(p: Particles, k: int) -> float:
+    """Longest semi-axis of particle k, m, or a little more; 0 if it has ended."""
+    if p.status[k] > ACTIVE:
+        return 0.0
+    f = p.F
+    F = (f[k, 0], f[k, 1], f[k, 2], f[k, 3], f[k, 4], f[k, 5], f[k, 6], f[k, 7], f[k, 8])
+    return float(p.R[k] * longest_stretch(F))
+
+
+def longest_of(p: Particles) -> float:
+    """The largest of :func:`longest_now`."""
+    longest = 0.0
+    for k in range(len(p.status)):
+        longest = max(longest, longest_now(p, k))
+    return longest
 
 
 RARE: tuple[Callable[..., Any], ...] = (beyond, last_inside, move_back)

@@ -24,10 +24,12 @@ from foamprb.flow.patch import WALLS
 
 __all__ = [
     "FAILED",
+    "LONG",
     "REACHED",
     "MeshArrays",
     "MeshFlow",
     "cross",
+    "follow",
     "gap",
     "near_walls",
     "normal",
@@ -96,7 +98,29 @@ def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, 
 
 
 def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Follow the segment from x0, in the tetrahedron ``host``, to x1.
+    """Go from x0, in the tetrahedron ``host``, straight to x1.
+
+    Returns
+    -------
+    host, fraction, patch, triangle
+        ``(tetrahedron of x1, 1, −1, −1)`` when x1 was reached; ``(last tetrahedron, fraction of the segment,
+        patch, boundary triangle)`` when the boundary was crossed there; patch −2 when the walk failed.
+    """
+    if holds(flow, host, x1):
+        return host, 1.0, REACHED, _NO_TRIANGLE
+    return follow(flow, host, x0, x1)
+
+
+def holds(flow: MeshArrays, tet: int, x: Vector) -> bool:
+    """Whether a tetrahedron holds x, to round-off."""
+    origin, c1, c2, c3, volume = frame(flow, tet)
+    w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
+    sign = -1.0 if volume < 0.0 else 1.0
+    return min(sign * w0, sign * w1, sign * w2, sign * w3) >= -TOLERANCE * abs(volume)
+
+
+def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Follow the segment from x0, in the tetrahedron ``host``, to x1, through the faces on its way.
 
     A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which
     does not drift however many faces are crossed. In a tetrahedron turned inside out the path runs backwards,
@@ -105,9 +129,7 @@ def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, floa
 
     Returns
     -------
-    host, fraction, patch, triangle
-        ``(tetrahedron of x1, 1, −1, −1)`` when x1 was reached; ``(last tetrahedron, fraction of the segment,
-        patch, boundary triangle)`` when the boundary was crossed there; patch −2 when the walk failed.
+    As :func:`walk`.
     """
     tets, neighbours, nodes = flow.tets, flow.neighbours, flow.nodes
     for attempt in range(_ATTEMPTS):
@@ -225,9 +247,16 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
     """
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
-    best, nearest = np.inf, _NO_TRIANGLE
     if begin == end:
-        return best, -1, nearest
+        return np.inf, -1, _NO_TRIANGLE
+    return nearest_wall(flow, begin, end, x, F, R)
+
+
+def nearest_wall(
+    flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float
+) -> tuple[float, int, int]:
+    """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
+    best, nearest = np.inf, _NO_TRIANGLE
     inverse_F = inverse(F)
     nodes = flow.nodes
     for k in range(begin, end):
@@ -280,6 +309,10 @@ def _distance(a: Vector, b: Vector, c: Vector) -> float:
 
 def _dot(p: Vector, q: Vector) -> Any:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, locate)
+"""Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
 def _across(mesh: Mesh) -> Ints:
