@@ -105,7 +105,7 @@ _Role: TypeAlias = Literal["entry", "separate", "inlined"]
 # Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
 _UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _ROLES: dict[_Role, dict[str, Any]] = {
-    "entry": {"forceinline": False},
+    "entry": {"forceinline": False, "no_cfunc_wrapper": True},
     "separate": {"forceinline": False, **_UNWRAPPED, **CALLED},
     "inlined": {"forceinline": True, **_UNWRAPPED, **INLINED},
 }

@@ -3,7 +3,8 @@
 Numba optimises every function by itself, with all that is inlined into it, and makes machine code of it. Of a
 function that is always inlined both are waste, and as functions are nested, much of it: half of all work for
 LLVM. Such a function is left as LLVM's intermediate code here. A function that is to be called, and not
-inlined, is marked so, or LLVM would make one huge function of a loop and all its stages.
+inlined, is marked so, or LLVM would make one huge function of a loop and all its stages; its machine code is
+made as a part of the loop's.
 
 The classes below go into numba's inner parts, which another version may name otherwise; the options are then
 empty, and compilation takes longer.
@@ -23,8 +24,8 @@ from numba.core.typed_passes import NativeLowering
 __all__ = ["CALLED", "INLINED"]
 
 
-class _Unoptimised(JITCodeLibrary):  # type: ignore[misc]
-    """Intermediate code that others link in; it has no machine code."""
+class _Inlined(JITCodeLibrary):  # type: ignore[misc]
+    """Intermediate code that others link in."""
 
     def _optimize_final_module(self) -> None:
         pass
@@ -35,14 +36,21 @@ class _Unoptimised(JITCodeLibrary):  # type: ignore[misc]
 
 
 class _Called(JITCodeLibrary):  # type: ignore[misc]
-    """Code of a function that others call."""
+    """Intermediate code that others link in and call, optimised."""
 
     function = ""
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
 
     def _get_module_for_linking(self) -> Any:
         module = super()._get_module_for_linking()
         module.get_function(self.function).add_function_attribute("noinline")
         return module
+
+    def serialize_using_object_code(self) -> tuple[str, str, bytes]:
+        return self.name, "bitcode", self._get_module_for_linking().as_bitcode()
 
 
 def _not_executable(library: Any, fndesc: Any, env: Any) -> Any:
@@ -52,33 +60,33 @@ def _not_executable(library: Any, fndesc: Any, env: Any) -> Any:
     return _dynfunc.make_function(fndesc.lookup_module(), name, "", 0, env, (library,))
 
 
+def _lower(lowering: NativeLowering, state: Any, library: JITCodeLibrary) -> bool:
+    """Numba's last pass, into a library of another kind and without machine code."""
+    state.library = library
+    context, state.targetctx = state.targetctx, copy.copy(state.targetctx)
+    state.targetctx.get_executable = _not_executable
+    try:
+        return bool(NativeLowering.run_pass(lowering, state))
+    finally:
+        state.targetctx = context
+
+
 @register_pass(mutates_CFG=True, analysis_only=False)
 class _LoweringOfInlined(NativeLowering):  # type: ignore[misc]
-    """Numba's last pass, without machine code."""
-
     _name = "lowering_of_inlined"
 
     def run_pass(self, state: Any) -> bool:
-        state.library = _Unoptimised(state.targetctx.codegen(), state.func_id.func_qualname)
-        context, state.targetctx = state.targetctx, copy.copy(state.targetctx)
-        state.targetctx.get_executable = _not_executable
-        try:
-            return bool(super().run_pass(state))
-        finally:
-            state.targetctx = context
+        return _lower(self, state, _Inlined(state.targetctx.codegen(), state.func_id.func_qualname))
 
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class _LoweringOfCalled(NativeLowering):  # type: ignore[misc]
-    """Numba's last pass, for a function that is not to be inlined."""
-
     _name = "lowering_of_called"
 
     def run_pass(self, state: Any) -> bool:
-        state.library = _Called(state.targetctx.codegen(), state.func_id.func_qualname)
-        state.library.enable_object_caching()
-        changed = bool(super().run_pass(state))
-        state.library.function = state.cr.fndesc.mangled_name
+        library = _Called(state.targetctx.codegen(), state.func_id.func_qualname)
+        changed = _lower(self, state, library)
+        library.function = state.cr.fndesc.mangled_name
         return changed
 
 
