@@ -15,7 +15,7 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.interface import laplace_stress
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger as finger_of_ellipsoid
-from foamprb.body.tensor import principal_frame
+from foamprb.body.tensor import principal_frame, stretches_in_frame
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
@@ -39,9 +39,13 @@ from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
-__all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
+__all__ = ["Cloud", "Crew", "Models", "Still", "Tracker", "available_threads"]
 
 _REACH_MARGIN = 2.0
+_AT_A_TIME = 1 << 13
+"""Particles whose axes are looked at together: few enough for the processor's cache."""
+_SKEWNESS = 1e-22
+"""Of a frame that is one of principal directions."""
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
 
@@ -251,6 +255,17 @@ class _Threads:
         """They are there."""
 
 
+class Still(NamedTuple):
+    """A :class:`Cloud` as it was at one moment, whatever has become of it since."""
+
+    particles: Particles
+    flow: Flow
+    time: float
+    step: int
+    recovered: int
+    reach: float
+
+
 @dataclass
 class Cloud:
     """Particles, the flow that carries them, and the models that act on them.
@@ -376,6 +391,17 @@ class Cloud:
         """Make sure that :attr:`particles` are as they were left by the last step."""
         self.crew.gather()
 
+    def still(self, before: Still | None = None) -> Still:
+        """A copy of what will change.
+
+        Parameters
+        ----------
+        before
+            An earlier copy that nobody needs any more, whose memory is used again.
+        """
+        particles = self.particles.copy_changing(None if before is None else before.particles)
+        return Still(particles, self.flow, self.time, self.step, self.recovered, self.reach)
+
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
         bindings = dict(self.flow.kernels)
@@ -436,11 +462,21 @@ def _find_hosts(p: Particles, flow: Flow) -> None:
 
 def longest_semi_axis(p: Particles) -> float:
     """Longest semi-axis of the particles that are pending or active, m; 0 if there are none."""
-    live = (p.status == Status.PENDING) | (p.status == Status.ACTIVE)
-    if not live.any():
-        return 0.0
-    _, stretches = principal_frame(tuple(p.F[live].T))
-    return float((np.max(stretches, axis=0) * p.R[live]).max())
+    longest = 0.0
+    for start in range(0, p.size, _AT_A_TIME):
+        part = p.take(slice(start, start + _AT_A_TIME))
+        live = part.status <= Status.ACTIVE
+        if not live.any():
+            continue
+        F, Q = np.ascontiguousarray(part.F[live].T), np.ascontiguousarray(part.Q[live].T)
+        stretches, skewness = stretches_in_frame(tuple(F), tuple(Q))
+        most = np.max(stretches, axis=0)
+        # Of those that have not moved since they got their shape.
+        turned = np.flatnonzero(~(skewness <= _SKEWNESS))
+        if len(turned):
+            most[turned] = np.max(principal_frame(tuple(F[:, turned]))[1], axis=0)
+        longest = max(longest, float((most * part.R[live]).max()))
+    return longest
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

@@ -97,14 +97,35 @@ class Particles(NamedTuple):
         found = np.bincount(self.status, minlength=len(Status))
         return {status: int(found[status]) for status in Status}
 
-    def take(self, rows: Array) -> Particles:
-        """The particles of the given rows, copied."""
+    def take(self, rows: Array | slice) -> Particles:
+        """The particles of the given rows: copied, or of a slice as they are."""
         return Particles(*(array[rows] for array in self))
+
+    def copy_changing(self, into: Particles | None = None) -> Particles:
+        """The same state, with copies of the arrays that change.
+
+        Parameters
+        ----------
+        into
+            An earlier copy of as many particles, whose memory is used again.
+        """
+        arrays = self._asdict()
+        for name in CHANGING:
+            array, place = arrays[name], None if into is None else getattr(into, name)
+            if place is None or place.shape != array.shape:
+                arrays[name] = array.copy()
+            else:
+                np.copyto(place, array)
+                arrays[name] = place
+        return Particles(**arrays)
 
 
 VARIABLES: dict[str, Variable] = {
     name: hint.__metadata__[0] for name, hint in get_type_hints(Particles, include_extras=True).items()
 }
+
+CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)
+"""Names of the arrays that the particle loop changes."""
 
 
 def empty(n: int) -> Particles:
@@ -117,9 +138,11 @@ def empty(n: int) -> Particles:
 
 
 def concatenate(parts: list[Particles]) -> Particles:
-    """One cloud of several, in order."""
+    """One cloud of several, in order; of one, itself."""
     if not parts:
         return empty(0)
+    if len(parts) == 1:
+        return parts[0]
     return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
 
 
