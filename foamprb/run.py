@@ -155,8 +155,10 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         settings.virtual_mass,
     )
     start = _start(settings, flow)
-    parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
-    particles = concatenate(parts)
+    # Not a list, which would keep them.
+    particles = concatenate(
+        _inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)
+    )
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")

@@ -5,6 +5,7 @@ What is saved, restarted and written is read off this declaration (:data:`VARIAB
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
@@ -137,13 +138,15 @@ def empty(n: int) -> Particles:
     return Particles(**arrays)
 
 
-def concatenate(parts: list[Particles]) -> Particles:
-    """One cloud of several, in order; of one, itself."""
-    if not parts:
+def concatenate(parts: Iterable[Particles]) -> Particles:
+    """One cloud of several, in order; of one, itself. What nobody else holds of the parts is given up."""
+    arrays = [list(part) for part in parts]
+    if not arrays:
         return empty(0)
-    if len(parts) == 1:
-        return parts[0]
-    return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    if len(arrays) == 1:
+        return Particles(*arrays[0])
+    # One variable after the other, so that never all are in memory twice.
+    return Particles(*(np.concatenate([part.pop(0) for part in arrays]) for _ in Particles._fields))
 
 
 def spheres(
