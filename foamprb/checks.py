@@ -34,7 +34,8 @@ class Groups(NamedTuple):
 
 def groups(cloud: Cloud, injector: int) -> Groups:
     """Dimensionless groups of the particles that one injection model releases."""
-    p = cloud.particles.take(np.flatnonzero(cloud.particles.injector == injector))
+    rows = np.flatnonzero(cloud.particles.injector == injector)
+    p = cloud.particles.take(slice(None) if len(rows) == cloud.particles.size else rows)
     medium = cloud.medium
     gamma = shear_rate_at(cloud.flow, p, cloud.time)
     tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)

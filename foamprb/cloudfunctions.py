@@ -8,7 +8,7 @@ line in :data:`FUNCTIONS`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal, Protocol, TypeAlias
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import dev, sym
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import MEASURES, Context, context
+from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, contexts
 from foamprb.cloud.patches import REBOUND
 from foamprb.cloud.state import Particles, Status
 from foamprb.entries import AtLeastOne, Only, Positive, Vector3, Words
@@ -50,15 +50,24 @@ class Look:
         """Time to which the cloud has come, s."""
         return self.cloud.time
 
-    def context(self, rows: Rows) -> Context:
-        """What the measures of :mod:`foamprb.cloud.measures` need of particles, whatever their status."""
-        p = self.particles.take(rows)
-        p.status[:] = Status.ACTIVE
-        return context(p, self.cloud.flow, self.cloud.medium.mu, self.time)
+    def contexts(self, rows: Rows) -> Iterator[Context]:
+        """What the measures of :mod:`foamprb.cloud.measures` need of particles, whatever their status.
 
-    def measure(self, name: str, rows: Rows) -> NDArray[Any]:
-        """One of :data:`foamprb.cloud.measures.MEASURES` of particles, whatever their status."""
-        return np.asarray(MEASURES[name].value(self.context(rows)))
+        As :func:`foamprb.cloud.measures.contexts`, a few at a time.
+        """
+        for start in range(0, max(len(rows), 1), PER_CONTEXT):
+            p = self.particles.take(rows[start : start + PER_CONTEXT])
+            p.status[:] = Status.ACTIVE
+            yield from contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
+
+    def collect(self, rows: Rows, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
+        """Values of particles, whatever their status."""
+        parts = [[np.array(value(c)) for value in values] for c in self.contexts(rows)]
+        return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+
+    def measure(self, rows: Rows, *names: str) -> list[NDArray[Any]]:
+        """Some of :data:`foamprb.cloud.measures.MEASURES` of particles, whatever their status."""
+        return self.collect(rows, *(MEASURES[name].value for name in names))
 
 
 class CloudFunction(Protocol):
@@ -197,9 +206,9 @@ class ParticleTracks:
         if len(at) and at.max() >= room:
             more = np.zeros((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
             memory["points"] = np.concatenate([memory["points"], more], axis=1)
-        c = look.context(memory["row"][tracks])
-        p, measured = c.particles, (MEASURES[name].value(c) for name in _TRACKED)
-        memory["points"][tracks, at] = np.column_stack([p.x, p.t, p.v, *measured])
+        p, rows = look.particles, memory["row"][tracks]
+        point = [p.x[rows], p.t[rows], p.v[rows], *look.measure(rows, *_TRACKED)]
+        memory["points"][tracks, at] = np.column_stack(point)
         memory["count"][tracks] += 1
 
     def write(self, memory: Memory, look: Look, folder: Path) -> None:
@@ -270,10 +279,13 @@ class PatchPostProcessing:
             ended = (p.status == Status.STUCK) | (p.status == Status.ESCAPED)
             rows = np.flatnonzero(ended & (p.patch == look.patches.index(name)))
             rows = rows[np.argsort(p.t[rows], kind="stable")][: self.maxStoredParcels]
-            c = look.context(rows)
+            axes, D, longest = look.collect(
+                rows,
+                MEASURES["semiAxes"].value,
+                MEASURES["taylorDeformation"].value,
+                lambda c: np.stack(c.frame[:3], axis=1),
+            )
             n = look.cloud.contact_normals(rows)
-            axes = MEASURES["semiAxes"].value(c)
-            longest = np.stack(c.frame[:3], axis=1).reshape(len(rows), 3)
             write_table(
                 folder / f"{name}.csv",
                 {
@@ -281,7 +293,7 @@ class PatchPostProcessing:
                     "fate": _names(STATUS_NAMES, p.status[rows]), "t": p.t[rows],
                     **_columns("xyz", p.x[rows]), **_columns(("Ux", "Uy", "Uz"), p.v[rows]),
                     "d": 2.0 * p.R[rows], "mass": _mass(p, rows), "Ca": p.Ca[rows],
-                    **_columns("abc", axes), "D": MEASURES["taylorDeformation"].value(c),
+                    **_columns("abc", axes), "D": D,
                     "impactAngle": _angle(p.v[rows], -n), "axisAngle": _axis_angle(longest, n),
                 },
             )  # fmt: skip
@@ -322,7 +334,7 @@ class ParticleCollector:
             "x": p.x.copy(),
             "v": p.v.copy(),
             "t": p.t.copy(),
-            "D": look.measure("taylorDeformation", np.arange(p.size)),
+            "D": look.measure(np.arange(p.size), "taylorDeformation")[0],
             "crossings": np.empty((0, 8)),
             "written": np.zeros(1, dtype=np.int64),
             "history": np.empty((0, 6)),
@@ -336,7 +348,7 @@ class ParticleCollector:
         heights = [(x - self.origin) @ e for x in (memory["x"][rows], p.x[rows])]
         crossed = (heights[0] < 0.0) != (heights[1] < 0.0)
         at = rows[crossed]
-        D = look.measure("taylorDeformation", rows)
+        (D,) = look.measure(rows, "taylorDeformation")
         h = p.t[at] - memory["t"][at]
         ends = [(memory["x"][at], h[:, None] * memory["v"][at]), (p.x[at], h[:, None] * p.v[at])]
         s = _root(*((x - self.origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
@@ -411,13 +423,12 @@ class ParticleHistogram:
     def begin(self, look: Look) -> Memory:
         """Begin the integrals."""
         p = look.particles
-        c = look.context(np.arange(p.size))
-        D = np.asarray(MEASURES["taylorDeformation"].value(c))
+        D, rate = look.measure(np.arange(p.size), "taylorDeformation", "shearRate")
         return {
             "closed": np.zeros(p.size, dtype=bool),
             "t": p.t.copy(),
             "D": D,
-            "shearRate": np.asarray(MEASURES["shearRate"].value(c)),
+            "shearRate": rate,
             "maxD": D.copy(),
             "sumD": np.zeros(p.size),
             "sumShearRate": np.zeros(p.size),
@@ -427,10 +438,8 @@ class ParticleHistogram:
         """Go on with the integrals."""
         p = look.particles
         rows = _open(memory, p)
-        c = look.context(rows)
         h = p.t[rows] - memory["t"][rows]
-        D = np.asarray(MEASURES["taylorDeformation"].value(c))
-        rate = np.asarray(MEASURES["shearRate"].value(c))
+        D, rate = look.measure(rows, "taylorDeformation", "shearRate")
         # A particle that the mesh has lost is where the flow is not known.
         rate = np.where(np.isfinite(rate), rate, memory["shearRate"][rows])
         memory["sumD"][rows] += 0.5 * h * (memory["D"][rows] + D)
@@ -500,7 +509,7 @@ class SuspensionStress:
         lines = []
         for index in range(len(look.injectors)):
             rows = np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == index))
-            lines.append([look.time, index, len(rows), *_suspension(look.context(rows))])
+            lines.append([look.time, index, len(rows), *_suspension(look, rows)])
         memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 11))])
         time, index, n, *values = memory["history"].T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
@@ -515,17 +524,22 @@ class SuspensionStress:
         )
 
 
-def _suspension(c: Context) -> list[float]:
+def _suspension(look: Look, rows: Rows) -> list[float]:
     """Volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity; the latter NaN of nothing."""
-    volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
-    S = np.asarray(MEASURES["stresslet"].value(c))
-    d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
     # The components off the diagonal count twice.
     weight = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    total, added, dissipated = np.zeros(7), 0.0, 0.0
+    for c in look.contexts(rows):
+        volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
+        S = MEASURES["stresslet"].value(c)
+        d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
+        total += np.column_stack([volume, S]).sum(axis=0)
+        added += (weight * S * d).sum()
+        dissipated += (volume[:, None] * weight * d * d).sum()
     with np.errstate(invalid="ignore"):
-        stress = S.sum(axis=0) / volume.sum()
-        added = (weight * S * d).sum() / (2.0 * c.mu * (volume[:, None] * weight * d * d).sum())
-    return [float(volume.sum()), *map(float, stress), float(added)]
+        stress = total[1:] / total[0]
+        viscosity = added / (2.0 * look.cloud.medium.mu * np.float64(dissipated))
+    return [float(total[0]), *map(float, stress), float(viscosity)]
 
 
 FUNCTIONS: dict[

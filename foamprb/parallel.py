@@ -25,13 +25,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.block import LANES
-from foamprb.cloud.cloud import AT_ONCE, Cloud, Tracker, longest_semi_axis
+from foamprb.cloud.cloud import AT_ONCE, Cloud, Still, Tracker, longest_semi_axis
+from foamprb.cloud.measures import injected
 from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.walk import sample_with
 from foamprb.libs import load_libs, loaded_libs
-from foamprb.output.vtk import PieceArray, Series, layout, write_pieces, write_snapshot
+from foamprb.output.vtk import PieceArray, Series, write_pieces, write_snapshot
 from foamprb.shared import Publisher, Windows
 from foamprb.team import View
 
@@ -193,12 +194,10 @@ class Rank:
     def write(self, folder: Path, at: float, view: View) -> Piece | None:
         """Write the particles; nothing if there are none, but for the root."""
         flow = _Samples(self._tracker.kernels["sample"], self._flow)
-        snapshot = view.snapshot(at, self.particles, flow, self.ids)
-        if self.number and not len(snapshot.points):
+        if self.number and not len(injected(self.particles)):
             return None
         file = folder / f"{self.number}.vtp"
-        write_snapshot(file, snapshot)
-        return Piece(file, layout(snapshot))
+        return Piece(file, write_snapshot(file, view.parts(at, self.particles, flow, self.ids)))
 
     def serve(self, signals: Sequence[int]) -> int:
         """Carry out the root's orders until it sends everybody home; return the exit status.
@@ -317,15 +316,19 @@ class Root:
                  "s"[: nodes > 1])  # fmt: skip
         log.info("    %-24s %.1f", "shared memory [MB]", self._published.size / 1e6)
 
-    def write(self, series: Series, cloud: Cloud, view: View) -> None:
-        """Let every process write its particles, and list the pieces."""
-        cloud.flow.load(cloud.time, cloud.time)
-        self._show(cloud.flow_arrays())
+    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+        """Let every process write its particles at once; what is left is to list the pieces."""
+        self._cloud.flow.load(cloud.time, cloud.time)
+        self._show(self._cloud.flow_arrays())
         stem = series.next(cloud.time)
         pieces = [p for p in self.order("write", stem, cloud.time, view) if p is not None]
         file = stem.with_suffix(".pvtp")
-        write_pieces(file, pieces[0].arrays, [piece.file for piece in pieces])
-        series.add(cloud.time, file)
+
+        def list_pieces() -> None:
+            write_pieces(file, pieces[0].arrays, [piece.file for piece in pieces])
+            series.add(cloud.time, file)
+
+        return list_pieces
 
     # As a crew
 

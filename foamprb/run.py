@@ -7,11 +7,12 @@ import math
 import re
 import time as clock
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +23,10 @@ from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_t
 from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models, available_threads
+from foamprb.cloud.cloud import Cloud, Models, Still, available_threads
 from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
-from foamprb.cloud.measures import context, measure, shear_rate_at
+from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.compile import cache_directory
@@ -33,6 +34,7 @@ from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
 from foamprb.flow.source import Source, read_flow, read_transient_flow
 from foamprb.output.atomic import only_writer, remove_unfinished
+from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.tables import Column, write_table
 from foamprb.output.vtk import Series
@@ -61,6 +63,12 @@ class Job:
     settings: Settings
     cloud: Cloud
     functions: Functions
+
+    @property
+    def look(self) -> Look:
+        """What is to be seen of the cloud."""
+        injectors = tuple(injection.name for injection in self.settings.injections)
+        return Look(self.cloud, injectors, self.patch_names)
 
     @property
     def folder(self) -> Path:
@@ -147,8 +155,10 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         settings.virtual_mass,
     )
     start = _start(settings, flow)
-    parts = [_inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)]
-    particles = concatenate(parts)
+    # Not a list, which would keep them.
+    particles = concatenate(
+        _inject(i, injection, flow, medium) for i, injection in enumerate(settings.injections)
+    )
     solids = sorted({injection.solid.type for injection in settings.injections})
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
@@ -303,8 +313,9 @@ def execute(
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
-    A checkpoint is written with the results of every write time. Whatever ends a run, another one started
-    from ``latestTime`` ends with the same state and the same files, bit for bit, as a run never interrupted.
+    A checkpoint is written with the results of every write time, after them. The particles go on while the
+    files are written, until the next are due. Whatever ends a run, another one started from ``latestTime``
+    ends with the same state and the same files, bit for bit, as a run never interrupted.
 
     Parameters
     ----------
@@ -341,35 +352,21 @@ def execute(
 def _execute(
     job: Job, start_from: StartFrom | None, stop: Callable[[], bool], team: Team
 ) -> dict[Status, int]:
-    solution, cloud = job.settings.solution, job.cloud
-    last = job.steps
-    per_write = max(1, round(solution.writeInterval / solution.deltaT))
+    cloud = job.cloud
     marks = fingerprint(job.settings, cloud)
     checkpoints = Checkpoints(job.folder / CHECKPOINTS)
     series = _begin(job, marks, checkpoints, start_from)
     started, cpu = clock.perf_counter(), clock.process_time()
-    reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
-    failing = _failing(job)
+    _compile_measures(cloud)
     team.take(cloud)
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
     log.info("\nStarting time loop\n")
-    with _progress(cloud.start, solution.endTime) as show:
-        while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
-            target = min(last, (cloud.step // per_write + 1) * per_write)
-            reached = _advance_to(job, target, show, stop)
-            if reached and target < last and _moving(cloud):
-                cloud.begin(_next_chunk(job, min(last, target + per_write)))
-            cloud.gather()
-            if not reached:
-                checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
-                raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
-            team.write(series, cloud, view(job))
-            job.functions.write(job.folder)
-            checkpoints.write(save(cloud, job.functions.state(), series.entries, marks))
-            _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
-            reported = _log_failures(cloud.particles, reported)
-            failing = _failing(job)
+
+    def log_time() -> None:
+        _log_time(job, clock.process_time() - cpu, clock.perf_counter() - started)
+
+    failing = _go_through_time(job, Results(series, checkpoints, marks), stop, team, log_time)
     write_fates(job)
     log_fates(job)
     log.info("\nResults in %s", job.folder)
@@ -382,6 +379,70 @@ def _execute(
         raise RunStopped(f"{failing} The results until then are in {job.folder}.")
     log.info("End")
     return cloud.particles.counts()
+
+
+class Results(NamedTuple):
+    """What is written at each write time, besides what the cloud functions write."""
+
+    series: Series
+    checkpoints: Checkpoints
+    marks: Fingerprint
+
+    def save(self, cloud: Cloud | Still, functions: Mapping[str, NDArray[Any]]) -> None:
+        """Write a checkpoint, of a cloud whose files have been written."""
+        self.checkpoints.write(save(cloud, functions, self.series.entries, self.marks))
+
+
+def _go_through_time(
+    job: Job, results: Results, stop: Callable[[], bool], team: Team, log_time: Callable[[], None]
+) -> str:
+    """Advance and write until the end; return why too many particles have failed, if so."""
+    solution, cloud = job.settings.solution, job.cloud
+    last = job.steps
+    per_write = max(1, round(solution.writeInterval / solution.deltaT))
+    reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
+    failing = _failing(job)
+    still: Still | None = None
+    with Writer() as writer, _progress(cloud.start, solution.endTime) as show:
+
+        def ask() -> bool:
+            writer.check()
+            return stop()
+
+        while cloud.step < last and (cloud.step == 0 or _moving(cloud)) and not failing:
+            target = min(last, (cloud.step // per_write + 1) * per_write)
+            reached = _advance_to(job, target, show, ask)
+            if reached and target < last and _moving(cloud):
+                cloud.begin(_next_chunk(job, min(last, target + per_write)))
+            cloud.gather()
+            # So far the copy is being read.
+            writer.finish()
+            if not reached:
+                results.save(cloud, job.functions.state())
+                raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
+            still = cloud.still(still)
+            end_write = team.begin_write(results.series, still, view(job))
+            job.functions.write(job.folder)
+            seen = {name: array.copy() for name, array in job.functions.state().items()}
+            writer.begin(partial(_end_writing, end_write, results, still, seen))
+            log_time()
+            reported = _log_failures(cloud.particles, reported)
+            failing = _failing(job)
+    return failing
+
+
+def _end_writing(
+    end_write: Callable[[], object], results: Results, cloud: Still, functions: Mapping[str, NDArray[Any]]
+) -> None:
+    end_write()
+    results.save(cloud, functions)
+
+
+def _compile_measures(cloud: Cloud) -> None:
+    """Measure a particle: not in two threads at once may code be linked."""
+    first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
+    first.status[:] = Status.ACTIVE
+    context(first, cloud.flow, cloud.medium.mu, cloud.time)
 
 
 def _begin(job: Job, marks: Fingerprint, checkpoints: Checkpoints, start_from: StartFrom | None) -> Series:
@@ -500,19 +561,19 @@ def _log_failures(p: Particles, reported: NDArray[np.int64]) -> NDArray[np.int64
 
 def write_fates(job: Job) -> None:
     """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed."""
-    p, cloud = job.cloud.particles, job.cloud
-    names = (*job.patch_names, "")
-    everyone = p._replace(status=np.where(p.status == Status.PENDING, Status.ACTIVE, p.status))
-    values = measure(context(everyone, cloud.flow, cloud.medium.mu, cloud.time))
-    axes = values["semiAxes"]
+    p, look = job.cloud.particles, job.look
+    fates = np.array(STATUS_NAMES, dtype=object)
+    # The last is that of −1.
+    patches = np.array((*job.patch_names, ""), dtype=object)
+    axes, D = look.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
     write_table(
         job.folder / FATES,
         {
             "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
-            "fate": [STATUS_NAMES[s] for s in p.status], "patch": [names[i] for i in p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": values["taylorDeformation"],
+            "fate": fates[p.status], "patch": patches[p.patch],
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
         },
     )  # fmt: skip
     failed = np.flatnonzero(p.status == Status.FAILED)

@@ -7,7 +7,7 @@ one that writes them.
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Protocol
@@ -15,12 +15,20 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import MEASURES, context, measure
+from foamprb.cloud.cloud import Cloud, Still
+from foamprb.cloud.measures import (
+    MEASURES,
+    Gradients,
+    contexts,
+    gradients,
+    injected,
+    measure,
+    number_of_contexts,
+)
 from foamprb.cloud.state import Particles
 from foamprb.errors import InputError
 from foamprb.flow.base import Sampled
-from foamprb.output.vtk import Series, Snapshot
+from foamprb.output.vtk import Parts, Series, Snapshot
 
 log = logging.getLogger("foamprb")
 
@@ -34,10 +42,14 @@ class View:
     mu: float
     """Viscosity of the fluid, Pa s."""
 
-    def snapshot(
-        self, time: float, particles: Particles, flow: Sampled, ids: NDArray[np.int64] | None = None
-    ) -> Snapshot:
-        """The injected of some particles, with everything that is reported of them.
+    def parts(
+        self,
+        time: float,
+        particles: Particles,
+        flow: Sampled | Gradients,
+        ids: NDArray[np.int64] | None = None,
+    ) -> Parts:
+        """The injected of some particles, with everything that is reported of them, as it is asked for.
 
         Parameters
         ----------
@@ -46,9 +58,13 @@ class View:
         ids
             Their numbers in the whole cloud, if they are a part of it.
         """
-        c = context(particles, flow, self.mu, time, ids)
         units = {name: m.unit for name, m in MEASURES.items()}
-        return Snapshot(time, c.particles.x, measure(c), units, self.names)
+
+        def snapshots() -> Iterator[Snapshot]:
+            for c in contexts(particles, flow, self.mu, time, ids):
+                yield Snapshot(time, c.particles.x, measure(c), units, self.names)
+
+        return Parts(time, number_of_contexts(len(injected(particles))), snapshots())
 
 
 class Team(Protocol):
@@ -61,8 +77,11 @@ class Team(Protocol):
     def take(self, cloud: Cloud) -> None:
         """Share out the particles of a cloud that is ready to be advanced."""
 
-    def write(self, series: Series, cloud: Cloud, view: View) -> None:
-        """Write a cloud as it is now and list it; OSError if that cannot be done."""
+    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+        """Begin to write a cloud; what ends that, and lists the cloud, may be called in another thread.
+
+        Both raise OSError if a file cannot be written.
+        """
 
 
 class Serial:
@@ -73,9 +92,11 @@ class Serial:
     def take(self, cloud: Cloud) -> None:
         """There is nobody to share with."""
 
-    def write(self, series: Series, cloud: Cloud, view: View) -> None:
-        """Write one file."""
-        series.append(view.snapshot(cloud.time, cloud.particles, cloud.flow))
+    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+        """Leave to the other thread all but looking at a flow that will have changed by then."""
+        steady = cloud.flow.span == (-np.inf, np.inf)
+        flow = cloud.flow if steady else gradients(cloud.particles, cloud.flow, cloud.time)
+        return lambda: series.append(view.parts(cloud.time, cloud.particles, flow))
 
 
 class OnDevice(Serial):

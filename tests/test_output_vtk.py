@@ -1,3 +1,4 @@
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from foamprb.errors import InputError
 from foamprb.output.pieces import XMLPPolyDataReader
 from foamprb.output.vtk import (
     Entry,
+    Parts,
     Series,
     Snapshot,
     files_of,
@@ -207,6 +209,58 @@ def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[Snapshot, Path]:
         first += n
     write_pieces(path, layout(whole), pieces)
     return whole, path
+
+
+def in_parts(whole: Snapshot, sizes: tuple[int, ...]) -> Parts:
+    """The same cloud, so many particles at a time."""
+    ends = np.cumsum(sizes)
+    rows = [slice(end - n, end) for end, n in zip(ends, sizes, strict=True)]
+    snapshots = (
+        Snapshot(
+            whole.time,
+            whole.points[part],
+            {name: array[part] for name, array in whole.arrays.items()},
+            whole.units,
+            whole.names,
+        )
+        for part in rows
+    )
+    return Parts(whole.time, len(sizes), snapshots)
+
+
+@pytest.mark.parametrize("sizes", [(3, 2), (4, 1, 7), (0,), (1,)])
+def test_a_cloud_in_parts_is_one_file(tmp_path: Path, sizes: tuple[int, ...]) -> None:
+    whole = cloud(n=sum(sizes))
+    found = write_snapshot(tmp_path / "cloud.vtp", in_parts(whole, sizes))
+    assert found == layout(whole)
+    read = pyvista.read(tmp_path / "cloud.vtp")
+    np.testing.assert_array_equal(read.points, whole.points)
+    n = sum(sizes)
+    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
+    for name, array in whole.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"][0] == whole.time
+    assert list(read.field_data["units"]) == ["d m", "U m/s"]
+    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+
+
+@pytest.mark.parametrize("good", [0, 1, 2])
+def test_what_goes_wrong_in_a_part_is_raised_and_keeps_the_old_file(
+    tmp_path: Path, good: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "cloud.vtp"
+    path.write_text("old")
+
+    def parts() -> Iterator[Snapshot]:
+        yield from [cloud()] * good
+        raise InputError("the flow ends")
+
+    with pytest.raises(InputError, match="the flow ends"):
+        write_snapshot(path, Parts(0.1, 3, parts()))
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+    assert capfd.readouterr().err == ""
 
 
 @pytest.mark.parametrize("sizes", [(3, 2), (0, 4, 1), (0,)])

@@ -20,7 +20,7 @@ from test_run import PIPE, copy_of_pipe, edit, message, time_folder
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Still
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.vtk import Series
@@ -226,14 +226,14 @@ def test_two_runs_do_not_write_to_one_folder(stopped, capsys):
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
-    write = Serial.write
+    begin_write = Serial.begin_write
 
-    def interrupted(team: Serial, series: Series, cloud: Cloud, view: View) -> None:
+    def interrupted(team: Serial, series: Series, cloud: Still, view: View) -> Callable[[], object]:
         if cloud.step == 100:
             signal.raise_signal(number)
-        write(team, series, cloud, view)
+        return begin_write(team, series, cloud, view)
 
-    monkeypatch.setattr(Serial, "write", interrupted)
+    monkeypatch.setattr(Serial, "begin_write", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert (

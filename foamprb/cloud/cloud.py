@@ -39,7 +39,7 @@ from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 from foamprb.flow.walk import LONG
 
-__all__ = ["Cloud", "Crew", "Models", "Tracker", "available_threads"]
+__all__ = ["Cloud", "Crew", "Models", "Still", "Tracker", "available_threads"]
 
 _REACH_MARGIN = 2.0
 _ROUND_OFF = 1e-6
@@ -248,6 +248,17 @@ class _Threads:
         """They are there."""
 
 
+class Still(NamedTuple):
+    """A :class:`Cloud` as it was at one moment, whatever has become of it since."""
+
+    particles: Particles
+    flow: Flow
+    time: float
+    step: int
+    recovered: int
+    reach: float
+
+
 @dataclass
 class Cloud:
     """Particles, the flow that carries them, and the models that act on them.
@@ -372,6 +383,17 @@ class Cloud:
     def gather(self) -> None:
         """Make sure that :attr:`particles` are as they were left by the last step."""
         self.crew.gather()
+
+    def still(self, before: Still | None = None) -> Still:
+        """A copy of what will change.
+
+        Parameters
+        ----------
+        before
+            An earlier copy that nobody needs any more, whose memory is used again.
+        """
+        particles = self.particles.copy_changing(None if before is None else before.particles)
+        return Still(particles, self.flow, self.time, self.step, self.recovered, self.reach)
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
         """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""

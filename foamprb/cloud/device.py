@@ -20,7 +20,7 @@ from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud, Tracker
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
-from foamprb.cloud.state import VARIABLES, Particles, Status
+from foamprb.cloud.state import CHANGING, Particles, Status
 from foamprb.compile import is_compiled, link
 from foamprb.errors import InputError
 
@@ -30,7 +30,6 @@ _THREADS = 64
 """Threads of a block; few, as a particle takes all registers that a thread can have."""
 _STEPS_PER_SORT = 100
 _ZERO = np.zeros(1, dtype=np.int64)
-_CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)
 
 
 def device_name() -> str:
@@ -183,7 +182,7 @@ class Device:
         if not self._coming:
             self._keep()
         self._back.synchronize()
-        for name in _CHANGING:
+        for name in CHANGING:
             getattr(self._held, name)[:] = self._buffers[name]
         self._gathered, self._coming = True, False
 
@@ -192,7 +191,7 @@ class Device:
         p = self._cloud.particles
         if self._held is p:
             return
-        size = sum(array.nbytes for array in p) + sum(getattr(p, name).nbytes for name in _CHANGING)
+        size = sum(array.nbytes for array in p) + sum(getattr(p, name).nbytes for name in CHANGING)
         free = cuda.current_context().get_memory_info()[0]
         if size > free:
             raise InputError(
@@ -201,7 +200,7 @@ class Device:
             )
         self._work.synchronize()
         self._state: Any = Particles(*(cuda.to_device(np.ascontiguousarray(array)) for array in p))
-        changing = {name: getattr(p, name) for name in _CHANGING}
+        changing = {name: getattr(p, name) for name in CHANGING}
         self._kept = {name: cuda.device_array(array.shape, array.dtype) for name, array in changing.items()}
         self._buffers = {name: _pinned(array) for name, array in changing.items()}
         self._mended.copy_to_device(_ZERO)

@@ -1,17 +1,23 @@
-"""What is reported of a particle: shape, orientation, rotation and load, derived from its state."""
+"""What is reported of a particle: shape, orientation, rotation and load, derived from its state.
+
+The formulas are compiled, and go through the particles by blocks of lanes as those of the particle loop do.
+Measuring a large cloud takes no memory that grows with it: :func:`contexts` gives some thousands of particles
+at a time.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
-from foamprb.body.ellipsoid import integrals, sorted_frame, taylor_deformation
+from foamprb.body.ellipsoid import taylor_deformation
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
+    Vector,
     add,
     axial,
     ddot,
@@ -20,17 +26,47 @@ from foamprb.body.tensor import (
     dot,
     from_frame,
     inverse,
-    principal_frame,
     scale,
+    select,
     skew,
     sym,
     to_frame,
 )
 from foamprb.body.traction import disturbance
+from foamprb.cloud.block import (
+    AT_A,
+    AT_FRAME,
+    AT_L,
+    AT_M,
+    AT_NEW_F,
+    AT_Q,
+    AT_R,
+    AT_STRETCH,
+    LANES,
+    ROWS,
+    integrals_stage,
+    load3,
+    load9,
+    load_integrals,
+    resume_frames,
+    store3,
+    store9,
+    straighten_lane,
+    stretch_stage,
+)
 from foamprb.cloud.state import Particles, Status
+from foamprb.compile import link
 from foamprb.flow.base import Flow, Sampled
 
 Floats = NDArray[np.float64]
+
+PER_CONTEXT = 1 << 14
+"""Most particles of one of :func:`contexts`: so few that their numbers stay in the processor's cache."""
+
+# Below the rows of a block, those of what is found out about its particles.
+AT_GRADIENT, AT_ORIENTATION, AT_STRESSLET = ROWS, ROWS + 9, ROWS + 13
+AT_SPIN, AT_VOLUME_RATIO, AT_RATE = ROWS + 19, ROWS + 22, ROWS + 23
+ALL_ROWS = ROWS + 24
 
 
 class Context(NamedTuple):
@@ -44,11 +80,20 @@ class Context(NamedTuple):
     """In the same order."""
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
+    found: Floats
+    """Rows of a block from ``AT_GRADIENT`` on, of all particles."""
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
     mu: float
     """Viscosity of the fluid, Pa s."""
+
+
+class Gradients(NamedTuple):
+    """What a flow was around the particles of a cloud at one moment."""
+
+    l_f: Floats
+    """∂u_i/∂x_j, (n, 9), 1/s; NaN where the fluid is unknown."""
 
 
 class Measure(NamedTuple):
@@ -58,42 +103,8 @@ class Measure(NamedTuple):
     value: Callable[[Context], NDArray[Any]]
 
 
-def _deformation_gradient(c: Context) -> Floats:
-    """F·F₀⁻¹, from the shape at rest."""
-    F0: Tensor = tuple(c.particles.F0.T)
-    return np.stack(dot(c.F, inverse(F0)), axis=1)
-
-
-def _glyph(c: Context) -> Floats:
-    """Columns of R F one after the other: what ParaView's Tensor Glyph draws as the deformed unit sphere."""
-    return np.stack([c.particles.R * c.F[3 * i + j] for j in range(3) for i in range(3)], axis=1)
-
-
-def _orientation(c: Context) -> Floats:
-    """Unit quaternion (w, x, y, z) of the rotation that carries the fixed axes onto the particle's."""
-    Q = np.stack(c.frame, axis=1).reshape(-1, 3, 3)
-    return Rotation.from_matrix(Q.transpose(0, 2, 1)).as_quat(canonical=True, scalar_first=True)
-
-
-def _stresslet(c: Context) -> Floats:
-    """S = V μ_f dev sym s̃(d, w), the body's extra stress times volume, xx yy zz xy yz xz (Batchelor 1970).
-
-    s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
-    """
-    A: Tensor = tuple(c.particles.A.T)
-    l_s = to_frame(c.frame, dot(A, inverse(c.F)))
-    l_f = to_frame(c.frame, c.l_f)
-    d, w = dev(add(sym(l_f), scale(-1.0, sym(l_s)))), add(skew(l_f), scale(-1.0, skew(l_s)))
-    s, _ = disturbance(c.stretches, integrals(c.stretches), d, w)
-    volume = 4.0 / 3.0 * np.pi * c.particles.R**3 * det(c.F)
-    S = from_frame(c.frame, scale(volume * c.mu, dev(sym(s))))
-    return np.stack([S[0], S[4], S[8], S[1], S[5], S[2]], axis=1)
-
-
-def _angular_velocity(c: Context) -> Floats:
-    """ω_s, the axial vector of w_s = skw(A F⁻¹) (A.3)."""
-    A: Tensor = tuple(c.particles.A.T)
-    return np.stack(axial(skew(dot(A, inverse(c.F)))), axis=1)
+# ---------------------------------------------------------------------------------------------------------
+# Formulas
 
 
 def shear_rate(l_f: Tensor) -> Any:
@@ -102,14 +113,160 @@ def shear_rate(l_f: Tensor) -> Any:
     return np.sqrt(2.0 * ddot(d, d))
 
 
+def sort_axes(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:
+    """As :func:`foamprb.body.ellipsoid.sorted_frame`, of one particle."""
+    p, q, r = (Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])
+    a, b, c = stretches
+    a, b, p, q = _in_order(a, b, p, q)
+    b, c, q, r = _in_order(b, c, q, r)
+    a, b, p, q = _in_order(a, b, p, q)
+    return (p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]), (a, b, c)
+
+
+def _in_order(a: Scalar, b: Scalar, p: Vector, q: Vector) -> tuple[Scalar, Scalar, Vector, Vector]:
+    """Two axes with the longer one first; the sign keeps the frame a rotation."""
+    swap = a < b
+    return (
+        select(swap, b, a),
+        select(swap, a, b),
+        (select(swap, q[0], p[0]), select(swap, q[1], p[1]), select(swap, q[2], p[2])),
+        (select(swap, -p[0], q[0]), select(swap, -p[1], q[1]), select(swap, -p[2], q[2])),
+    )
+
+
+def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    """Unit quaternion (w, x, y, z), w ≥ 0, of the rotation that carries the fixed axes onto the rows of Q.
+
+    Of the four quaternions that follow from the sums and differences of components, that with the largest
+    norm (Shepperd 1978).
+    """
+    wx, wy, wz = Q[5] - Q[7], Q[6] - Q[2], Q[1] - Q[3]
+    xy, xz, yz = Q[1] + Q[3], Q[2] + Q[6], Q[5] + Q[7]
+    ww, xx = 1.0 + Q[0] + Q[4] + Q[8], 1.0 + Q[0] - Q[4] - Q[8]
+    yy, zz = 1.0 - Q[0] + Q[4] - Q[8], 1.0 - Q[0] - Q[4] + Q[8]
+    upper, lower = ww >= xx, yy >= zz
+    first = np.maximum(ww, xx) >= np.maximum(yy, zz)
+    w = select(first, select(upper, ww, wx), select(lower, wy, wz))
+    x = select(first, select(upper, wx, xx), select(lower, xy, xz))
+    y = select(first, select(upper, wy, xy), select(lower, yy, yz))
+    z = select(first, select(upper, wz, xz), select(lower, yz, zz))
+    n = select(w < 0.0, -1.0, 1.0) / np.sqrt(w * w + x * x + y * y + z * z)
+    return n * w, n * x, n * y, n * z
+
+
+def sort_stage(block: Any) -> None:
+    """Put the axes of the frames in falling order of length."""
+    for i in range(LANES):
+        Q, stretches = sort_axes(load9(block, AT_Q, i), load3(block, AT_STRETCH, i))
+        store9(block, AT_Q, i, Q)
+        store3(block, AT_STRETCH, i, stretches)
+
+
+def report_stage(block: Any, mu: float) -> None:
+    """All that the frames, the stretches and their integrals are needed for.
+
+    The stresslet is S = V μ_f dev sym s̃(d, w), the body's extra stress times volume (Batchelor 1970), where
+    s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
+    """
+    for i in range(LANES):
+        F, Q, stretches = load9(block, AT_NEW_F, i), load9(block, AT_Q, i), load3(block, AT_STRETCH, i)
+        store9(block, AT_GRADIENT, i, dot(F, inverse(load9(block, AT_M, i))))
+        w, x, y, z = quaternion(Q)
+        block[AT_ORIENTATION * LANES + i] = w
+        store3(block, AT_ORIENTATION + 1, i, (x, y, z))
+        J, R = det(F), block[AT_R * LANES + i]
+        block[AT_VOLUME_RATIO * LANES + i] = J
+        l, body = load9(block, AT_L, i), dot(load9(block, AT_A, i), inverse(F))
+        block[AT_RATE * LANES + i] = shear_rate(l)
+        # The axial vector of w_s = skw(A F⁻¹) (A.3).
+        store3(block, AT_SPIN, i, axial(skew(body)))
+        # Of the flow relative to the body.
+        relative = to_frame(Q, add(l, scale(-1.0, body)))
+        s, _ = disturbance(stretches, load_integrals(block, i), dev(sym(relative)), skew(relative))
+        volume = 4.0 / 3.0 * np.pi * R * R * R * J
+        S = from_frame(Q, scale(volume * mu, dev(sym(s))))
+        store3(block, AT_STRESSLET, i, (S[0], S[4], S[8]))
+        store3(block, AT_STRESSLET + 3, i, (S[1], S[5], S[2]))
+
+
+def find_out(
+    F: Floats, A: Floats, Q: Floats, F0: Floats, R: Floats, l: Floats, mu: float, block: Floats, found: Floats
+) -> None:
+    """Put the frame, the stretches and the rows from ``AT_GRADIENT`` on of n particles into ``found``.
+
+    Parameters
+    ----------
+    F, A, Q, F0, R
+        As in :class:`~foamprb.cloud.state.Particles`.
+    l
+        ∂u_i/∂x_j of the fluid, (n, 9), 1/s.
+    mu
+        Viscosity of the fluid, Pa s.
+    block
+        Working memory, (ALL_ROWS · LANES,).
+    found
+        (36, n): 9 of the frame, 3 of the stretches, 24 of the rows.
+    """
+    n = F.shape[0]
+    for start in range(0, n, LANES):
+        for i in range(LANES):
+            # The last particle fills the lanes that are left, so that all go the same way.
+            k = min(start + i, n - 1)
+            for c in range(9):
+                block[(AT_NEW_F + c) * LANES + i] = F[k, c]
+                block[(AT_A + c) * LANES + i] = A[k, c]
+                block[(AT_FRAME + c) * LANES + i] = Q[k, c]
+                block[(AT_M + c) * LANES + i] = F0[k, c]
+                block[(AT_L + c) * LANES + i] = l[k, c]
+            block[AT_R * LANES + i] = R[k]
+        resume_frames(block)
+        sort_stage(block)
+        integrals_stage(block)
+        report_stage(block, mu)
+        for i in range(min(LANES, n - start)):
+            for c in range(9):
+                found[c, start + i] = block[(AT_Q + c) * LANES + i]
+            for c in range(3):
+                found[9 + c, start + i] = block[(AT_STRETCH + c) * LANES + i]
+            for c in range(ALL_ROWS - ROWS):
+                found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
+
+
+_STAGES = (stretch_stage, straighten_lane, integrals_stage, sort_stage, report_stage)
+"""Compiled each on its own; the particle loop has most of them as well."""
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Measures
+
+
 def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
     """Shear rate γ̇ of the flow where the particles are, at ``time`` (s), (n,), 1/s."""
-    l_f: Tensor = tuple(flow.sample(p.x, p.host, time)[1].reshape(-1, 9).T)  # type: ignore[assignment]
-    return np.asarray(shear_rate(l_f))
+    rate = np.empty(p.size)
+    for start in range(0, p.size, PER_CONTEXT):
+        part = slice(start, start + PER_CONTEXT)
+        gradient = flow.sample(p.x[part], p.host[part], time)[1].reshape(-1, 9)
+        rate[part] = shear_rate(tuple(gradient.T))  # type: ignore[arg-type]
+    return rate
+
+
+def _glyph(c: Context) -> Floats:
+    """Columns of R F one after the other: what ParaView's Tensor Glyph draws as the deformed unit sphere."""
+    F = c.particles.F.reshape(-1, 3, 3)
+    return (c.particles.R[:, None, None] * F.transpose(0, 2, 1)).reshape(-1, 9)
 
 
 def _semi_axes(c: Context) -> Floats:
     return np.stack(c.stretches, axis=1) * c.particles.R[:, None]
+
+
+def _found(at: int, n: int) -> Callable[[Context], Floats]:
+    """So many rows of what was found out, as an array with a row per particle."""
+    return lambda c: c.found[at - ROWS : at - ROWS + n].T
+
+
+def _found_one(at: int) -> Callable[[Context], Floats]:
+    return lambda c: c.found[at - ROWS]
 
 
 MEASURES: dict[str, Measure] = {
@@ -119,16 +276,16 @@ MEASURES: dict[str, Measure] = {
     "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
-    "deformationGradient": Measure("1", _deformation_gradient),
+    "deformationGradient": Measure("1", _found(AT_GRADIENT, 9)),
     "glyph": Measure("m", _glyph),
     "semiAxes": Measure("m", _semi_axes),
-    "orientation": Measure("1", _orientation),
+    "orientation": Measure("1", _found(AT_ORIENTATION, 4)),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
-    "stresslet": Measure("N m", _stresslet),
-    "J": Measure("1", lambda c: det(c.F)),
-    "angularVelocity": Measure("1/s", _angular_velocity),
-    "shearRate": Measure("1/s", lambda c: shear_rate(c.l_f)),
-    "capillaryNumber": Measure("1", lambda c: c.mu * shear_rate(c.l_f) / c.particles.mu),
+    "stresslet": Measure("N m", _found(AT_STRESSLET, 6)),
+    "J": Measure("1", _found_one(AT_VOLUME_RATIO)),
+    "angularVelocity": Measure("1/s", _found(AT_SPIN, 3)),
+    "shearRate": Measure("1/s", _found_one(AT_RATE)),
+    "capillaryNumber": Measure("1", lambda c: c.mu * c.found[AT_RATE - ROWS] / c.particles.mu),
     "status": Measure("", lambda c: c.particles.status),
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),
@@ -136,13 +293,18 @@ MEASURES: dict[str, Measure] = {
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
-``taylorDeformation`` is that of the longest and the shortest axis; ``capillaryNumber`` is that of the shear
-rate where the particle is.
+``deformationGradient`` is F·F₀⁻¹, from the shape at rest; ``orientation`` is the :func:`quaternion` of the
+frame; ``taylorDeformation`` is that of the longest and the shortest axis; the components of ``stresslet`` are
+xx yy zz xy yz xz; ``capillaryNumber`` is that of the shear rate where the particle is.
 """
 
 
 def context(
-    particles: Particles, flow: Sampled, mu: float, time: float, ids: NDArray[np.int64] | None = None
+    particles: Particles,
+    flow: Sampled | Gradients,
+    mu: float,
+    time: float,
+    ids: NDArray[np.int64] | None = None,
 ) -> Context:
     """Prepare the injected particles of a cloud for measuring.
 
@@ -151,7 +313,7 @@ def context(
     particles
         The whole cloud, or a part of it.
     flow
-        The flow around them.
+        The flow around them, or what it was there.
     mu
         Viscosity of the fluid, Pa s.
     time
@@ -159,18 +321,84 @@ def context(
     ids
         Row numbers of a part in the whole cloud.
     """
-    rows = np.flatnonzero(particles.status != Status.PENDING)
-    p = particles.take(rows)
-    F: Tensor = tuple(p.F.T)
-    frame, stretches = sorted_frame(*principal_frame(F))
-    gradient = np.full((len(rows), 9), np.nan)
-    known = (p.host >= 0) & np.isfinite(p.x).all(axis=1)
-    if known.any():
-        gradient[known] = flow.sample(p.x[known], p.host[known], time)[1].reshape(-1, 9)
-    l_f: Tensor = tuple(gradient.T)  # type: ignore[assignment]
-    return Context(p, F, frame, stretches, l_f, rows if ids is None else ids[rows], time, mu)
+    return _prepare(particles, injected(particles), flow, mu, time, ids)
+
+
+def contexts(
+    particles: Particles,
+    flow: Sampled | Gradients,
+    mu: float,
+    time: float,
+    ids: NDArray[np.int64] | None = None,
+) -> Iterator[Context]:
+    """Prepare the injected particles of a cloud a few at a time, in order; of none, one context of none.
+
+    Parameters
+    ----------
+    particles, flow, mu, time, ids
+        As of :func:`context`.
+    """
+    rows = injected(particles)
+    for i in range(number_of_contexts(len(rows))):
+        yield _prepare(particles, rows[i * PER_CONTEXT : (i + 1) * PER_CONTEXT], flow, mu, time, ids)
+
+
+def number_of_contexts(n: int) -> int:
+    """Number of :func:`contexts` that n injected particles have."""
+    return max(1, -(-n // PER_CONTEXT))
+
+
+def injected(particles: Particles) -> NDArray[np.int64]:
+    """Rows of the particles that are or were in the flow."""
+    return np.flatnonzero(particles.status != Status.PENDING)
 
 
 def measure(c: Context) -> dict[str, NDArray[Any]]:
     """All of :data:`MEASURES`, by name."""
     return {name: np.asarray(m.value(c)) for name, m in MEASURES.items()}
+
+
+def gradients(particles: Particles, flow: Sampled, time: float) -> Gradients:
+    """What a flow is at a time (s) around the injected particles of a cloud."""
+    l_f = np.full((particles.size, 9), np.nan)
+    rows = injected(particles)
+    for start in range(0, len(rows), PER_CONTEXT):
+        chosen = _rows(rows[start : start + PER_CONTEXT])
+        l_f[chosen] = _sampled(particles.x[chosen], particles.host[chosen], flow, time)
+    return Gradients(l_f)
+
+
+def _prepare(
+    particles: Particles,
+    rows: NDArray[np.int64],
+    flow: Sampled | Gradients,
+    mu: float,
+    time: float,
+    ids: NDArray[np.int64] | None,
+) -> Context:
+    chosen = _rows(rows)
+    p = particles.take(chosen)
+    l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
+    found = np.empty((12 + ALL_ROWS - ROWS, len(rows)))
+    block = np.empty(ALL_ROWS * LANES)
+    link(find_out, separate=_STAGES)(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
+    F, frame, l_f = tuple(p.F.T), tuple(found[:9]), tuple(l.T)
+    numbers = rows if ids is None else ids[rows]
+    return Context(p, F, frame, (found[9], found[10], found[11]), l_f, found[12:], numbers, time, mu)
+
+
+def _rows(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
+    """The same rows as a slice, which copies nothing, if they follow each other."""
+    n = len(rows)
+    return slice(rows[0], rows[-1] + 1) if n and rows[-1] - rows[0] == n - 1 else rows
+
+
+def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> Floats:
+    """∂u_i/∂x_j at points, (n, 9); NaN where there is no flow."""
+    known = (hosts >= 0) & np.isfinite(x).all(axis=1)
+    if known.all():
+        return flow.sample(x, hosts, time)[1].reshape(-1, 9)
+    gradient = np.full((len(x), 9), np.nan)
+    if known.any():
+        gradient[known] = flow.sample(x[known], hosts[known], time)[1].reshape(-1, 9)
+    return gradient

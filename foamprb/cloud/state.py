@@ -5,6 +5,7 @@ What is saved, restarted and written is read off this declaration (:data:`VARIAB
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
@@ -97,14 +98,35 @@ class Particles(NamedTuple):
         found = np.bincount(self.status, minlength=len(Status))
         return {status: int(found[status]) for status in Status}
 
-    def take(self, rows: Array) -> Particles:
-        """The particles of the given rows, copied."""
+    def take(self, rows: Array | slice) -> Particles:
+        """The particles of the given rows: copied, or of a slice as they are."""
         return Particles(*(array[rows] for array in self))
+
+    def copy_changing(self, into: Particles | None = None) -> Particles:
+        """The same state, with copies of the arrays that change.
+
+        Parameters
+        ----------
+        into
+            An earlier copy of as many particles, whose memory is used again.
+        """
+        arrays = self._asdict()
+        for name in CHANGING:
+            array, place = arrays[name], None if into is None else getattr(into, name)
+            if place is None or place.shape != array.shape:
+                arrays[name] = array.copy()
+            else:
+                np.copyto(place, array)
+                arrays[name] = place
+        return Particles(**arrays)
 
 
 VARIABLES: dict[str, Variable] = {
     name: hint.__metadata__[0] for name, hint in get_type_hints(Particles, include_extras=True).items()
 }
+
+CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fixed)
+"""Names of the arrays that the particle loop changes."""
 
 
 def empty(n: int) -> Particles:
@@ -116,11 +138,15 @@ def empty(n: int) -> Particles:
     return Particles(**arrays)
 
 
-def concatenate(parts: list[Particles]) -> Particles:
-    """One cloud of several, in order."""
-    if not parts:
+def concatenate(parts: Iterable[Particles]) -> Particles:
+    """One cloud of several, in order; of one, itself. What nobody else holds of the parts is given up."""
+    arrays = [list(part) for part in parts]
+    if not arrays:
         return empty(0)
-    return Particles(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+    if len(arrays) == 1:
+        return Particles(*arrays[0])
+    # One variable after the other, so that never all are in memory twice.
+    return Particles(*(np.concatenate([part.pop(0) for part in arrays]) for _ in Particles._fields))
 
 
 def spheres(

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 import pytest
-from test_output_vtk import cloud
+from test_output_vtk import cloud, in_parts
 
 from foamprb.output.vtk import Series, layout, write_pieces, write_snapshot
 
@@ -33,7 +33,7 @@ print(json.dumps(found))
 
 def test_paraview_reads_a_series_with_and_without_pieces(tmp_path):
     series = Series(tmp_path, "cloud")
-    series.append(cloud(0.1, 6))
+    series.append(in_parts(cloud(0.1, 6), (2, 4)))
     stem = series.next(0.2)
     pieces = [stem / f"{i}.vtp" for i in range(3)]
     for piece, n in zip(pieces, (3, 0, 3), strict=True):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+import zlib
+from collections import deque
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +16,8 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import MEGA, Options, Row, interleaved, rows, wall_of
-from foamprb.cloud.measures import context
-from foamprb.cloud.measures import measure as measures
-from foamprb.output.vtk import Snapshot, write_snapshot
+from foamprb.output.vtk import Parts, write_snapshot
+from foamprb.team import View
 
 COMPRESSORS = ("None", "LZ4", "ZLib")
 
@@ -46,23 +47,29 @@ def measure(options: Options) -> list[Row]:
     cloud = pipe.soft_cloud(flow, n, 2e-5)
     cloud.advance(5)
 
-    def measured() -> Snapshot:
-        c = context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
-        return Snapshot(cloud.time, c.particles.x, measures(c))
+    def parts() -> Parts:
+        return View({}, cloud.medium.mu).parts(cloud.time, cloud.particles, cloud.flow)
 
-    snapshot = measured()
-    arrays = [snapshot.points, *snapshot.arrays.values()]
-    total = sum(array.nbytes for array in arrays)
-    raw = b"".join(np.ascontiguousarray(array).tobytes() for array in arrays)
-    data = pyvista.PolyData(snapshot.points)
-    data.point_data.update(
-        {k: a.astype(np.int8) if a.dtype == bool else a for k, a in snapshot.arrays.items()}
-    )
+    snapshots = list(parts().snapshots)
+    whole = {
+        name: np.concatenate([np.ascontiguousarray(snapshot.arrays[name]) for snapshot in snapshots])
+        for name in snapshots[0].arrays
+    }
+    points = np.concatenate([snapshot.points for snapshot in snapshots])
+    raw = b"".join(array.tobytes() for array in (points, *whole.values()))
+    total = len(raw)
+    data = pyvista.PolyData(points)
+    data.point_data.update({k: a.astype(np.int8) if a.dtype == bool else a for k, a in whole.items()})
     folder = Path(tempfile.mkdtemp(dir=pipe.scratch_folder()))
     contestants = {
-        "measures": measured,
-        "snapshot to file": lambda: write_snapshot(folder / "foamprb.vtp", snapshot),
+        "measures": lambda: deque(parts().snapshots, maxlen=0),
+        "snapshot to file": lambda: write_snapshot(
+            folder / "foamprb.vtp", Parts(cloud.time, len(snapshots), iter(snapshots))
+        ),
+        "measures and file": lambda: write_snapshot(folder / "foamprb.vtp", parts()),
+        "copy of what changes": lambda: cloud.particles.copy_changing(),
         "disk, with fsync": lambda: _to_disk(folder / "raw", raw),
+        "zlib alone, level 1": lambda: zlib.compress(raw, 1),
     }
     for name in COMPRESSORS:
         contestants[f"VTK, {name}"] = lambda name=name: _vtk_writes(folder / f"{name}.vtp", data, name)

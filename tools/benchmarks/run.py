@@ -16,11 +16,11 @@ WRITES = 10
 def with_output(case: str) -> dict[str, float]:
     """What ``foamprb run`` does: its seconds on the wall, and those in which it waited for output."""
     from foamprb import run
-    from foamprb.output.vtk import Series
+    from foamprb.cloud.cloud import Cloud
+    from foamprb.output.background import Writer
 
     job = run.prepare(case)
     waited = 0.0
-    append, snapshot = Series.append, run.snapshot
 
     def timed(function):
         def call(*arguments):
@@ -32,7 +32,7 @@ def with_output(case: str) -> dict[str, float]:
 
         return call
 
-    Series.append, run.snapshot = timed(append), timed(snapshot)
+    Writer.finish, Cloud.still = timed(Writer.finish), timed(Cloud.still)
     start = time.perf_counter()
     run.execute(job)
     return {
