@@ -139,17 +139,23 @@ def sorted_frame(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:
     Q, stretches
         As :func:`foamprb.body.tensor.principal_frame` returns them.
     """
-    rows = [(Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])]
-    values = list(stretches)
-    for i, j in ((0, 1), (1, 2), (0, 1)):
-        swap = values[i] < values[j]
-        values[i], values[j] = select(swap, values[j], values[i]), select(swap, values[i], values[j])
-        upper = tuple(select(swap, q, p) for p, q in zip(rows[i], rows[j], strict=True))
-        # A swap mirrors the frame; the sign makes it a rotation again.
-        lower = tuple(select(swap, -p, q) for p, q in zip(rows[i], rows[j], strict=True))
-        rows[i], rows[j] = upper, lower
-    (q11, q12, q13), (q21, q22, q23), (q31, q32, q33) = rows
-    return (q11, q12, q13, q21, q22, q23, q31, q32, q33), (values[0], values[1], values[2])
+    p, q, r = (Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])
+    a, b, c = stretches
+    a, b, p, q = _in_order(a, b, p, q)
+    b, c, q, r = _in_order(b, c, q, r)
+    a, b, p, q = _in_order(a, b, p, q)
+    return (p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]), (a, b, c)
+
+
+def _in_order(a: Scalar, b: Scalar, p: Vector, q: Vector) -> tuple[Scalar, Scalar, Vector, Vector]:
+    """Two axes with the longer one first; a swap mirrors the frame, the sign makes it a rotation again."""
+    swap = a < b
+    return (
+        select(swap, b, a),
+        select(swap, a, b),
+        (select(swap, q[0], p[0]), select(swap, q[1], p[1]), select(swap, q[2], p[2])),
+        (select(swap, -p[0], q[0]), select(swap, -p[1], q[1]), select(swap, -p[2], q[2])),
+    )
 
 
 def taylor_deformation(a: Scalar, b: Scalar) -> Scalar:

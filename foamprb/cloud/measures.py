@@ -13,11 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.ellipsoid import taylor_deformation
+from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
-    Vector,
     add,
     axial,
     ddot,
@@ -113,27 +112,6 @@ def shear_rate(l_f: Tensor) -> Any:
     return np.sqrt(2.0 * ddot(d, d))
 
 
-def sort_axes(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:
-    """As :func:`foamprb.body.ellipsoid.sorted_frame`, of one particle."""
-    p, q, r = (Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])
-    a, b, c = stretches
-    a, b, p, q = _in_order(a, b, p, q)
-    b, c, q, r = _in_order(b, c, q, r)
-    a, b, p, q = _in_order(a, b, p, q)
-    return (p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]), (a, b, c)
-
-
-def _in_order(a: Scalar, b: Scalar, p: Vector, q: Vector) -> tuple[Scalar, Scalar, Vector, Vector]:
-    """Two axes with the longer one first; the sign keeps the frame a rotation."""
-    swap = a < b
-    return (
-        select(swap, b, a),
-        select(swap, a, b),
-        (select(swap, q[0], p[0]), select(swap, q[1], p[1]), select(swap, q[2], p[2])),
-        (select(swap, -p[0], q[0]), select(swap, -p[1], q[1]), select(swap, -p[2], q[2])),
-    )
-
-
 def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
     """Unit quaternion (w, x, y, z), w ≥ 0, of the rotation that carries the fixed axes onto the rows of Q.
 
@@ -157,7 +135,7 @@ def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
 def sort_stage(block: Any) -> None:
     """Put the axes of the frames in falling order of length."""
     for i in range(LANES):
-        Q, stretches = sort_axes(load9(block, AT_Q, i), load3(block, AT_STRETCH, i))
+        Q, stretches = sorted_frame(load9(block, AT_Q, i), load3(block, AT_STRETCH, i))
         store9(block, AT_Q, i, Q)
         store3(block, AT_STRETCH, i, stretches)
 
