@@ -1,0 +1,469 @@
+"""Compiled loops over the faces and cells of a mesh: lists of points, pairs of faces, geometry, tetrahedra.
+
+A list of faces is given by ``start`` (n + 1,) and ``lists``: the points of face f are ``lists[start[f]]`` to
+``lists[start[f + 1] - 1]``. All indices are int32, lengths in metres. Results go into arrays of the caller's.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.tensor import Vector
+
+Floats: TypeAlias = NDArray[np.float64]
+Ints: TypeAlias = NDArray[np.int32]
+
+__all__ = [
+    "OPEN",
+    "TWISTED",
+    "choose_bases",
+    "group",
+    "list_faces",
+    "measure_cells",
+    "measure_faces",
+    "pair_faces",
+    "split_cells",
+    "take_faces",
+    "turn_outwards",
+]
+
+OPEN = 1
+"""A cell with an edge that does not belong to exactly two of its faces."""
+TWISTED = 2
+"""A cell of which two faces run along a common edge in the same direction."""
+
+
+def list_faces(
+    types: NDArray[np.uint8],
+    corner_start: Ints,
+    corners: Ints,
+    shapes: Ints,
+    poly_start: Ints,
+    poly_faces: Ints,
+    face_start: Ints,
+    face_points: Ints,
+    first: Ints,
+    start: Ints,
+    lists: Ints,
+) -> tuple[int, int]:
+    """List the faces of each cell, cell after cell.
+
+    Parameters
+    ----------
+    types, corner_start, corners
+        VTK's type of each cell (n,), and its points.
+    shapes
+        (256, 6, 5) by type and face: its number of vertices, then the local vertices; 0 where there is none.
+    poly_start, poly_faces, face_start, face_points
+        The faces (n + 1,) of cells that are polyhedra, and the points of these faces.
+    first, start, lists
+        For the results: the first face of each cell (n + 1,), and the faces. Without room for them
+        (``start`` is empty) they are only counted.
+
+    Returns
+    -------
+    faces, entries
+        How many there are in ``start`` and in ``lists``.
+    """
+    filled = start.shape[0] > 0
+    faces, at = 0, 0
+    for c in range(types.shape[0]):
+        if filled:
+            first[c] = faces
+        kind = types[c]
+        for k in range(6):
+            size = shapes[kind, k, 0]
+            if size == 0:
+                break
+            if filled:
+                start[faces] = at
+                for j in range(size):
+                    lists[at + j] = corners[corner_start[c] + shapes[kind, k, 1 + j]]
+            faces += 1
+            at += size
+        if poly_start.shape[0] == 1 or shapes[kind, 0, 0] != 0:
+            continue
+        for k in range(poly_start[c], poly_start[c + 1]):
+            begin, end = face_start[poly_faces[k]], face_start[poly_faces[k] + 1]
+            if filled:
+                start[faces] = at
+                for j in range(begin, end):
+                    lists[at + j - begin] = face_points[j]
+            faces += 1
+            at += end - begin
+    if filled:
+        first[types.shape[0]] = faces
+        start[faces] = at
+    return faces, at
+
+
+def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints) -> int:
+    """Find for each face the other one with the same points, itself where there is none.
+
+    Parameters
+    ----------
+    head, following
+        (n,) for chains of faces with the same sum of point numbers; ``head`` holds −1.
+    mate
+        (n,) for the result.
+
+    Returns
+    -------
+    The first face whose points two others have, −1 if all is well.
+    """
+    n = mate.shape[0]
+    for h in range(n):
+        mate[h] = h
+        total = 0
+        for k in range(start[h], start[h + 1]):
+            total += lists[k]
+        slot = total % n
+        other = head[slot]
+        while other >= 0:
+            if _alike(start, lists, h, other):
+                if mate[other] != other:
+                    return h
+                mate[h], mate[other] = other, h
+                break
+            other = following[other]
+        following[h] = head[slot]
+        head[slot] = h
+    return -1
+
+
+def _alike(start: Ints, lists: Ints, a: int, b: int) -> bool:
+    """Whether two faces have the same points, each as often as the other."""
+    size = start[a + 1] - start[a]
+    if size != start[b + 1] - start[b]:
+        return False
+    for i in range(size):
+        point, here, there = lists[start[a] + i], 0, 0
+        for j in range(size):
+            here += lists[start[a] + j] == point
+            there += lists[start[b] + j] == point
+        if here != there:
+            return False
+    return True
+
+
+def take_faces(start: Ints, lists: Ints, chosen: NDArray[np.int64], new_start: Ints, new_lists: Ints) -> None:
+    """Copy some faces' points; ``new_start`` tells where to."""
+    for i in range(chosen.shape[0]):
+        begin = start[chosen[i]]
+        for k in range(new_start[i + 1] - new_start[i]):
+            new_lists[new_start[i] + k] = lists[begin + k]
+
+
+def turn_outwards(
+    points: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints, middle: Floats, count: Ints
+) -> None:
+    """Turn the faces so that they seem to turn outwards from their owner, by where the cells' middles lie.
+
+    ``middle`` (n_cells, 3) and ``count`` (n_cells,) hold zeros; they get the means of the means of the cells'
+    faces, and the numbers of faces.
+    """
+    n_internal = neighbour.shape[0]
+    for f in range(owner.shape[0]):
+        x = mean(points, start, lists, f)
+        for side in range(2 if f < n_internal else 1):
+            c = owner[f] if side == 0 else neighbour[f]
+            count[c] += 1
+            for i in range(3):
+                middle[c, i] += x[i]
+    for c in range(count.shape[0]):
+        for i in range(3):
+            middle[c, i] /= count[c]
+    for f in range(owner.shape[0]):
+        c = owner[f]
+        ahead = mean(points, start, lists, f)
+        if f < n_internal:
+            d = neighbour[f]
+            ahead = (middle[d, 0], middle[d, 1], middle[d, 2])
+        s = area(points, start, lists, f)
+        ahead = (ahead[0] - middle[c, 0], ahead[1] - middle[c, 1], ahead[2] - middle[c, 2])
+        if s[0] * ahead[0] + s[1] * ahead[1] + s[2] * ahead[2] < 0.0:
+            begin, end = start[f], start[f + 1]
+            for k in range((end - begin) // 2):
+                i, j = begin + k, end - 1 - k
+                lists[i], lists[j] = lists[j], lists[i]
+
+
+def mean(points: Floats, start: Ints, lists: Ints, f: int) -> Vector:
+    """Mean of the points of a face."""
+    x = y = z = 0.0
+    for k in range(start[f], start[f + 1]):
+        p = lists[k]
+        x, y, z = x + points[p, 0], y + points[p, 1], z + points[p, 2]
+    size = start[f + 1] - start[f]
+    return x / size, y / size, z / size
+
+
+def area(points: Floats, start: Ints, lists: Ints, f: int) -> Vector:
+    """Area vector of a face."""
+    x = y = z = 0.0
+    o = lists[start[f]]
+    for k in range(start[f] + 1, start[f + 1] - 1):
+        c = cross(arm(points, lists[k], o), arm(points, lists[k + 1], o))
+        x, y, z = x + c[0], y + c[1], z + c[2]
+    return 0.5 * x, 0.5 * y, 0.5 * z
+
+
+def arm(points: Floats, p: int, o: int) -> Vector:
+    """From the point o to the point p."""
+    return points[p, 0] - points[o, 0], points[p, 1] - points[o, 1], points[p, 2] - points[o, 2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a × b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:
+    """Face centres and area vectors (n, 3), by triangles about the mean of the vertices."""
+    for f in range(centres.shape[0]):
+        m, s = mean(points, start, lists, f), area(points, start, lists, f)
+        begin, end = start[f], start[f + 1]
+        weight, x, y, z = 0.0, 0.0, 0.0, 0.0
+        for k in range(begin, end):
+            p, q = lists[k], lists[k + 1 if k + 1 < end else begin]
+            a = (points[p, 0] - m[0], points[p, 1] - m[1], points[p, 2] - m[2])
+            b = (points[q, 0] - m[0], points[q, 1] - m[1], points[q, 2] - m[2])
+            n = cross(a, b)
+            w = n[0] * s[0] + n[1] * s[1] + n[2] * s[2]
+            weight += w
+            x, y, z = x + w * (a[0] + b[0]), y + w * (a[1] + b[1]), z + w * (a[2] + b[2])
+        # A face folded onto itself has no area to weigh with; its mean is as good a centre as any.
+        share = 1.0 / (3.0 * weight) if weight != 0.0 and end - begin > 3 else 0.0
+        centres[f, 0], centres[f, 1], centres[f, 2] = m[0] + share * x, m[1] + share * y, m[2] + share * z
+        areas[f, 0], areas[f, 1], areas[f, 2] = s
+
+
+def measure_cells(
+    face_centres: Floats,
+    areas: Floats,
+    owner: Ints,
+    neighbour: Ints,
+    middle: Floats,
+    count: Ints,
+    centres: Floats,
+    volumes: Floats,
+) -> None:
+    """Cell centres (n, 3) and volumes (n,), by pyramids about the mean of the face centres, as in OpenFOAM.
+
+    All but the geometry of the faces hold zeros; ``middle`` (n, 3) and ``count`` (n,) are for the means.
+    """
+    n_internal = neighbour.shape[0]
+    for f in range(owner.shape[0]):
+        for side in range(2 if f < n_internal else 1):
+            c = owner[f] if side == 0 else neighbour[f]
+            count[c] += 1
+            for i in range(3):
+                middle[c, i] += face_centres[f, i]
+    for c in range(count.shape[0]):
+        for i in range(3):
+            middle[c, i] /= count[c]
+    for f in range(owner.shape[0]):
+        for side in range(2 if f < n_internal else 1):
+            c = owner[f] if side == 0 else neighbour[f]
+            height = 0.0
+            for i in range(3):
+                height += areas[f, i] * (face_centres[f, i] - middle[c, i])
+            volume = (height if side == 0 else -height) / 3.0
+            volumes[c] += volume
+            for i in range(3):
+                centres[c, i] += 0.75 * volume * (face_centres[f, i] - middle[c, i])
+    for c in range(count.shape[0]):
+        share = 1.0 / volumes[c] if volumes[c] != 0.0 else 0.0
+        for i in range(3):
+            centres[c, i] = middle[c, i] + share * centres[c, i]
+
+
+def choose_bases(
+    points: Floats, centres: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints
+) -> int:
+    """Rotate every face so that its fan has the best worst tetrahedron seen from both cells.
+
+    The quality of a tetrahedron is its volume over the cube of its root-mean-square edge.
+
+    Returns
+    -------
+    The number of tetrahedra without positive volume.
+    """
+    n_internal = neighbour.shape[0]
+    inverted = 0
+    for f in range(owner.shape[0]):
+        begin, size = start[f], start[f + 1] - start[f]
+        best, chosen, negative = -np.inf, 0, 0
+        for base in range(1 if size == 3 else 2 if size == 4 else size):
+            worst, wrong = np.inf, 0
+            for side in range(2 if f < n_internal else 1):
+                c = owner[f] if side == 0 else neighbour[f]
+                for k in range(1, size - 1):
+                    i, j = (base + k) % size, (base + k + 1) % size
+                    q = _quality(points, centres, c, lists[begin + base], lists[begin + i], lists[begin + j])
+                    q = q if side == 0 else -q
+                    worst = min(worst, q)
+                    wrong += q <= 0.0
+            # Round-off must not decide between equal fans.
+            worst += 1e-9 if base == 0 else 0.0
+            if base == 0 or worst > best:
+                best, chosen, negative = worst, base, wrong
+        inverted += negative
+        for _ in range(chosen):
+            head = lists[begin]
+            for k in range(begin, begin + size - 1):
+                lists[k] = lists[k + 1]
+            lists[begin + size - 1] = head
+    return inverted
+
+
+def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int) -> float:
+    """Six times the volume of a tetrahedron over the cube of the root of the sum of its squared edges."""
+    x, y, z = centres[cell, 0], centres[cell, 1], centres[cell, 2]
+    u = (points[a, 0] - x, points[a, 1] - y, points[a, 2] - z)
+    v = (points[b, 0] - x, points[b, 1] - y, points[b, 2] - z)
+    w = (points[c, 0] - x, points[c, 1] - y, points[c, 2] - z)
+    n = cross(v, w)
+    volume = u[0] * n[0] + u[1] * n[1] + u[2] * n[2]
+    edges = 0.0
+    for i in range(3):
+        p, q, r = u[i] - v[i], v[i] - w[i], w[i] - u[i]
+        edges += u[i] * u[i] + v[i] * v[i] + w[i] * w[i] + p * p + q * q + r * r
+    return float(volume / (edges * np.sqrt(edges)))
+
+
+def split_cells(
+    n_points: int,
+    first: Ints,
+    face_of: Ints,
+    start: Ints,
+    lists: Ints,
+    n_internal: int,
+    face_tet: Ints,
+    edges: Ints,
+    cell_start: Ints,
+    tets: Ints,
+    neighbours: Ints,
+    triangle_tet: Ints,
+    state: NDArray[np.uint8],
+) -> None:
+    """Cut cells into tetrahedra, a fan on each face, and join these.
+
+    Parameters
+    ----------
+    n_points
+        Number of mesh points: the centre of cell c is node ``n_points + c``.
+    first, face_of
+        The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``. A face turns outwards
+        from the cell that comes first.
+    start, lists, n_internal
+        The faces, those between two cells first.
+    face_tet
+        (n_faces,), holds −1; for the first tetrahedron of each face on its owner's side.
+    edges
+        (5, m), holds −1, with m a power of two not below the length of all faces of any cell; see
+        :func:`_join`.
+    cell_start, tets, neighbours, triangle_tet
+        For the results, as :class:`foamprb.flow.mesh.Mesh` has them.
+    state
+        (n_cells,), holds zeros; for cells that are :data:`OPEN` or :data:`TWISTED`.
+    """
+    boundary = start[n_internal] - 2 * n_internal
+    tet = 0
+    for c in range(state.shape[0]):
+        cell_start[c] = tet
+        found = loose = 0
+        for h in range(first[c], first[c + 1]):
+            f = face_of[h]
+            begin, size = start[f], start[f + 1] - start[f]
+            owned = face_tet[f] < 0
+            if owned:
+                face_tet[f] = tet
+            for k in range(size - 2):
+                # From the other side the fan turns the other way about the same base.
+                i, j = (k + 1, k + 2) if owned else (size - 1 - k, size - 2 - k)
+                tets[tet + k, 0], tets[tet + k, 1] = n_points + c, lists[begin]
+                tets[tet + k, 2], tets[tet + k, 3] = lists[begin + i], lists[begin + j]
+                if k > 0:
+                    neighbours[tet + k, 3] = tet + k - 1
+                if k < size - 3:
+                    neighbours[tet + k, 2] = tet + k + 1
+                if f >= n_internal:
+                    triangle = begin - 2 * f - boundary + k
+                    neighbours[tet + k, 0] = -1 - triangle
+                    triangle_tet[triangle] = tet + k
+                elif not owned:
+                    across = face_tet[f] + size - 3 - k
+                    neighbours[tet + k, 0], neighbours[across, 0] = across, tet + k
+            for k in range(size):
+                i, j = (k, k + 1) if owned else (size - k, size - 1 - k)
+                a, b = lists[begin + i % size], lists[begin + j % size]
+                # The first edge of a fan is opposite vertex 3 of its first tetrahedron, the last opposite
+                # vertex 2 of its last, every other opposite vertex 1.
+                slot = 3 if k == 0 else 2 if k == size - 1 else 1
+                place = 4 * (tet + min(max(k - 1, 0), size - 3)) + slot
+                more, wrong = _join(a, b, place, edges, found, neighbours)
+                found, loose = found + (more > 0), loose + more
+                state[c] |= wrong
+            tet += size - 2
+        if loose != 0:
+            state[c] |= OPEN
+        for e in range(found):
+            edges[0, (edges[2, e] + edges[3, e]) & (edges.shape[1] - 1)] = -1
+    cell_start[state.shape[0]] = tet
+
+
+def _join(a: int, b: int, place: int, edges: Ints, found: int, neighbours: Ints) -> tuple[int, int]:
+    """Join the tetrahedra at an edge of a cell, if it has been met before; else remember it.
+
+    Parameters
+    ----------
+    a, b, place
+        The edge, and 4 t + k for the face opposite vertex k of tetrahedron t.
+    edges
+        Edges by sum of their points: first of each chain; next in the chain, a, b and place by edge, place −1
+        after both sides have been met.
+    found
+        Number of edges so far.
+
+    Returns
+    -------
+    1 for a new edge, −1 for one that is now complete; what is wrong with the cell.
+    """
+    slot = (a + b) & (edges.shape[1] - 1)
+    e = edges[0, slot]
+    while e >= 0:
+        p, q, other = edges[2, e], edges[3, e], edges[4, e]
+        if (p == b and q == a) or (p == a and q == b):
+            if other < 0:
+                return 0, OPEN
+            neighbours[place >> 2, place & 3] = other >> 2
+            neighbours[other >> 2, other & 3] = place >> 2
+            edges[4, e] = -1
+            return -1, TWISTED if p == a else 0
+        e = edges[1, e]
+    edges[1, found], edges[0, slot] = edges[0, slot], found
+    edges[2, found], edges[3, found], edges[4, found] = a, b, place
+    return 1, 0
+
+
+def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
+    """Put values by their keys, in their order: those of key k from ``start[k]`` to ``start[k + 1] - 1``.
+
+    ``start`` (n_keys + 1,) holds zeros.
+    """
+    n = start.shape[0] - 1
+    for i in range(keys.shape[0]):
+        start[keys[i] + 1] += 1
+    for k in range(n):
+        start[k + 1] += start[k]
+    for i in range(keys.shape[0]):
+        k = keys[i]
+        grouped[start[k]] = values[i]
+        start[k] += 1
+    for k in range(n, 0, -1):
+        start[k] = start[k - 1]
+    start[0] = 0
