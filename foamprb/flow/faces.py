@@ -20,7 +20,6 @@ __all__ = [
     "OPEN",
     "TWISTED",
     "choose_bases",
-    "group",
     "list_faces",
     "measure_cells",
     "measure_faces",
@@ -448,22 +447,3 @@ def _join(a: int, b: int, place: int, edges: Ints, found: int, neighbours: Ints)
     edges[1, found], edges[0, slot] = edges[0, slot], found
     edges[2, found], edges[3, found], edges[4, found] = a, b, place
     return 1, 0
-
-
-def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
-    """Put values by their keys, in their order: those of key k from ``start[k]`` to ``start[k + 1] - 1``.
-
-    ``start`` (n_keys + 1,) holds zeros.
-    """
-    n = start.shape[0] - 1
-    for i in range(keys.shape[0]):
-        start[keys[i] + 1] += 1
-    for k in range(n):
-        start[k + 1] += start[k]
-    for i in range(keys.shape[0]):
-        k = keys[i]
-        grouped[start[k]] = values[i]
-        start[k] += 1
-    for k in range(n, 0, -1):
-        start[k] = start[k - 1]
-    start[0] = 0
