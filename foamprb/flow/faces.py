@@ -19,14 +19,13 @@ Ints: TypeAlias = NDArray[np.int32]
 __all__ = [
     "OPEN",
     "TWISTED",
+    "add_at",
     "choose_bases",
     "list_faces",
-    "measure_cells",
     "measure_faces",
     "pair_faces",
     "split_cells",
     "take_faces",
-    "turn_outwards",
 ]
 
 OPEN = 1
@@ -47,7 +46,7 @@ def list_faces(
     first: Ints,
     start: Ints,
     lists: Ints,
-) -> tuple[int, int]:
+) -> None:
     """List the faces of each cell, cell after cell.
 
     Parameters
@@ -59,44 +58,32 @@ def list_faces(
     poly_start, poly_faces, face_start, face_points
         The faces (n + 1,) of cells that are polyhedra, and the points of these faces.
     first, start, lists
-        For the results: the first face of each cell (n + 1,), and the faces. Without room for them
-        (``start`` is empty) they are only counted.
-
-    Returns
-    -------
-    faces, entries
-        How many there are in ``start`` and in ``lists``.
+        For the results: the first face of each cell (n + 1,), and the faces.
     """
-    filled = start.shape[0] > 0
-    faces, at = 0, 0
+    face, at = 0, 0
     for c in range(types.shape[0]):
-        if filled:
-            first[c] = faces
-        kind = types[c]
+        first[c] = face
+        shape = shapes[types[c]]
         for k in range(6):
-            size = shapes[kind, k, 0]
+            size = shape[k, 0]
             if size == 0:
                 break
-            if filled:
-                start[faces] = at
-                for j in range(size):
-                    lists[at + j] = corners[corner_start[c] + shapes[kind, k, 1 + j]]
-            faces += 1
+            for j in range(size):
+                lists[at + j] = corners[corner_start[c] + shape[k, 1 + j]]
+            start[face] = at
+            face += 1
             at += size
-        if poly_start.shape[0] == 1 or shapes[kind, 0, 0] != 0:
-            continue
-        for k in range(poly_start[c], poly_start[c + 1]):
-            begin, end = face_start[poly_faces[k]], face_start[poly_faces[k] + 1]
-            if filled:
-                start[faces] = at
-                for j in range(begin, end):
-                    lists[at + j - begin] = face_points[j]
-            faces += 1
-            at += end - begin
-    if filled:
-        first[types.shape[0]] = faces
-        start[faces] = at
-    return faces, at
+        if shape[0, 0] == 0:
+            for k in range(poly_start[c], poly_start[c + 1]):
+                begin, size = face_start[poly_faces[k]], face_start[poly_faces[k] + 1]
+                size -= begin
+                for j in range(size):
+                    lists[at + j] = face_points[begin + j]
+                start[face] = at
+                face += 1
+                at += size
+    first[types.shape[0]] = face
+    start[face] = at
 
 
 def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints) -> int:
@@ -156,128 +143,45 @@ def take_faces(start: Ints, lists: Ints, chosen: NDArray[np.int64], new_start: I
             new_lists[new_start[i] + k] = lists[begin + k]
 
 
-def turn_outwards(
-    points: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints, middle: Floats, count: Ints
-) -> None:
-    """Turn the faces so that they seem to turn outwards from their owner, by where the cells' middles lie.
-
-    ``middle`` (n_cells, 3) and ``count`` (n_cells,) hold zeros; they get the means of the means of the cells'
-    faces, and the numbers of faces.
-    """
-    n_internal = neighbour.shape[0]
-    for f in range(owner.shape[0]):
-        x = mean(points, start, lists, f)
-        for side in range(2 if f < n_internal else 1):
-            c = owner[f] if side == 0 else neighbour[f]
-            count[c] += 1
-            for i in range(3):
-                middle[c, i] += x[i]
-    for c in range(count.shape[0]):
-        for i in range(3):
-            middle[c, i] /= count[c]
-    for f in range(owner.shape[0]):
-        c = owner[f]
-        ahead = mean(points, start, lists, f)
-        if f < n_internal:
-            d = neighbour[f]
-            ahead = (middle[d, 0], middle[d, 1], middle[d, 2])
-        s = area(points, start, lists, f)
-        ahead = (ahead[0] - middle[c, 0], ahead[1] - middle[c, 1], ahead[2] - middle[c, 2])
-        if s[0] * ahead[0] + s[1] * ahead[1] + s[2] * ahead[2] < 0.0:
-            begin, end = start[f], start[f + 1]
-            for k in range((end - begin) // 2):
-                i, j = begin + k, end - 1 - k
-                lists[i], lists[j] = lists[j], lists[i]
-
-
-def mean(points: Floats, start: Ints, lists: Ints, f: int) -> Vector:
-    """Mean of the points of a face."""
-    x = y = z = 0.0
-    for k in range(start[f], start[f + 1]):
-        p = lists[k]
-        x, y, z = x + points[p, 0], y + points[p, 1], z + points[p, 2]
-    size = start[f + 1] - start[f]
-    return x / size, y / size, z / size
-
-
-def area(points: Floats, start: Ints, lists: Ints, f: int) -> Vector:
-    """Area vector of a face."""
-    x = y = z = 0.0
-    o = lists[start[f]]
-    for k in range(start[f] + 1, start[f + 1] - 1):
-        c = cross(arm(points, lists[k], o), arm(points, lists[k + 1], o))
-        x, y, z = x + c[0], y + c[1], z + c[2]
-    return 0.5 * x, 0.5 * y, 0.5 * z
-
-
-def arm(points: Floats, p: int, o: int) -> Vector:
-    """From the point o to the point p."""
-    return points[p, 0] - points[o, 0], points[p, 1] - points[o, 1], points[p, 2] - points[o, 2]
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """a × b."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
 def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:
     """Face centres and area vectors (n, 3), by triangles about the mean of the vertices."""
     for f in range(centres.shape[0]):
-        m, s = mean(points, start, lists, f), area(points, start, lists, f)
-        begin, end = start[f], start[f + 1]
+        begin, size = start[f], start[f + 1] - start[f]
+        for i in range(3):
+            x = 0.0
+            for k in range(size):
+                x += points[lists[begin + k], i]
+            centres[f, i], areas[f, i] = x / size, 0.0
+        for k in range(size):
+            _, n = _edge(points, lists[begin + k], lists[begin + (k + 1) % size], centres, f)
+            for i in range(3):
+                areas[f, i] += 0.5 * n[i]
+        if size == 3:
+            continue
         weight, x, y, z = 0.0, 0.0, 0.0, 0.0
-        for k in range(begin, end):
-            p, q = lists[k], lists[k + 1 if k + 1 < end else begin]
-            a = (points[p, 0] - m[0], points[p, 1] - m[1], points[p, 2] - m[2])
-            b = (points[q, 0] - m[0], points[q, 1] - m[1], points[q, 2] - m[2])
-            n = cross(a, b)
-            w = n[0] * s[0] + n[1] * s[1] + n[2] * s[2]
-            weight += w
-            x, y, z = x + w * (a[0] + b[0]), y + w * (a[1] + b[1]), z + w * (a[2] + b[2])
+        for k in range(size):
+            d, n = _edge(points, lists[begin + k], lists[begin + (k + 1) % size], centres, f)
+            w = n[0] * areas[f, 0] + n[1] * areas[f, 1] + n[2] * areas[f, 2]
+            weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
         # A face folded onto itself has no area to weigh with; its mean is as good a centre as any.
-        share = 1.0 / (3.0 * weight) if weight != 0.0 and end - begin > 3 else 0.0
-        centres[f, 0], centres[f, 1], centres[f, 2] = m[0] + share * x, m[1] + share * y, m[2] + share * z
-        areas[f, 0], areas[f, 1], areas[f, 2] = s
+        if weight != 0.0:
+            centres[f, 0] += x / (3.0 * weight)
+            centres[f, 1] += y / (3.0 * weight)
+            centres[f, 2] += z / (3.0 * weight)
 
 
-def measure_cells(
-    face_centres: Floats,
-    areas: Floats,
-    owner: Ints,
-    neighbour: Ints,
-    middle: Floats,
-    count: Ints,
-    centres: Floats,
-    volumes: Floats,
-) -> None:
-    """Cell centres (n, 3) and volumes (n,), by pyramids about the mean of the face centres, as in OpenFOAM.
+def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vector, Vector]:
+    """Sum and cross product of the vectors from an origin to two points."""
+    ax, ay, az = points[p, 0] - origins[o, 0], points[p, 1] - origins[o, 1], points[p, 2] - origins[o, 2]
+    bx, by, bz = points[q, 0] - origins[o, 0], points[q, 1] - origins[o, 1], points[q, 2] - origins[o, 2]
+    return (ax + bx, ay + by, az + bz), (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
 
-    All but the geometry of the faces hold zeros; ``middle`` (n, 3) and ``count`` (n,) are for the means.
-    """
-    n_internal = neighbour.shape[0]
-    for f in range(owner.shape[0]):
-        for side in range(2 if f < n_internal else 1):
-            c = owner[f] if side == 0 else neighbour[f]
-            count[c] += 1
-            for i in range(3):
-                middle[c, i] += face_centres[f, i]
-    for c in range(count.shape[0]):
-        for i in range(3):
-            middle[c, i] /= count[c]
-    for f in range(owner.shape[0]):
-        for side in range(2 if f < n_internal else 1):
-            c = owner[f] if side == 0 else neighbour[f]
-            height = 0.0
-            for i in range(3):
-                height += areas[f, i] * (face_centres[f, i] - middle[c, i])
-            volume = (height if side == 0 else -height) / 3.0
-            volumes[c] += volume
-            for i in range(3):
-                centres[c, i] += 0.75 * volume * (face_centres[f, i] - middle[c, i])
-    for c in range(count.shape[0]):
-        share = 1.0 / volumes[c] if volumes[c] != 0.0 else 0.0
-        for i in range(3):
-            centres[c, i] = middle[c, i] + share * centres[c, i]
+
+def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
+    """Add the rows of ``values`` (n, m) to those of ``sums`` (n_cells, m) that ``cells`` names."""
+    for i in range(cells.shape[0]):
+        for k in range(sums.shape[1]):
+            sums[cells[i], k] += values[i, k]
 
 
 def choose_bases(
@@ -325,8 +229,11 @@ def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int)
     u = (points[a, 0] - x, points[a, 1] - y, points[a, 2] - z)
     v = (points[b, 0] - x, points[b, 1] - y, points[b, 2] - z)
     w = (points[c, 0] - x, points[c, 1] - y, points[c, 2] - z)
-    n = cross(v, w)
-    volume = u[0] * n[0] + u[1] * n[1] + u[2] * n[2]
+    volume = (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        + u[1] * (v[2] * w[0] - v[0] * w[2])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
     edges = 0.0
     for i in range(3):
         p, q, r = u[i] - v[i], v[i] - w[i], w[i] - u[i]

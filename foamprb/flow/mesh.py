@@ -23,14 +23,13 @@ from foamprb.flow.coupling import Coupling, couple
 from foamprb.flow.faces import (
     OPEN,
     TWISTED,
+    add_at,
     choose_bases,
     list_faces,
-    measure_cells,
     measure_faces,
     pair_faces,
     split_cells,
     take_faces,
-    turn_outwards,
 )
 from foamprb.flow.patch import Patch
 
@@ -56,6 +55,8 @@ for _kind, _faces in _CELL_FACES.items():
     _CORNERS[_kind] = 1 + max(map(max, _faces))
 CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _POLYHEDRON: "polyhedron"}
 
+# Faces handled at once: the temporary arrays then stay in the cache.
+_CHUNK = 1 << 15
 _MOST_INDICES = int(np.iinfo(np.int32).max)
 _MOST_TURNS = 5
 
@@ -200,16 +201,13 @@ def _assemble(
     order, patches, patch_start = _assign_patches(points, dtype, faces, surfaces, source)
     faces = _by_patch(faces, order)
     owner, neighbour = faces.owner, faces.neighbour
-    n_cells, n_internal = len(faces.first) - 1, len(neighbour)
+    n_internal = len(neighbour)
 
-    face_centres, areas = np.empty((len(owner), 3)), np.empty((len(owner), 3))
-    link(measure_faces)(points, faces.start, faces.points, face_centres, areas)
+    face_centres, areas = _face_geometry(points, faces)
     boundary_centres, boundary_areas = face_centres[n_internal:].copy(), areas[n_internal:].copy()
     patches, couplings = couple(patches, patch_start, boundary_centres, boundary_areas, source)
-    centres, volumes = np.zeros((n_cells, 3)), np.zeros(n_cells)
-    scratch = np.zeros((n_cells, 3)), np.zeros(n_cells, dtype=np.int32)
-    link(measure_cells)(face_centres, areas, owner, neighbour, *scratch, centres, volumes)
-    del face_centres, areas, scratch
+    centres, volumes = _cell_geometry(face_centres, areas, faces)
+    del face_centres, areas
     inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
 
     cell_start, tets, neighbours, triangle_tet, astray = _tetrahedra(faces, len(points), source)
@@ -299,14 +297,22 @@ def _half_faces(grid: Any, source: str) -> tuple[_Halves, Ints, Ints]:
             f"{source}: cell {short[0]} has {np.diff(offset)[short[0]]} points, but its type is "
             f"{CELL_KINDS[types[short[0]]]}."
         )
-    cells = _int32(offset), _int32(connectivity)
-    given = (types, *cells, _shapes(), *map(_int32, polyhedra))
-    kernel, nothing = link(list_faces), np.empty(0, dtype=np.int32)
-    n_faces, n_entries = kernel(*given, nothing, nothing, nothing)
+    locations, ids, face_start, _ = polyhedra
+    own = np.diff(locations)[types[: len(locations) - 1] == _POLYHEDRON].sum()
+    if own != len(ids) or (len(ids) and not 0 <= ids.min() <= ids.max() < len(face_start) - 1):
+        raise InputError(f"{source}: the faces of the polyhedra do not fit its cells; the mesh is damaged.")
+    cells, shapes, kinds = (
+        (_int32(offset), _int32(connectivity)),
+        _shapes(),
+        np.bincount(types, minlength=256),
+    )
+    n_faces = int(kinds @ np.count_nonzero(shapes[:, :, 0], axis=1)) + len(ids)
+    n_entries = int(kinds @ shapes[:, :, 0].sum(axis=1) + np.diff(face_start)[ids].sum())
+    given = (types, *cells, shapes, *map(_int32, polyhedra))
     if n_entries > _MOST_INDICES:
         raise InputError(f"{source}: {n_entries} points of faces are too many for 32-bit indices.")
     half = _Halves(*(np.empty(n, dtype=np.int32) for n in (len(types) + 1, n_faces + 1, n_entries)))
-    kernel(*given, *half)
+    link(list_faces)(*given, *half)
     least = np.diff(half.start).min()
     if least < 3:
         raise InputError(f"{source}: a face of {least} vertices; at least 3 are needed.")
@@ -401,7 +407,7 @@ def _part_points(
 
 def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
     """Put interior faces first and let every list turn outwards from its owner, as far as can be told."""
-    cell_of, n_cells = half.cells(), len(half.first) - 1
+    cell_of = half.cells()
     at = np.arange(len(mate), dtype=np.int32)
     inside, outside = np.flatnonzero(mate > at), np.flatnonzero(mate == at)
     owners = np.concatenate([inside, outside])
@@ -412,9 +418,50 @@ def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
     of_cell[owners] = np.arange(len(owners), dtype=np.int32)
     of_cell[mate[inside]] = np.arange(len(inside), dtype=np.int32)
     faces = _Faces(start, lists, cell_of[owners], cell_of[mate[inside]], half.first, of_cell)
-    scratch = np.zeros((n_cells, 3)), np.zeros(n_cells, dtype=np.int32)
-    link(turn_outwards)(points, start, lists, faces.owner, faces.neighbour, *scratch)
+    centres, areas = _face_geometry(points, faces)
+    middles = _cell_middles(centres, faces)
+    owner, neighbour = faces.owner, faces.neighbour
+    for low in range(0, len(owner), _CHUNK):
+        part = slice(low, low + _CHUNK)
+        ahead = centres[part] - middles[owner[part]]
+        beyond = neighbour[part]
+        ahead[: len(beyond)] = middles[beyond] - middles[owner[part][: len(beyond)]]
+        inwards = low + np.flatnonzero(np.einsum("fi,fi->f", areas[part], ahead) < 0.0)
+        sizes = start[inwards + 1] - start[inwards]
+        backwards = np.repeat(start[inwards] + start[inwards + 1] - 1, sizes)
+        places = _ragged(start[inwards], sizes)
+        lists[places] = lists[backwards - places]
     return faces
+
+
+def _face_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
+    """Face centres and area vectors."""
+    centres, areas = np.empty((len(faces.owner), 3)), np.empty((len(faces.owner), 3))
+    link(measure_faces)(points, faces.start, faces.points, centres, areas)
+    return centres, areas
+
+
+def _cell_middles(face_centres: Floats, faces: _Faces) -> Floats:
+    """Means of the centres of each cell's faces."""
+    middles = np.zeros((len(faces.first) - 1, 3))
+    for cells in (faces.owner, faces.neighbour):
+        link(add_at)(cells, face_centres, middles)
+    return middles / np.diff(faces.first)[:, None]
+
+
+def _cell_geometry(face_centres: Floats, areas: Floats, faces: _Faces) -> tuple[Floats, Floats]:
+    """Cell centres and volumes, by pyramids about the mean of the face centres."""
+    middles = _cell_middles(face_centres, faces)
+    moments = np.zeros((len(middles), 4))
+    for cells, sign in ((faces.owner, 1.0), (faces.neighbour, -1.0)):
+        for low in range(0, len(cells), _CHUNK):
+            own = cells[low : low + _CHUNK]
+            part = slice(low, low + len(own))
+            arms = face_centres[part] - middles[own]
+            volumes = sign / 3.0 * np.einsum("fi,fi->f", areas[part], arms)
+            link(add_at)(own, np.column_stack([volumes, (0.75 * volumes)[:, None] * arms]), moments)
+    volumes = moments[:, 0].copy()
+    return middles + moments[:, 1:] / np.where(volumes == 0.0, np.inf, volumes)[:, None], volumes
 
 
 def _by_patch(faces: _Faces, order: _Index) -> _Faces:

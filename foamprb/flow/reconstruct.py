@@ -24,7 +24,7 @@ from foamprb.compile import link
 from foamprb.flow.coupling import Coupling
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.patch import WALLS
-from foamprb.flow.stencils import add_directions, fit_gradients, group, mean_series
+from foamprb.flow.stencils import mean_series, sum_differences
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]
 
@@ -299,14 +299,15 @@ class _Gradient:
             np.concatenate([neighbour, inner, numbers]),
             n,
         )
-        matrix = _directions(sites, self._around, n)
+        matrix = np.empty((n, 3, 3))
+        self._sums(sites, matrix)
         open_cells = np.flatnonzero(_nearly_singular(matrix, least))
         if len(open_cells):
             start, columns = self._around
             more = _second_neighbours(inner, neighbour, n, open_cells)
             rows = np.repeat(np.arange(n), np.diff(start))
             self._around = _grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
-            matrix = _directions(sites, self._around, n)
+            self._sums(sites, matrix)
         self._inverse = _invert(matrix, least)
 
     def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
@@ -314,9 +315,17 @@ class _Gradient:
 
         The part of the second derivatives ``bends`` (n_cells, m, 6) in the values is taken off.
         """
+        self._sums(values, gradients, low, bends)
+        for first in range(0, len(gradients), _CHUNK):
+            part = gradients[first : first + _CHUNK]
+            part[:] = part @ self._inverse[low + first : low + first + len(part)]
+
+    def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
+        """The right side of the normal equations; their matrix, Σ e ⊗ e, if the values are the places."""
         if bends is None:
             bends = np.empty((0, values.shape[1], 6))
-        link(fit_gradients)(self._sites, *self._around, self._inverse, values, bends, low, gradients)
+        sums[:] = 0.0
+        link(sum_differences)(self._sites, *self._around, values, bends, low, sums)
 
 
 def _continued(
@@ -329,17 +338,11 @@ def _continued(
 
 
 def _grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
-    """Columns by row, in their order, and where each of the n rows begins."""
-    start, grouped = np.zeros(n + 1, dtype=np.int32), np.empty(len(columns), dtype=np.int32)
-    link(group)(rows.astype(np.int32, copy=False), columns.astype(np.int32, copy=False), start, grouped)
-    return start, grouped
-
-
-def _directions(sites: Floats, around: tuple[Ints, Ints], n: int) -> Floats:
-    """Sum of e ⊗ e over the unit vectors e from each of n cells to the sites around it, (n, 3, 3)."""
-    matrix = np.zeros((n, 3, 3))
-    link(add_directions)(sites, *around, matrix)
-    return matrix
+    """Where each of n rows begins, and the columns by row, in their order."""
+    # With a column of its own for each entry the conversion is a counting sort, and loses none.
+    entries = np.arange(len(rows), dtype=np.int32)
+    matrix = sparse.csr_array((columns.astype(np.int32, copy=False), (rows, entries)), shape=(n, len(rows)))
+    return matrix.indptr.astype(np.int32, copy=False), matrix.data
 
 
 def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: _Index) -> tuple[_Index, _Index]:

@@ -1,4 +1,4 @@
-"""Compiled loops over what surrounds a cell or a point: least-squares gradients, Taylor series.
+"""Compiled loops over what surrounds a cell or a point: differences, Taylor series.
 
 Sites are places with values. Those around row r are ``columns[start[r]]`` to ``columns[start[r + 1] - 1]``,
 int32; the first sites are the cell centres, so that the row of a cell is also its own site. Six second
@@ -17,85 +17,37 @@ from foamprb.body.tensor import Vector
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int32]
 
-__all__ = ["add_directions", "fit_gradients", "group", "mean_series"]
+__all__ = ["mean_series", "sum_differences"]
 
 
-def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
-    """Put values by their keys, in their order: those of key k from ``start[k]`` to ``start[k + 1] - 1``.
-
-    ``start`` (n_keys + 1,) holds zeros.
-    """
-    n = start.shape[0] - 1
-    for i in range(keys.shape[0]):
-        start[keys[i] + 1] += 1
-    for k in range(n):
-        start[k + 1] += start[k]
-    for i in range(keys.shape[0]):
-        k = keys[i]
-        grouped[start[k]] = values[i]
-        start[k] += 1
-    for k in range(n, 0, -1):
-        start[k] = start[k - 1]
-    start[0] = 0
-
-
-def add_directions(sites: Floats, start: Ints, columns: Ints, matrix: Floats) -> None:
-    """Add e ⊗ e over the unit vectors e from each cell to the sites around it to ``matrix`` (n, 3, 3)."""
-    for c in range(matrix.shape[0]):
-        for k in range(start[c], start[c + 1]):
-            d = _arm(sites, columns[k], sites, c)
-            length = np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
-            s = 1.0 / max(length, 1e-300)
-            e = (s * d[0], s * d[1], s * d[2])
-            for i in range(3):
-                for j in range(3):
-                    matrix[c, i, j] += e[i] * e[j]
-
-
-def fit_gradients(
-    sites: Floats,
-    start: Ints,
-    columns: Ints,
-    inverse: Floats,
-    values: Floats,
-    bends: Floats,
-    low: int,
-    gradients: Floats,
+def sum_differences(
+    sites: Floats, start: Ints, columns: Ints, values: Floats, bends: Floats, low: int, sums: Floats
 ) -> None:
-    """Least-squares gradients at cells, differences weighted by the inverse square of the distance.
+    """Sums over the sites s around cells c of (f_s − f_c) d/|d|², with d from c to s.
 
     Parameters
     ----------
-    inverse
-        (n_cells, 3, 3), the inverse of what :func:`add_directions` gives.
     values
-        (n_sites, m) of m fields.
+        (n_sites, m) of m fields f.
     bends
         (n_cells, m, 6) second derivatives, whose part in the differences is taken off; none if it is empty.
-    low, gradients
-        For the results (n, m, 3) of the cells from ``low`` on.
+    low, sums
+        For the results (n, m, 3) of the cells from ``low`` on; holds zeros.
     """
-    m, bent = values.shape[1], bends.shape[0] > 0
-    for i in range(gradients.shape[0]):
+    bent = bends.shape[0] > 0
+    for i in range(sums.shape[0]):
         c = low + i
-        for f in range(m):
-            for j in range(3):
-                gradients[i, f, j] = 0.0
         for k in range(start[c], start[c + 1]):
             s = columns[k]
             d = _arm(sites, s, sites, c)
             square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
             weight = 1.0 / square if square > 0.0 else 0.0
-            for f in range(m):
+            for f in range(sums.shape[1]):
                 difference = values[s, f] - values[c, f]
                 if bent:
                     difference -= _half_bend(bends, c, f, d)
                 for j in range(3):
-                    gradients[i, f, j] += weight * difference * d[j]
-        for f in range(m):
-            x, y, z = gradients[i, f, 0], gradients[i, f, 1], gradients[i, f, 2]
-            for j in range(3):
-                gradients[i, f, j] = inverse[c, j, 0] * x + inverse[c, j, 1] * y + inverse[c, j, 2] * z
+                    sums[i, f, j] += weight * difference * d[j]
 
 
 def mean_series(
@@ -116,16 +68,12 @@ def mean_series(
     u, l, h
         Values (n_sites, 3), first (n_sites, 3, 3) and second derivatives (n_sites, 3, 6); l_ij = ∂u_i/∂x_j.
     u_points, l_points
-        For the results (n, 3) and (n, 3, 3); rows without sites are left alone.
+        For the results (n, 3) and (n, 3, 3); hold zeros.
     """
     for p in range(points.shape[0]):
         if start[p] == start[p + 1]:
             continue
         total = 0.0
-        for i in range(3):
-            u_points[p, i] = 0.0
-            for j in range(3):
-                l_points[p, i, j] = 0.0
         for k in range(start[p], start[p + 1]):
             s = columns[k]
             d = _arm(points, p, sites, s)
