@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import KDTree
 
-from foamprb.body.tensor import Tensor, det, inverse, trace
+from foamprb.body import tensor
 from foamprb.compile import link
 from foamprb.flow.coupling import Coupling
 from foamprb.flow.mesh import Floats, Ints, Mesh
@@ -308,7 +308,9 @@ class _Gradient:
             rows = np.repeat(np.arange(n), np.diff(start))
             self._around = _grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
             self._sums(sites, matrix)
-        self._inverse = _invert(matrix, least)
+        # Six components of each, as it is symmetric.
+        inverse = _invert(matrix, least)
+        self._inverse = np.stack([inverse[:, j, k] for j, k in _PAIRS], axis=1)
 
     def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
         """Gradients (n, m, 3) of m fields at n cells from ``low`` on, from the sites' values (n_sites, m).
@@ -318,7 +320,7 @@ class _Gradient:
         self._sums(values, gradients, low, bends)
         for first in range(0, len(gradients), _CHUNK):
             part = gradients[first : first + _CHUNK]
-            part[:] = part @ self._inverse[low + first : low + first + len(part)]
+            part[:] = part @ self._inverse[low + first : low + first + len(part)][:, _PAIR_OF]
 
     def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
         """The right side of the normal equations; their matrix, Σ e ⊗ e, if the values are the places."""
@@ -360,7 +362,7 @@ def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: _Index) -> t
 def _nearly_singular(matrix: Floats, least: float) -> _Mask:
     """Which of the matrices (n, 3, 3) have their smallest eigenvalue below ``least`` of the largest."""
     T = _components(matrix)
-    suspect: _Mask = det(T) <= 27.0 * least * (trace(T) / 3.0) ** 3
+    suspect: _Mask = tensor.det(T) <= 27.0 * least * (tensor.trace(T) / 3.0) ** 3
     # With eigenvalues λ₁ ≥ λ₂ ≥ λ₃, det ≤ λ₃ λ₁² and λ₁ ≤ 3·(trace/3): no λ₃ < least·λ₁ goes unsuspected.
     values = np.linalg.eigvalsh(matrix[suspect])
     suspect[suspect] = values[:, 0] <= least * values[:, 2]
@@ -374,7 +376,7 @@ def _invert(matrix: Floats, least: float) -> Floats:
         part = matrix[low : low + _CHUNK]
         poor = _nearly_singular(part, least)
         safe = np.where(poor[:, None, None], np.eye(3), part)
-        result[low : low + _CHUNK] = np.stack(inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
+        result[low : low + _CHUNK] = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
         values, vectors = np.linalg.eigh(part[poor])
         kept = values > least * values[:, -1:]
         scaled = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
@@ -382,7 +384,7 @@ def _invert(matrix: Floats, least: float) -> Floats:
     return result
 
 
-def _components(matrix: Floats) -> Tensor:
+def _components(matrix: Floats) -> tensor.Tensor:
     """The nine columns of matrices (n, 3, 3)."""
     T = matrix.reshape(-1, 9).T
     return T[0], T[1], T[2], T[3], T[4], T[5], T[6], T[7], T[8]
