@@ -20,12 +20,13 @@ __all__ = [
     "OPEN",
     "TWISTED",
     "add_at",
+    "add_pyramids",
     "choose_bases",
+    "gather_faces",
     "list_faces",
     "measure_faces",
     "pair_faces",
     "split_cells",
-    "take_faces",
 ]
 
 OPEN = 1
@@ -135,12 +136,43 @@ def _alike(start: Ints, lists: Ints, a: int, b: int) -> bool:
     return True
 
 
-def take_faces(start: Ints, lists: Ints, chosen: NDArray[np.int64], new_start: Ints, new_lists: Ints) -> None:
-    """Copy some faces' points; ``new_start`` tells where to."""
-    for i in range(chosen.shape[0]):
-        begin = start[chosen[i]]
-        for k in range(new_start[i + 1] - new_start[i]):
-            new_lists[new_start[i] + k] = lists[begin + k]
+def gather_faces(
+    first: Ints,
+    half_start: Ints,
+    half_lists: Ints,
+    mate: Ints,
+    start: Ints,
+    lists: Ints,
+    owner: Ints,
+    neighbour: Ints,
+    of_cell: Ints,
+) -> None:
+    """List each face once, those between two cells first, in the order of the cells.
+
+    Parameters
+    ----------
+    first, half_start, half_lists, mate
+        What :func:`list_faces` and :func:`pair_faces` give.
+    start, lists, owner, neighbour
+        For the faces, their owners, and their neighbours (n_internal,).
+    of_cell
+        For the faces of each cell, in the order in which the cell names them.
+    """
+    face = at = 0
+    for outside in range(2):
+        for c in range(first.shape[0] - 1):
+            for h in range(first[c], first[c + 1]):
+                if mate[h] == h if outside == 1 else mate[h] > h:
+                    start[face] = at
+                    for k in range(half_start[h], half_start[h + 1]):
+                        lists[at] = half_lists[k]
+                        at += 1
+                    owner[face], of_cell[h] = c, face
+                    face += 1
+                elif mate[h] < h and outside == 0:
+                    of_cell[h] = of_cell[mate[h]]
+                    neighbour[of_cell[h]] = c
+    start[face] = at
 
 
 def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:
@@ -182,6 +214,29 @@ def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
     for i in range(cells.shape[0]):
         for k in range(sums.shape[1]):
             sums[cells[i], k] += values[i, k]
+
+
+def add_pyramids(
+    cells: Ints,
+    sign: float,
+    centres: Floats,
+    areas: Floats,
+    middles: Floats,
+    volumes: Floats,
+    moments: Floats,
+) -> None:
+    """Add the pyramids over faces to the volumes (n_cells,) and first moments (n_cells, 3) about the middles.
+
+    ``sign`` is −1 where the faces turn inwards.
+    """
+    for f in range(cells.shape[0]):
+        c = cells[f]
+        volume = 0.0
+        for i in range(3):
+            volume += sign / 3.0 * areas[f, i] * (centres[f, i] - middles[c, i])
+        volumes[c] += volume
+        for i in range(3):
+            moments[c, i] += 0.75 * volume * (centres[f, i] - middles[c, i])
 
 
 def choose_bases(

@@ -113,7 +113,8 @@ def build_tree(boxes: Floats) -> tuple[Floats, Ints]:
     tree = np.empty((2 * leaves, 6))
     empty = np.array([np.inf] * 3 + [-np.inf] * 3)
     tree[0] = empty
-    padded = np.concatenate([boxes, empty[None, :]])[cells]
+    padded = boxes[cells]
+    padded[cells < 0] = empty
     tree[leaves:, :3] = padded[:, :, :3].min(axis=1)
     tree[leaves:, 3:] = padded[:, :, 3:].max(axis=1)
     for level in reversed(range(depth)):

@@ -8,7 +8,7 @@ piecewise linear on them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
@@ -24,12 +24,13 @@ from foamprb.flow.faces import (
     OPEN,
     TWISTED,
     add_at,
+    add_pyramids,
     choose_bases,
+    gather_faces,
     list_faces,
     measure_faces,
     pair_faces,
     split_cells,
-    take_faces,
 )
 from foamprb.flow.patch import Patch
 
@@ -203,11 +204,9 @@ def _assemble(
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
 
-    face_centres, areas = _face_geometry(points, faces)
-    boundary_centres, boundary_areas = face_centres[n_internal:].copy(), areas[n_internal:].copy()
+    boundary_centres, boundary_areas = _boundary_geometry(points, faces)
     patches, couplings = couple(patches, patch_start, boundary_centres, boundary_areas, source)
-    centres, volumes = _cell_geometry(face_centres, areas, faces)
-    del face_centres, areas
+    centres, volumes = _cell_geometry(points, faces)
     inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
 
     cell_start, tets, neighbours, triangle_tet, astray = _tetrahedra(faces, len(points), source)
@@ -407,26 +406,21 @@ def _part_points(
 
 def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
     """Put interior faces first and let every list turn outwards from its owner, as far as can be told."""
-    cell_of = half.cells()
-    at = np.arange(len(mate), dtype=np.int32)
-    inside, outside = np.flatnonzero(mate > at), np.flatnonzero(mate == at)
-    owners = np.concatenate([inside, outside])
-    start = _int32(_starts(np.diff(half.start)[owners]))
-    lists = np.empty(start[-1], dtype=np.int32)
-    link(take_faces)(half.start, half.points, owners, start, lists)
-    of_cell = np.empty(len(mate), dtype=np.int32)
-    of_cell[owners] = np.arange(len(owners), dtype=np.int32)
-    of_cell[mate[inside]] = np.arange(len(inside), dtype=np.int32)
-    faces = _Faces(start, lists, cell_of[owners], cell_of[mate[inside]], half.first, of_cell)
-    centres, areas = _face_geometry(points, faces)
-    middles = _cell_middles(centres, faces)
-    owner, neighbour = faces.owner, faces.neighbour
-    for low in range(0, len(owner), _CHUNK):
-        part = slice(low, low + _CHUNK)
-        ahead = centres[part] - middles[owner[part]]
-        beyond = neighbour[part]
-        ahead[: len(beyond)] = middles[beyond] - middles[owner[part][: len(beyond)]]
-        inwards = low + np.flatnonzero(np.einsum("fi,fi->f", areas[part], ahead) < 0.0)
+    single = np.flatnonzero(mate == np.arange(len(mate), dtype=np.int32))
+    n_internal = (len(mate) - len(single)) // 2
+    n_entries = (len(half.points) + int((half.start[single + 1] - half.start[single]).sum())) // 2
+    n_faces = n_internal + len(single)
+    start, lists, owner, neighbour, of_cell = (
+        np.empty(n, dtype=np.int32) for n in (n_faces + 1, n_entries, n_faces, n_internal, len(mate))
+    )
+    link(gather_faces)(*half, mate, start, lists, owner, neighbour, of_cell)
+    faces = _Faces(start, lists, owner, neighbour, half.first, of_cell)
+    middles = _cell_middles(points, faces)
+    for part, centres, areas in _measured(points, faces):
+        own, beyond = owner[part], neighbour[part]
+        ahead = centres - middles[own]
+        ahead[: len(beyond)] = middles[beyond] - middles[own[: len(beyond)]]
+        inwards = part.start + np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0)
         sizes = start[inwards + 1] - start[inwards]
         backwards = np.repeat(start[inwards] + start[inwards + 1] - 1, sizes)
         places = _ragged(start[inwards], sizes)
@@ -434,34 +428,46 @@ def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
     return faces
 
 
-def _face_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
-    """Face centres and area vectors."""
-    centres, areas = np.empty((len(faces.owner), 3)), np.empty((len(faces.owner), 3))
-    link(measure_faces)(points, faces.start, faces.points, centres, areas)
+def _measured(points: Floats, faces: _Faces, first: int = 0) -> Iterator[tuple[slice, Floats, Floats]]:
+    """Centres and area vectors of the faces from the first on, part by part."""
+    n = len(faces.owner)
+    for low in range(first, n, _CHUNK):
+        part = slice(low, min(low + _CHUNK, n))
+        centres, areas = np.empty((part.stop - low, 3)), np.empty((part.stop - low, 3))
+        link(measure_faces)(points, faces.start[low : part.stop + 1], faces.points, centres, areas)
+        yield part, centres, areas
+
+
+def _boundary_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
+    """Centres and area vectors of the boundary faces."""
+    n_internal = len(faces.neighbour)
+    centres, areas = np.empty((2, len(faces.owner) - n_internal, 3))
+    for part, *measured in _measured(points, faces, n_internal):
+        to = slice(part.start - n_internal, part.stop - n_internal)
+        centres[to], areas[to] = measured
     return centres, areas
 
 
-def _cell_middles(face_centres: Floats, faces: _Faces) -> Floats:
+def _cell_middles(points: Floats, faces: _Faces) -> Floats:
     """Means of the centres of each cell's faces."""
     middles = np.zeros((len(faces.first) - 1, 3))
-    for cells in (faces.owner, faces.neighbour):
-        link(add_at)(cells, face_centres, middles)
-    return middles / np.diff(faces.first)[:, None]
+    for part, centres, _ in _measured(points, faces):
+        for cells in (faces.owner[part], faces.neighbour[part]):
+            link(add_at)(cells, centres, middles)
+    middles /= np.diff(faces.first)[:, None]
+    return middles
 
 
-def _cell_geometry(face_centres: Floats, areas: Floats, faces: _Faces) -> tuple[Floats, Floats]:
+def _cell_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
     """Cell centres and volumes, by pyramids about the mean of the face centres."""
-    middles = _cell_middles(face_centres, faces)
-    moments = np.zeros((len(middles), 4))
-    for cells, sign in ((faces.owner, 1.0), (faces.neighbour, -1.0)):
-        for low in range(0, len(cells), _CHUNK):
-            own = cells[low : low + _CHUNK]
-            part = slice(low, low + len(own))
-            arms = face_centres[part] - middles[own]
-            volumes = sign / 3.0 * np.einsum("fi,fi->f", areas[part], arms)
-            link(add_at)(own, np.column_stack([volumes, (0.75 * volumes)[:, None] * arms]), moments)
-    volumes = moments[:, 0].copy()
-    return middles + moments[:, 1:] / np.where(volumes == 0.0, np.inf, volumes)[:, None], volumes
+    middles = _cell_middles(points, faces)
+    moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
+    for part, centres, areas in _measured(points, faces):
+        for cells, sign in ((faces.owner[part], 1.0), (faces.neighbour[part], -1.0)):
+            link(add_pyramids)(cells, sign, centres, areas, middles, volumes, moments)
+    moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
+    moments += middles
+    return moments, volumes
 
 
 def _by_patch(faces: _Faces, order: _Index) -> _Faces:

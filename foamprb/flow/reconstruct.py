@@ -11,7 +11,7 @@ image, whose values are known, and which counts as a neighbour like any other.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -24,7 +24,7 @@ from foamprb.compile import link
 from foamprb.flow.coupling import Coupling
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.patch import WALLS
-from foamprb.flow.stencils import mean_series, sum_differences
+from foamprb.flow.stencils import group, mean_series, sum_differences
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]
 
@@ -293,24 +293,33 @@ class _Gradient:
     ) -> None:
         n = mesh.n_cells
         inner, neighbour = mesh.owner[: mesh.n_internal], mesh.neighbour
-        self._sites = sites
+        self._n, self._sites = n, sites
         self._around = _grouped(
             np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
             np.concatenate([neighbour, inner, numbers]),
             n,
         )
-        matrix = np.empty((n, 3, 3))
-        self._sums(sites, matrix)
-        open_cells = np.flatnonzero(_nearly_singular(matrix, least))
+        open_cells = np.concatenate(
+            [low + np.flatnonzero(_nearly_singular(matrix, least)) for low, matrix in self._matrices()]
+        )
         if len(open_cells):
             start, columns = self._around
             more = _second_neighbours(inner, neighbour, n, open_cells)
             rows = np.repeat(np.arange(n), np.diff(start))
             self._around = _grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
-            self._sums(sites, matrix)
         # Six components of each, as it is symmetric.
-        inverse = _invert(matrix, least)
-        self._inverse = np.stack([inverse[:, j, k] for j, k in _PAIRS], axis=1)
+        self._inverse = np.empty((n, 6))
+        for low, matrix in self._matrices():
+            inverse = _invert(matrix, least)
+            for pair, (j, k) in enumerate(_PAIRS):
+                self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
+
+    def _matrices(self) -> Iterator[tuple[int, Floats]]:
+        """The matrices (n, 3, 3) of the normal equations, Σ e ⊗ e, from each low on."""
+        for low in range(0, self._n, _CHUNK):
+            matrix = np.empty((min(_CHUNK, self._n - low), 3, 3))
+            self._sums(self._sites, matrix, low)
+            yield low, matrix
 
     def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
         """Gradients (n, m, 3) of m fields at n cells from ``low`` on, from the sites' values (n_sites, m).
@@ -323,7 +332,7 @@ class _Gradient:
             part[:] = part @ self._inverse[low + first : low + first + len(part)][:, _PAIR_OF]
 
     def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
-        """The right side of the normal equations; their matrix, Σ e ⊗ e, if the values are the places."""
+        """The right side of the normal equations."""
         if bends is None:
             bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
@@ -341,10 +350,9 @@ def _continued(
 
 def _grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
     """Where each of n rows begins, and the columns by row, in their order."""
-    # With a column of its own for each entry the conversion is a counting sort, and loses none.
-    entries = np.arange(len(rows), dtype=np.int32)
-    matrix = sparse.csr_array((columns.astype(np.int32, copy=False), (rows, entries)), shape=(n, len(rows)))
-    return matrix.indptr.astype(np.int32, copy=False), matrix.data
+    start, grouped = np.zeros(n + 1, dtype=np.int32), np.empty(len(columns), dtype=np.int32)
+    link(group)(rows.astype(np.int32, copy=False), columns.astype(np.int32, copy=False), start, grouped)
+    return start, grouped
 
 
 def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: _Index) -> tuple[_Index, _Index]:
@@ -371,16 +379,13 @@ def _nearly_singular(matrix: Floats, least: float) -> _Mask:
 
 def _invert(matrix: Floats, least: float) -> Floats:
     """Inverses of symmetric positive semidefinite (n, 3, 3), pseudo-inverses of nearly singular ones."""
-    result = np.empty_like(matrix)
-    for low in range(0, len(matrix), _CHUNK):
-        part = matrix[low : low + _CHUNK]
-        poor = _nearly_singular(part, least)
-        safe = np.where(poor[:, None, None], np.eye(3), part)
-        result[low : low + _CHUNK] = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
-        values, vectors = np.linalg.eigh(part[poor])
-        kept = values > least * values[:, -1:]
-        scaled = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
-        result[low : low + _CHUNK][poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
+    poor = _nearly_singular(matrix, least)
+    safe = np.where(poor[:, None, None], np.eye(3), matrix)
+    result = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
+    values, vectors = np.linalg.eigh(matrix[poor])
+    kept = values > least * values[:, -1:]
+    scaled = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
+    result[poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
     return result
 
 

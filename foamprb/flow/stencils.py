@@ -17,7 +17,26 @@ from foamprb.body.tensor import Vector
 Floats: TypeAlias = NDArray[np.float64]
 Ints: TypeAlias = NDArray[np.int32]
 
-__all__ = ["mean_series", "sum_differences"]
+__all__ = ["group", "mean_series", "sum_differences"]
+
+
+def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
+    """Put values by their keys, in their order: those of key k from ``start[k]`` to ``start[k + 1] - 1``.
+
+    ``start`` (n_keys + 1,) holds zeros.
+    """
+    n = start.shape[0] - 1
+    for i in range(keys.shape[0]):
+        start[keys[i] + 1] += 1
+    for k in range(n):
+        start[k + 1] += start[k]
+    for i in range(keys.shape[0]):
+        k = keys[i]
+        grouped[start[k]] = values[i]
+        start[k] += 1
+    for k in range(n, 0, -1):
+        start[k] = start[k - 1]
+    start[0] = 0
 
 
 def sum_differences(

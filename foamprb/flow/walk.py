@@ -490,7 +490,7 @@ class MeshFlow:
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
         nodes = np.zeros((len(u), 16))
-        nodes[:, :3] = mesh.nodes
+        nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
         self.span = (-np.inf, np.inf)
