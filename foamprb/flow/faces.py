@@ -185,14 +185,18 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
                 x += points[lists[begin + k], i]
             centres[f, i], areas[f, i] = x / size, 0.0
         for k in range(size):
-            _, n = _edge(points, lists[begin + k], lists[begin + (k + 1) % size], centres, f)
+            _, n = _edge(
+                points, lists[begin + k], lists[begin + k + 1 if k + 1 < size else begin], centres, f
+            )
             for i in range(3):
                 areas[f, i] += 0.5 * n[i]
         if size == 3:
             continue
         weight, x, y, z = 0.0, 0.0, 0.0, 0.0
         for k in range(size):
-            d, n = _edge(points, lists[begin + k], lists[begin + (k + 1) % size], centres, f)
+            d, n = _edge(
+                points, lists[begin + k], lists[begin + k + 1 if k + 1 < size else begin], centres, f
+            )
             w = n[0] * areas[f, 0] + n[1] * areas[f, 1] + n[2] * areas[f, 2]
             weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
         # A face folded onto itself has no area to weigh with; its mean is as good a centre as any.
@@ -360,8 +364,9 @@ def split_cells(
                     across = face_tet[f] + size - 3 - k
                     neighbours[tet + k, 0], neighbours[across, 0] = across, tet + k
             for k in range(size):
-                i, j = (k, k + 1) if owned else (size - k, size - 1 - k)
-                a, b = lists[begin + i % size], lists[begin + j % size]
+                after = k + 1 if k + 1 < size else 0
+                i, j = (k, after) if owned else (size - k if k > 0 else 0, size - 1 - k)
+                a, b = lists[begin + i], lists[begin + j]
                 # The first edge of a fan is opposite vertex 3 of its first tetrahedron, the last opposite
                 # vertex 2 of its last, every other opposite vertex 1.
                 slot = 3 if k == 0 else 2 if k == size - 1 else 1

@@ -175,11 +175,11 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         mate[mate[split]] = mate[split]
         mate[split] = split
         points, half, cell_points = _part_points(points, half, mate, cell_point_start, cell_points)
-    faces = _order_faces(points, half, mate)
+    faces, middles = _order_faces(points, half, mate)
     del half, mate
     for _ in range(_MOST_TURNS):
         mesh, astray = _assemble(
-            points, grid.points.dtype, faces, (cell_point_start, cell_points), surfaces, source
+            points, grid.points.dtype, faces, middles, (cell_point_start, cell_points), surfaces, source
         )
         if len(astray) == 0:
             return mesh
@@ -194,6 +194,7 @@ def _assemble(
     points: Floats,
     dtype: Any,
     faces: _Faces,
+    middles: Floats,
     cells: tuple[Ints, Ints],
     surfaces: Sequence[PatchSurface] | None,
     source: str,
@@ -206,7 +207,7 @@ def _assemble(
 
     boundary_centres, boundary_areas = _boundary_geometry(points, faces)
     patches, couplings = couple(patches, patch_start, boundary_centres, boundary_areas, source)
-    centres, volumes = _cell_geometry(points, faces)
+    centres, volumes = _cell_geometry(points, faces, middles)
     inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
 
     cell_start, tets, neighbours, triangle_tet, astray = _tetrahedra(faces, len(points), source)
@@ -404,8 +405,11 @@ def _part_points(
     return np.concatenate([points, points[pairs[0, copy]]]), half._replace(points=lists), moved
 
 
-def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
-    """Put interior faces first and let every list turn outwards from its owner, as far as can be told."""
+def _order_faces(points: Floats, half: _Halves, mate: Ints) -> tuple[_Faces, Floats]:
+    """Put interior faces first and let every list turn outwards from its owner, as far as can be told.
+
+    Returns the middles of the cells as well.
+    """
     single = np.flatnonzero(mate == np.arange(len(mate), dtype=np.int32))
     n_internal = (len(mate) - len(single)) // 2
     n_entries = (len(half.points) + int((half.start[single + 1] - half.start[single]).sum())) // 2
@@ -425,16 +429,16 @@ def _order_faces(points: Floats, half: _Halves, mate: Ints) -> _Faces:
         backwards = np.repeat(start[inwards] + start[inwards + 1] - 1, sizes)
         places = _ragged(start[inwards], sizes)
         lists[places] = lists[backwards - places]
-    return faces
+    return faces, middles
 
 
 def _measured(points: Floats, faces: _Faces, first: int = 0) -> Iterator[tuple[slice, Floats, Floats]]:
     """Centres and area vectors of the faces from the first on, part by part."""
-    n = len(faces.owner)
+    n, measure = len(faces.owner), link(measure_faces)
     for low in range(first, n, _CHUNK):
         part = slice(low, min(low + _CHUNK, n))
         centres, areas = np.empty((part.stop - low, 3)), np.empty((part.stop - low, 3))
-        link(measure_faces)(points, faces.start[low : part.stop + 1], faces.points, centres, areas)
+        measure(points, faces.start[low : part.stop + 1], faces.points, centres, areas)
         yield part, centres, areas
 
 
@@ -450,21 +454,21 @@ def _boundary_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
 
 def _cell_middles(points: Floats, faces: _Faces) -> Floats:
     """Means of the centres of each cell's faces."""
-    middles = np.zeros((len(faces.first) - 1, 3))
+    middles, add = np.zeros((len(faces.first) - 1, 3)), link(add_at)
     for part, centres, _ in _measured(points, faces):
         for cells in (faces.owner[part], faces.neighbour[part]):
-            link(add_at)(cells, centres, middles)
+            add(cells, centres, middles)
     middles /= np.diff(faces.first)[:, None]
     return middles
 
 
-def _cell_geometry(points: Floats, faces: _Faces) -> tuple[Floats, Floats]:
-    """Cell centres and volumes, by pyramids about the mean of the face centres."""
-    middles = _cell_middles(points, faces)
+def _cell_geometry(points: Floats, faces: _Faces, middles: Floats) -> tuple[Floats, Floats]:
+    """Cell centres and volumes, by pyramids about the means of the face centres."""
+    add = link(add_pyramids)
     moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
     for part, centres, areas in _measured(points, faces):
         for cells, sign in ((faces.owner[part], 1.0), (faces.neighbour[part], -1.0)):
-            link(add_pyramids)(cells, sign, centres, areas, middles, volumes, moments)
+            add(cells, sign, centres, areas, middles, volumes, moments)
     moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
     moments += middles
     return moments, volumes

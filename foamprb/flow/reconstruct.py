@@ -80,11 +80,11 @@ class Reconstruction:
         self._of_images = slice(n + len(self._valued), len(self._sites))
         self._of_faces = slice(n, self._of_images.start)
         faces = np.concatenate([self._valued, images.faces])
-        numbers = np.arange(n, len(self._sites))
+        numbers = np.arange(n, len(self._sites), dtype=np.int32)
         self._gradient = _Gradient(mesh, self._sites, faces, numbers)
         imaged = len(self._valued)
         self._bend = _Gradient(mesh, self._sites, faces[imaged:], numbers[imaged:], least=0.01)
-        rows, columns = _face_points(mesh, faces)
+        rows, columns = (part.astype(np.int32) for part in _face_points(mesh, faces))
         of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
         self._around = _grouped(
             np.concatenate([mesh.cell_points, rows]), np.concatenate([of_cells, n + columns]), mesh.n_points
@@ -288,12 +288,10 @@ class _Gradient:
     one of a mesh one cell thick.
     """
 
-    def __init__(
-        self, mesh: Mesh, sites: Floats, faces: _Index, numbers: _Index, least: float = 1e-6
-    ) -> None:
+    def __init__(self, mesh: Mesh, sites: Floats, faces: _Index, numbers: Ints, least: float = 1e-6) -> None:
         n = mesh.n_cells
         inner, neighbour = mesh.owner[: mesh.n_internal], mesh.neighbour
-        self._n, self._sites = n, sites
+        self._n, self._sites, self._kernel = n, sites, link(sum_differences)
         self._around = _grouped(
             np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
             np.concatenate([neighbour, inner, numbers]),
@@ -336,7 +334,7 @@ class _Gradient:
         if bends is None:
             bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
-        link(sum_differences)(self._sites, *self._around, values, bends, low, sums)
+        self._kernel(self._sites, *self._around, values, bends, low, sums)
 
 
 def _continued(
