@@ -313,7 +313,7 @@ class _Gradient:
                 self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
 
     def _matrices(self) -> Iterator[tuple[int, Floats]]:
-        """The matrices (n, 3, 3) of the normal equations, Σ e ⊗ e, from each low on."""
+        """For some cells at a time, the first, and the normal equations' matrices Σ e ⊗ e (n, 3, 3)."""
         for low in range(0, self._n, _CHUNK):
             matrix = np.empty((min(_CHUNK, self._n - low), 3, 3))
             self._sums(self._sites, matrix, low)
@@ -330,7 +330,7 @@ class _Gradient:
             part[:] = part @ self._inverse[low + first : low + first + len(part)][:, _PAIR_OF]
 
     def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
-        """The right side of the normal equations."""
+        """The right side (n, m, 3) of the normal equations."""
         if bends is None:
             bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
