@@ -201,7 +201,7 @@ def _assemble(
 ) -> tuple[Mesh, _Index]:
     """The mesh, and cells of which two neighbouring faces turn against each other."""
     order, patches, patch_start = _assign_patches(points, dtype, faces, surfaces, source)
-    faces = _by_patch(faces, order)
+    _sort_boundary(faces, order)
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
 
@@ -474,17 +474,17 @@ def _cell_geometry(points: Floats, faces: _Faces, middles: Floats) -> tuple[Floa
     return moments, volumes
 
 
-def _by_patch(faces: _Faces, order: _Index) -> _Faces:
-    """A copy with the boundary faces in the given order."""
+def _sort_boundary(faces: _Faces, order: _Index) -> None:
+    """Put the boundary faces in the given order."""
     n_internal = len(faces.neighbour)
-    start, lists, owner = (part.copy() for part in faces[:3])
     ends, moved = _take_lists(faces.start, faces.points, n_internal + order)
-    start[n_internal:] = start[n_internal] + ends
-    lists[start[n_internal] :] = moved
-    owner[n_internal:] = owner[n_internal + order]
-    place = np.arange(len(owner), dtype=np.int32)
-    place[n_internal + order] = place[n_internal:].copy()
-    return faces._replace(start=start, points=lists, owner=owner, of_cell=place[faces.of_cell])
+    faces.start[n_internal:] = faces.start[n_internal] + ends
+    faces.points[faces.start[n_internal] :] = moved
+    faces.owner[n_internal:] = faces.owner[n_internal + order]
+    place = np.empty(len(order), dtype=np.int32)
+    place[order] = np.arange(n_internal, len(faces.owner), dtype=np.int32)
+    outside = np.flatnonzero(faces.of_cell >= n_internal)
+    faces.of_cell[outside] = place[faces.of_cell[outside] - n_internal]
 
 
 def _assign_patches(
