@@ -202,6 +202,8 @@ def _assemble(
     """The mesh, and cells of which two neighbouring faces turn against each other."""
     order, patches, patch_start = _assign_patches(points, dtype, faces, surfaces, source)
     _sort_boundary(faces, order)
+    # The bases of the fans must not depend on how often the faces were turned.
+    faces = faces._replace(points=faces.points.copy())
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
 
