@@ -5,7 +5,17 @@ import pytest
 import pyvista
 from hypothesis import given
 from hypothesis import strategies as st
-from test_flow_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches, polyhedra
+from test_flow_shapes import (
+    HEXAHEDRON_FACES,
+    KINDS,
+    block,
+    box_patches,
+    corners,
+    grid,
+    pipe,
+    pipe_patches,
+    polyhedra,
+)
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh import Patch, PatchSurface, build_mesh
@@ -213,6 +223,19 @@ def test_an_open_cell_is_refused():
     faces = [hexes[0][[0, 4, 7, 3]], hexes[0][[1, 2, 6, 5]], hexes[0][[0, 1, 5, 4]], hexes[0][[3, 7, 6, 2]]]
     with pytest.raises(InputError, match="1 cells are not closed"):
         build_mesh(polyhedra(points, [[*faces, hexes[0][[0, 3, 2, 1]]]]))
+
+
+def test_a_cell_with_too_few_points_is_refused():
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match="cell 0 has 6 points, but its type is hexahedron"):
+        build_mesh(grid(points, [(12, hexes[:, :6])]))
+
+
+def test_polyhedra_with_points_beyond_the_mesh_are_refused():
+    points, hexes = corners(1, 0.0)
+    faces = [hexes[0][list(face)] for face in HEXAHEDRON_FACES]
+    with pytest.raises(InputError, match="a cell names point 7, but there are 7 points"):
+        build_mesh(polyhedra(points[:7], [faces]))
 
 
 @pytest.mark.parametrize(("kind", "size"), [(11, 8), (9, 4)])

@@ -282,6 +282,20 @@ def test_near_walls_lists_all_that_are_near():
         assert near[start[cell] : start[cell + 1]].tolist() == np.flatnonzero(meets).tolist()
 
 
+def test_bodies_many_cells_wide_are_refused_before_memory_is_full(monkeypatch):
+    shape = block(8, 0.2)
+    flow = linear(build_mesh(shape, box_patches(shape)))
+    pairs = len(flow.arrays(0.2).near)
+    assert pairs > 8**3
+    flow.arrays(0.1)
+    monkeypatch.setattr("foamprb.flow.walk._MOST_NEAR", pairs - 1)
+    with pytest.raises(InputError, match=r"within 0.2 m .* but cells are 0\.12\d* m wide") as refused:
+        flow.arrays(0.2)
+    assert f"more than {pairs - 1} entries" in str(refused.value)
+    monkeypatch.setattr("foamprb.flow.walk._MOST_NEAR", pairs)
+    assert len(flow.arrays(0.2).near) == pairs
+
+
 def test_cells_and_patches_of_a_flow():
     shape = block(4, 0.0)
     flow = linear(build_mesh(shape, box_patches(shape)))

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foamprb.body.tensor import Vector
+from foamprb.compile import link
 from foamprb.flow.mesh import Floats, Ints, Mesh
 
 __all__ = ["TOLERANCE", "MeshArrays", "build_tree", "cell_boxes", "frame", "locate", "weights"]
@@ -61,12 +62,25 @@ def cell_boxes(mesh: Mesh) -> Floats:
 
     A box holds the cell's tetrahedra and is larger by the tolerance of :func:`locate`.
     """
-    corners = mesh.points[mesh.cell_points]
-    first = mesh.cell_point_start[:-1]
-    low = np.minimum(np.minimum.reduceat(corners, first), mesh.centres)
-    high = np.maximum(np.maximum.reduceat(corners, first), mesh.centres)
-    margin = 4.0 * TOLERANCE * (high - low).max(axis=1, keepdims=True)
-    return np.concatenate([low - margin, high + margin], axis=1)
+    boxes = np.empty((mesh.n_cells, 6))
+    link(_bound)(mesh.points, mesh.centres, mesh.cell_point_start, mesh.cell_points, boxes)
+    return boxes
+
+
+def _bound(points: Floats, centres: Floats, start: Ints, lists: Ints, boxes: Floats) -> None:
+    for c in range(boxes.shape[0]):
+        size = 0.0
+        for i in range(3):
+            low = high = centres[c, i]
+            for k in range(start[c], start[c + 1]):
+                x = points[lists[k], i]
+                low, high = min(low, x), max(high, x)
+            boxes[c, i], boxes[c, i + 3] = low, high
+            size = max(size, high - low)
+        margin = 4.0 * TOLERANCE * size
+        for i in range(3):
+            boxes[c, i] -= margin
+            boxes[c, i + 3] += margin
 
 
 def build_tree(boxes: Floats) -> tuple[Floats, Ints]:
@@ -91,25 +105,16 @@ def build_tree(boxes: Floats) -> tuple[Floats, Ints]:
     # Entries that hold no cell sort behind all others.
     centres = np.full((leaf * leaves, 3), np.inf)
     centres[:n] = 0.5 * (boxes[:, :3] + boxes[:, 3:])
-    order = np.arange(leaf * leaves)
-    for level in range(depth):
-        group = order.reshape(1 << level, -1)
-        at = centres[group]
-        present = np.isfinite(at)
-        extent = np.max(at, axis=1, initial=-np.inf, where=present) - np.min(
-            at, axis=1, initial=np.inf, where=present
-        )
-        axis = np.argmax(extent, axis=1)
-        key = np.take_along_axis(at, axis[:, None, None], axis=2)[:, :, 0]
-        half = np.argpartition(key, group.shape[1] // 2, axis=1)
-        order = np.take_along_axis(group, half, axis=1)
+    order = np.arange(leaf * leaves, dtype=np.int32)
+    link(_halve)(centres, order, depth)
     order = np.sort(order.reshape(leaves, leaf), axis=1)
-    cells = np.where(order < n, order, -1).astype(np.int32)
+    cells = np.where(order < n, order, np.int32(-1))
 
     tree = np.empty((2 * leaves, 6))
     empty = np.array([np.inf] * 3 + [-np.inf] * 3)
     tree[0] = empty
-    padded = np.concatenate([boxes, empty[None, :]])[cells]
+    padded = boxes[cells]
+    padded[cells < 0] = empty
     tree[leaves:, :3] = padded[:, :, :3].min(axis=1)
     tree[leaves:, 3:] = padded[:, :, 3:].max(axis=1)
     for level in reversed(range(depth)):
@@ -118,6 +123,44 @@ def build_tree(boxes: Floats) -> tuple[Floats, Ints]:
         tree[first : 2 * first, :3] = children[:, :, :3].min(axis=1)
         tree[first : 2 * first, 3:] = children[:, :, 3:].max(axis=1)
     return tree, cells
+
+
+def _halve(centres: Floats, order: Ints, depth: int) -> None:
+    """Put the lower half of each group along its longest axis before the upper, on each level of the tree."""
+    for level in range(depth):
+        size = order.shape[0] >> level
+        for begin in range(0, order.shape[0], size):
+            axis, longest = 0, 0.0
+            for j in range(3):
+                low, high = np.inf, -np.inf
+                for k in range(begin, begin + size):
+                    x = centres[order[k], j]
+                    low, high = min(low, x), max(high, x if x < np.inf else high)
+                if high - low > longest:
+                    axis, longest = j, high - low
+            _part(centres, axis, order, begin, begin + size - 1, begin + size // 2)
+
+
+def _part(centres: Floats, axis: int, order: Ints, first: int, last: int, middle: int) -> None:
+    """Let no entry before ``middle`` lie above one behind it (Hoare's selection)."""
+    while first < last:
+        pivot = centres[order[(first + last) // 2], axis]
+        i, j = first, last
+        while i <= j:
+            while centres[order[i], axis] < pivot:
+                i += 1
+            while centres[order[j], axis] > pivot:
+                j -= 1
+            if i <= j:
+                order[i], order[j] = order[j], order[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            last = j
+        elif middle >= i:
+            first = i
+        else:
+            return
 
 
 def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, float]:

@@ -11,16 +11,20 @@ image, whose values are known, and which counts as a neighbour like any other.
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from collections.abc import Callable, Iterator
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.spatial import KDTree
 
+from foamprb.body import tensor
+from foamprb.compile import link
 from foamprb.flow.coupling import Coupling
-from foamprb.flow.mesh import Floats, Mesh
+from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.patch import WALLS
+from foamprb.flow.stencils import group, mean_series, sum_differences
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]
 
@@ -43,10 +47,11 @@ _MIRRORS = frozenset({"symmetry", "symmetryPlane", "empty", "wedge"})
 _Index: TypeAlias = NDArray[np.intp]
 _Mask: TypeAlias = NDArray[np.bool_]
 
-# The six second derivatives: pairs of directions, and how often each occurs in ½ d·H·d.
+# The six second derivatives: pairs of directions.
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-_TIMES = (0.5, 0.5, 0.5, 1.0, 1.0, 1.0)
 _PAIR_OF = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
+# Cells handled at once: the temporary arrays then stay in the cache.
+_CHUNK = 1 << 15
 
 
 class Reconstruction:
@@ -68,10 +73,22 @@ class Reconstruction:
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
-        self._images = _Images(mesh)
-        self._gradient = _Gradient(mesh, self._valued, self._images)
-        self._bend = _Gradient(mesh, np.empty(0, dtype=np.intp), self._images, least=0.01)
-        self._curvature = self._gradient.curvature()
+        self._images = images = _Images(mesh)
+        n = mesh.n_cells
+        # A boundary face with a value is a place like a cell centre, and so is an image.
+        self._sites = np.concatenate([mesh.centres, mesh.boundary_centres[self._valued], images.places])
+        self._of_images = slice(n + len(self._valued), len(self._sites))
+        self._of_faces = slice(n, self._of_images.start)
+        faces = np.concatenate([self._valued, images.faces])
+        numbers = np.arange(n, len(self._sites), dtype=np.int32)
+        self._gradient = _Gradient(mesh, self._sites, faces, numbers)
+        imaged = len(self._valued)
+        self._bend = _Gradient(mesh, self._sites, faces[imaged:], numbers[imaged:], least=0.01)
+        rows, columns = (part.astype(np.int32) for part in _face_points(mesh, faces))
+        of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
+        self._around = _grouped(
+            np.concatenate([mesh.cell_points, rows]), np.concatenate([of_cells, n + columns]), mesh.n_points
+        )
 
     def __call__(self, cells: Floats, boundary: Floats, l: Floats | None = None) -> tuple[Floats, Floats]:
         """Reconstruct a field.
@@ -90,65 +107,57 @@ class Reconstruction:
         u, l
             (n_nodes, 3) and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j, mesh points first, then cell centres.
         """
-        if l is None:
-            l, h = self.derivatives(cells, boundary)
-        else:
-            h = self._second(l)
-        u_points, l_points = self._at_points(cells, boundary, l, h)
-        return np.concatenate([u_points, cells]), np.concatenate([l_points, l])
+        n, n_points = self.mesh.n_cells, self.mesh.n_points
+        u = np.concatenate([cells, boundary[self._valued], self._images.turned(cells)])
+        slopes, bends = self._derivatives(u, l)
+        u_nodes, l_nodes = np.zeros((n_points + n, 3)), np.zeros((n_points + n, 3, 3))
+        u_nodes[n_points:], l_nodes[n_points:] = cells, slopes[:n]
+        at_points = u_nodes[:n_points], l_nodes[:n_points]
+        link(mean_series)(self.mesh.points, self._sites, *self._around, u, slopes, bends, *at_points)
+        self._impose_walls(at_points[0], boundary, slopes, bends)
+        for values in at_points:
+            self._images.agree(values)
+        return u_nodes, l_nodes
 
-    def derivatives(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
-        """First derivatives (n_cells, 3, 3) and second derivatives (n_cells, 3, 6) at cell centres.
+    def _derivatives(self, u: Floats, l: Floats | None) -> tuple[Floats, Floats]:
+        """First derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites.
 
         The order of the second derivatives is xx, yy, zz, xy, xz, yz.
         """
-        # One correction: beside a wall, the cell values of a finite-volume solution are themselves off by as
-        # much as a second would change.
-        beyond = self._images.turned(cells)
-        plain = self._gradient(cells, np.concatenate([boundary[self._valued], beyond]))
-        h = self._second(plain)
-        return plain - np.einsum("njp,nip->nij", self._curvature, h), h
+        n = self.mesh.n_cells
+        slopes, bends = np.zeros((len(u), 3, 3)), np.zeros((len(u), 3, 6))
+        if l is None:
+            self._gradient(u, slopes[:n])
+        else:
+            slopes[:n] = l
+        slopes[self._of_images] = self._images.turned(slopes[:n])
+        for low in range(0, n, _CHUNK):
+            part = np.empty((min(_CHUNK, n - low), 9, 3))
+            self._bend(slopes.reshape(-1, 9), part, low)
+            second = part.reshape(-1, 3, 3, 3)
+            for pair, (j, k) in enumerate(_PAIRS):
+                bends[low : low + len(part), :, pair] = 0.5 * (second[:, :, j, k] + second[:, :, k, j])
+        if l is None:
+            # One correction: beside a wall, the cell values of a finite-volume solution are themselves off by
+            # as much as a second would change.
+            self._gradient(u, slopes[:n], bends=bends[:n])
+        images = self._images
+        slopes[self._of_faces] = self._at_faces(self._valued, slopes, bends)
+        slopes[self._of_images] = images.turned(slopes[:n])
+        bends[self._of_faces] = bends[self._owner[self._valued]]
+        turned = images.turned(bends, lambda own: own[:, :, _PAIR_OF])
+        for pair, (j, k) in enumerate(_PAIRS):
+            bends[self._of_images, :, pair] = turned[:, :, j, k]
+        return slopes, bends
 
-    def _second(self, l: Floats) -> Floats:
-        """Second derivatives from the first."""
-        slopes = self._bend(l.reshape(-1, 9), self._images.turned(l).reshape(-1, 9)).reshape(-1, 3, 3, 3)
-        return np.stack([0.5 * (slopes[:, :, j, k] + slopes[:, :, k, j]) for j, k in _PAIRS], axis=2)
-
-    def _at_points(self, cells: Floats, boundary: Floats, l: Floats, h: Floats) -> tuple[Floats, Floats]:
-        mesh, faces, images = self.mesh, self._valued, self._images
-        rows, columns = _face_points(mesh, faces)
-        more_rows, more_columns = _face_points(mesh, images.faces)
-        around = _Taylor(
-            mesh.points,
-            np.concatenate([mesh.centres, mesh.boundary_centres[faces], images.places]),
-            np.concatenate([mesh.cell_points, rows, more_rows]),
-            np.concatenate(
-                [
-                    np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start)),
-                    mesh.n_cells + columns,
-                    mesh.n_cells + len(faces) + more_columns,
-                ]
-            ),
-        )
-        # A boundary face is a place like a cell centre; its derivatives are those of its cell.
-        slopes = h[:, :, _PAIR_OF]
-        l_faces = self._at_faces(faces, l, slopes)
-        l_sites = np.concatenate([l, l_faces, images.turned(l)])
-        bends = np.concatenate([slopes, slopes[self._owner[faces]], images.turned(slopes)])
-        h_sites = np.stack([bends[:, :, j, k] for j, k in _PAIRS], axis=2)
-        u_points = around(np.concatenate([cells, boundary[faces], images.turned(cells)]), l_sites, h_sites)
-        l_points = around(l_sites.reshape(-1, 9), bends.reshape(-1, 9, 3)).reshape(-1, 3, 3)
-        self._impose_walls(u_points, boundary, self._at_faces(self._walls, l, slopes))
-        return images.agree(u_points), images.agree(l_points)
-
-    def _at_faces(self, faces: _Index, l: Floats, slopes: Floats) -> Floats:
+    def _at_faces(self, faces: _Index, l: Floats, h: Floats) -> Floats:
         """Gradients continued from the cells to their boundary faces."""
         owner = self._owner[faces]
         arms = self.mesh.boundary_centres[faces] - self.mesh.centres[owner]
-        faces_l: Floats = l[owner] + np.einsum("nijk,nk->nij", slopes[owner], arms)
+        faces_l: Floats = l[owner] + np.einsum("nijk,nk->nij", h[owner][:, :, _PAIR_OF], arms)
         return faces_l
 
-    def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats) -> None:
+    def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats, h: Floats) -> None:
         """Give the points of walls the wall's velocity, from the gradients at the wall's faces.
 
         Where the wall's faces about a point move alike, the point moves so too, exactly; elsewhere their
@@ -159,12 +168,19 @@ class Reconstruction:
             return
         rows, columns = _face_points(mesh, faces)
         values = boundary[faces]
-        mean = _Taylor(mesh.points, mesh.boundary_centres[faces], rows, columns)(values, l)
-        order = np.argsort(rows, kind="stable")
-        on_wall, first = np.unique(rows[order], return_index=True)
-        low = np.minimum.reduceat(values[columns[order]], first)
-        high = np.maximum.reduceat(values[columns[order]], first)
-        u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean[on_wall])
+        on_wall, place = np.unique(rows, return_inverse=True)
+        start, around = _grouped(place, columns, len(on_wall))
+        mean, _ = _continued(
+            mesh.points[on_wall], mesh.boundary_centres[faces], (start, around),
+            values, self._at_faces(faces, l, h),
+        )  # fmt: skip
+        low = np.minimum.reduceat(values[around], start[:-1])
+        high = np.maximum.reduceat(values[around], start[:-1])
+        u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean)
+
+
+def _as_it_is(values: Floats) -> Floats:
+    return values
 
 
 class _Images:
@@ -204,13 +220,12 @@ class _Images:
         self.places: Floats = np.concatenate([np.empty((0, 3)), *places])
         self._turns: Floats = np.concatenate([np.empty((0, 3, 3)), *turns])
 
-    def turned(self, values: Floats) -> Floats:
-        """What the images have of the cells' tensors of any rank, (n_cells, 3, …, 3)."""
-        return _turned(self._turns, values[self.cells])
+    def turned(self, values: Floats, read: Callable[[Floats], Floats] = _as_it_is) -> Floats:
+        """What the images have of the cells' tensors (n_cells, 3, …, 3), those that ``read`` gives."""
+        return _turned(self._turns, read(values[self.cells]))
 
-    def agree(self, points: Floats) -> Floats:
-        """Tensors at the mesh points (n_points, 3, …, 3), made to agree with their images."""
-        points = points.copy()
+    def agree(self, points: Floats) -> None:
+        """Make tensors at the mesh points (n_points, 3, …, 3) agree with their images."""
         for rows, mirrors in self._planes:
             points[rows] = 0.5 * (points[rows] + _turned(mirrors, points[rows]))
         for here, there, turn in self._seams:
@@ -220,7 +235,6 @@ class _Images:
             still = here[here == there]
             if len(still) and np.any(turn != np.eye(3)):
                 points[still] = _about(turn, points[still])
-        return points
 
 
 def _turned(turns: Floats, values: Floats) -> Floats:
@@ -235,6 +249,8 @@ def _turned(turns: Floats, values: Floats) -> Floats:
 def _about(turn: Floats, values: Floats) -> Floats:
     """The part of vectors (n, 3) or tensors (n, 3, 3) that no rotation about the axis of ``turn`` changes."""
     axis = np.linalg.svd(turn - np.eye(3))[2][2]
+    # Round-off must not tilt an axis that lies along a coordinate: across it there is exactly no velocity.
+    axis[np.abs(axis) < 1e-12] = 0.0
     along = np.outer(axis, axis)
     kept = np.zeros_like(values)
     if values.ndim == 2:
@@ -272,104 +288,72 @@ class _Gradient:
     one of a mesh one cell thick.
     """
 
-    def __init__(self, mesh: Mesh, valued: _Index, images: _Images, least: float = 1e-6) -> None:
+    def __init__(self, mesh: Mesh, sites: Floats, faces: _Index, numbers: Ints, least: float = 1e-6) -> None:
         n = mesh.n_cells
-        owner, neighbour = mesh.owner.astype(np.intp), mesh.neighbour.astype(np.intp)
-        inner = owner[: mesh.n_internal]
-        outer = np.concatenate([valued, images.faces])
-        rows = np.concatenate([inner, neighbour, owner[mesh.n_internal + outer]])
-        columns = np.concatenate([neighbour, inner, n + np.arange(len(outer))])
-        sites = np.concatenate([mesh.centres, mesh.boundary_centres[valued], images.places])
-        matrix = _directions(mesh.centres, sites, rows, columns)
-        open_cells = np.flatnonzero(_nearly_singular(matrix, least))
+        inner, neighbour = mesh.owner[: mesh.n_internal], mesh.neighbour
+        self._n, self._sites, self._kernel = n, sites, link(sum_differences)
+        self._around = _grouped(
+            np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
+            np.concatenate([neighbour, inner, numbers]),
+            n,
+        )
+        open_cells = np.concatenate(
+            [low + np.flatnonzero(_nearly_singular(matrix, least)) for low, matrix in self._matrices()]
+        )
         if len(open_cells):
-            more_rows, more_columns = _second_neighbours(inner, neighbour, n, open_cells)
-            rows, columns = np.concatenate([rows, more_rows]), np.concatenate([columns, more_columns])
-            matrix = _directions(mesh.centres, sites, rows, columns)
-        rows, self._columns, self._start = _by_row(rows, columns, n)
-        self._shape = (n, len(sites))
-        self._rows = rows
-        self._arms = sites[self._columns] - mesh.centres[rows]
-        square = np.einsum("ei,ei->e", self._arms, self._arms)
-        weight = 1.0 / np.where(square > 0.0, square, np.inf)
-        inverse = _invert(matrix, least)
-        self._parts = []
-        self._own = np.empty((n, 3))
-        for i in range(3):
-            data = weight * np.einsum("ej,ej->e", inverse[rows, i], self._arms)
-            self._parts.append(sparse.csr_array((data, self._columns, self._start), shape=self._shape))
-            self._own[:, i] = np.bincount(rows, data, n)
+            start, columns = self._around
+            more = _second_neighbours(inner, neighbour, n, open_cells)
+            rows = np.repeat(np.arange(n), np.diff(start))
+            self._around = _grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
+        # Six components of each, as it is symmetric.
+        self._inverse = np.empty((n, 6))
+        for low, matrix in self._matrices():
+            inverse = _invert(matrix, least)
+            for pair, (j, k) in enumerate(_PAIRS):
+                self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
 
-    def __call__(self, cells: Floats, boundary: Floats) -> Floats:
-        """Gradients (n_cells, m, 3) of m fields at cells (n_cells, m), valued faces and images (…, m)."""
-        values = np.concatenate([cells, boundary])
-        gradient = np.empty((*cells.shape, 3))
-        for i, part in enumerate(self._parts):
-            gradient[:, :, i] = part @ values - self._own[:, i, None] * cells
-        return gradient
+    def _matrices(self) -> Iterator[tuple[int, Floats]]:
+        """For some cells at a time, the first, and the normal equations' matrices Σ e ⊗ e (n, 3, 3)."""
+        for low in range(0, self._n, _CHUNK):
+            matrix = np.empty((min(_CHUNK, self._n - low), 3, 3))
+            self._sums(self._sites, matrix, low)
+            yield low, matrix
 
-    def curvature(self) -> Floats:
-        """What second derivatives of one do to the gradient, (n_cells, 3, 6)."""
-        n = self._shape[0]
-        effect = np.empty((n, 3, 6))
-        for i, part in enumerate(self._parts):
-            for pair, ((j, k), times) in enumerate(zip(_PAIRS, _TIMES, strict=True)):
-                term = part.data * self._arms[:, j] * self._arms[:, k]
-                effect[:, i, pair] = times * np.bincount(self._rows, term, n)
-        return effect
+    def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
+        """Gradients (n, m, 3) of m fields at n cells from ``low`` on, from the sites' values (n_sites, m).
 
+        The part of the second derivatives ``bends`` (n_cells, m, 6) in the values is taken off.
+        """
+        self._sums(values, gradients, low, bends)
+        for first in range(0, len(gradients), _CHUNK):
+            part = gradients[first : first + _CHUNK]
+            part[:] = part @ self._inverse[low + first : low + first + len(part)][:, _PAIR_OF]
 
-class _Taylor:
-    """Means at points, weighted by inverse distance, of the Taylor series about sites."""
-
-    def __init__(self, points: Floats, sites: Floats, rows: _Index, columns: _Index) -> None:
-        rows, self._columns, self._start = _by_row(rows, columns, len(points))
-        self._shape = (len(points), len(sites))
-        self._arms = points[rows] - sites[self._columns]
-        distance = np.sqrt(np.einsum("ei,ei->e", self._arms, self._arms))
-        weight = 1.0 / np.maximum(distance, 1e-300)
-        self._weights = weight / np.bincount(rows, weight, len(points))[rows]
-
-    def __call__(self, values: Floats, slopes: Floats, bends: Floats | None = None) -> Floats:
-        """Means (n_points, m) of values (n_sites, m), slopes (…, m, 3) and second derivatives (…, m, 6)."""
-        total = self._mean(self._weights, values)
-        for i in range(3):
-            total += self._mean(self._weights * self._arms[:, i], slopes[:, :, i])
-        if bends is not None:
-            for pair, ((j, k), times) in enumerate(zip(_PAIRS, _TIMES, strict=True)):
-                weights = times * self._weights * self._arms[:, j] * self._arms[:, k]
-                total += self._mean(weights, bends[:, :, pair])
-        return total
-
-    def _mean(self, weights: Floats, values: Floats) -> Floats:
-        matrix = sparse.csr_array((weights, self._columns, self._start), shape=self._shape)
-        return np.asarray(matrix @ np.ascontiguousarray(values))
+    def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
+        """The right side (n, m, 3) of the normal equations."""
+        if bends is None:
+            bends = np.empty((0, values.shape[1], 6))
+        sums[:] = 0.0
+        self._kernel(self._sites, *self._around, values, bends, low, sums)
 
 
-def _by_row(rows: _Index, columns: _Index, n: int) -> tuple[_Index, _Index, _Index]:
-    """Entries of a sparse matrix of n rows, sorted by row: rows, columns, start of each row.
-
-    Two cells may share several faces; unlike scipy's own conversion this keeps every entry.
-    """
-    # With a column of its own for each entry the conversion is a counting sort, and loses none.
-    entries = np.arange(len(rows))
-    sorted_rows = sparse.csr_array((np.ones(len(rows), dtype=np.int8), (rows, entries)), shape=(n, len(rows)))
-    order = sorted_rows.indices
-    return rows[order], columns[order], sorted_rows.indptr.astype(np.intp)
+def _continued(
+    points: Floats, sites: Floats, around: tuple[Ints, Ints], u: Floats, l: Floats
+) -> tuple[Floats, Floats]:
+    """Means at points of the Taylor series about sites, from values and first derivatives."""
+    at_points = np.zeros((len(points), 3)), np.zeros((len(points), 3, 3))
+    link(mean_series)(points, sites, *around, u, l, np.zeros((len(sites), 3, 6)), *at_points)
+    return at_points
 
 
-def _directions(centres: Floats, sites: Floats, rows: _Index, columns: _Index) -> Floats:
-    """Sum of e ⊗ e over the unit vectors e from each centre to its sites, (n, 3, 3)."""
-    arms = sites[columns] - centres[rows]
-    arms /= np.maximum(np.sqrt(np.einsum("ei,ei->e", arms, arms)), 1e-300)[:, None]
-    matrix = np.empty((len(centres), 3, 3))
-    for i in range(3):
-        for j in range(i, 3):
-            matrix[:, i, j] = matrix[:, j, i] = np.bincount(rows, arms[:, i] * arms[:, j], len(centres))
-    return matrix
+def _grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
+    """Where each of n rows begins, and the columns by row, in their order."""
+    start, grouped = np.zeros(n + 1, dtype=np.int32), np.empty(len(columns), dtype=np.int32)
+    link(group)(rows.astype(np.int32, copy=False), columns.astype(np.int32, copy=False), start, grouped)
+    return start, grouped
 
 
-def _second_neighbours(owner: _Index, neighbour: _Index, n: int, cells: _Index) -> tuple[_Index, _Index]:
+def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: _Index) -> tuple[_Index, _Index]:
     """The given cells, each beside the neighbours of its neighbours (not itself, nor its neighbours)."""
     ones = np.ones(2 * len(owner), dtype=np.int32)
     ends = (np.concatenate([owner, neighbour]), np.concatenate([neighbour, owner]))
@@ -383,7 +367,8 @@ def _second_neighbours(owner: _Index, neighbour: _Index, n: int, cells: _Index) 
 
 def _nearly_singular(matrix: Floats, least: float) -> _Mask:
     """Which of the matrices (n, 3, 3) have their smallest eigenvalue below ``least`` of the largest."""
-    suspect: _Mask = np.linalg.det(matrix) <= 27.0 * least * (np.trace(matrix, axis1=1, axis2=2) / 3.0) ** 3
+    T = _components(matrix)
+    suspect: _Mask = tensor.det(T) <= 27.0 * least * (tensor.trace(T) / 3.0) ** 3
     # With eigenvalues λ₁ ≥ λ₂ ≥ λ₃, det ≤ λ₃ λ₁² and λ₁ ≤ 3·(trace/3): no λ₃ < least·λ₁ goes unsuspected.
     values = np.linalg.eigvalsh(matrix[suspect])
     suspect[suspect] = values[:, 0] <= least * values[:, 2]
@@ -393,15 +378,19 @@ def _nearly_singular(matrix: Floats, least: float) -> _Mask:
 def _invert(matrix: Floats, least: float) -> Floats:
     """Inverses of symmetric positive semidefinite (n, 3, 3), pseudo-inverses of nearly singular ones."""
     poor = _nearly_singular(matrix, least)
-    safe = matrix.copy()
-    safe[poor] = np.eye(3)
-    inverse = np.empty_like(matrix)
-    inverse[:] = np.linalg.inv(safe)
+    safe = np.where(poor[:, None, None], np.eye(3), matrix)
+    result = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
     values, vectors = np.linalg.eigh(matrix[poor])
     kept = values > least * values[:, -1:]
     scaled = np.where(kept, 1.0 / np.where(kept, values, 1.0), 0.0)
-    inverse[poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
-    return inverse
+    result[poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
+    return result
+
+
+def _components(matrix: Floats) -> tensor.Tensor:
+    """The nine columns of matrices (n, 3, 3)."""
+    T = matrix.reshape(-1, 9).T
+    return T[0], T[1], T[2], T[3], T[4], T[5], T[6], T[7], T[8]
 
 
 def _face_points(mesh: Mesh, faces: _Index) -> tuple[_Index, _Index]:
@@ -434,7 +423,7 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
         right[:, :, j] = mean(differences * arms[:, j, None])
     l = np.einsum("nij,njk->nik", right, _invert(matrix, 1e-12))
     u = average + np.einsum("nij,nj->ni", l, mesh.centres - middle)
-    # A point's gradient is the mean over its cells, which is what a Taylor series without slopes gives.
-    around = _Taylor(mesh.points, mesh.centres, rows, columns)
-    l_points = around(l.reshape(-1, 9), np.zeros((mesh.n_cells, 9, 3))).reshape(-1, 3, 3)
+    # A point's gradient is the mean over its cells, which is what a Taylor series without bends gives.
+    around = _grouped(rows, columns, mesh.n_points)
+    _, l_points = _continued(mesh.points, mesh.centres, around, u, l)
     return np.concatenate([points, u]), np.concatenate([l_points, l])

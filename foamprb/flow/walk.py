@@ -46,6 +46,8 @@ _MOST_CROSSINGS = 20_000
 _MOST_STALLS = 200
 _ATTEMPTS = 4
 _NO_TRIANGLE = -1
+# Entries of the lists of walls nearby: a gigabyte.
+_MOST_NEAR = 250_000_000
 
 Corners: TypeAlias = tuple[int, int, int, int]
 Weights: TypeAlias = tuple[float, float, float, float]
@@ -400,18 +402,31 @@ def near_walls(
     -------
     near_start, near
         As in :class:`MeshArrays`; a box distance is never larger than the true one, so none is missed.
+
+    Raises
+    ------
+    InputError
+        The lists would be longer than memory should bear, as the reach is many cells wide.
     """
     start = np.zeros(mesh.n_cells + 1, dtype=np.int32)
     if reach <= 0.0 or len(names) == 0:
         return start, np.empty(0, dtype=np.int32)
     targets = np.concatenate([corners.min(axis=1) - reach, corners.max(axis=1) + reach], axis=1)
     meet = link(_meetings)
-    nothing = np.empty(0, dtype=np.int32)
-    count = meet(*tree, boxes, targets, names, nothing, nothing)
-    cells, triangles = np.empty(count, dtype=np.int32), np.empty(count, dtype=np.int32)
-    meet(*tree, boxes, targets, names, cells, triangles)
-    np.cumsum(np.bincount(cells, minlength=mesh.n_cells), out=start[1:])
-    return start, triangles[np.argsort(cells, kind="stable")]
+    counts = np.zeros(mesh.n_cells, dtype=np.int32)
+    total = meet(*tree, boxes, targets, names, _MOST_NEAR, counts, np.empty(0, dtype=np.int32))
+    if total > _MOST_NEAR:
+        size = np.cbrt(np.median(mesh.volumes))
+        raise InputError(
+            f"Walls within {reach:g} m of a particle's centre may be touched, but cells are {size:g} m wide: "
+            f"lists of the {len(names)} wall triangles near each of the {mesh.n_cells} cells would have more "
+            f"than {_MOST_NEAR} entries. Are the particles as large as they should be? Particles many cells "
+            "wide need a coarser mesh."
+        )
+    np.cumsum(counts, out=start[1:])
+    near = np.empty(total, dtype=np.int32)
+    meet(*tree, boxes, targets, names, _MOST_NEAR, start[:-1].copy(), near)
+    return start, near
 
 
 def _meetings(
@@ -420,10 +435,14 @@ def _meetings(
     boxes: Floats,
     targets: Floats,
     names: Ints,
-    cells: Ints,
+    most: int,
+    place: Ints,
     found: Ints,
 ) -> int:
-    """Pairs of a cell and a target whose boxes meet: their number, and the pairs as far as there is room."""
+    """Count pairs of a cell and a target whose boxes meet, up to ``most`` and one, in all and by cell.
+
+    With room in ``found``, the names of the targets go there from ``place`` (n_cells,) on, cell by cell.
+    """
     leaves = tree_cells.shape[0]
     count = 0
     for i in range(targets.shape[0]):
@@ -436,9 +455,12 @@ def _meetings(
                 for k in range(tree_cells.shape[1]):
                     cell = tree_cells[node - leaves, k]
                     if cell >= 0 and _meet(boxes, cell, targets, i):
-                        if count < cells.shape[0]:
-                            cells[count], found[count] = cell, names[i]
+                        if found.shape[0] > 0:
+                            found[place[cell]] = names[i]
+                        place[cell] += 1
                         count += 1
+                if count > most:
+                    return count
             while node & 1:
                 node >>= 1
             if node > 0:
@@ -501,7 +523,7 @@ class MeshFlow:
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
         nodes = np.zeros((len(u), 16))
-        nodes[:, :3] = mesh.nodes
+        nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
         self.span = (-np.inf, np.inf)
