@@ -9,7 +9,7 @@ import time as clock
 import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,20 +19,24 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from foamprb.ahead import Ahead
 from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.checks import Groups, doubts, groups
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models, Still, available_threads
+from foamprb.cloud.cloud import Cloud, Models, Still, Tracker, available_threads
 from foamprb.cloud.distribution import draw
 from foamprb.cloud.injection import release
 from foamprb.cloud.measures import context, shear_rate_at
+from foamprb.cloud.shapes import Sphere
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloudfunctions import STATUS_NAMES, Functions, Look
 from foamprb.compile import cache_directory
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
+from foamprb.flow.series import SeriesFlow
 from foamprb.flow.source import Source, read_flow, read_transient_flow
+from foamprb.flow.walk import MeshFlow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoints
@@ -63,6 +67,8 @@ class Job:
     settings: Settings
     cloud: Cloud
     functions: Functions
+    ahead: Ahead | None = None
+    """Who compiles the loop, if it is another process."""
 
     @property
     def look(self) -> Look:
@@ -92,6 +98,7 @@ def prepare(
     dictionary: Path | None = None,
     threads: int | None = None,
     source: Source | None = None,
+    ahead: bool = False,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -108,6 +115,8 @@ def prepare(
         Number of threads; all processors by default.
     source
         The mesh file or region to read, and the names of its fields, if they are not the usual ones.
+    ahead
+        Whether to compile the loop in another process meanwhile, if it has never been compiled.
 
     Raises
     ------
@@ -117,11 +126,43 @@ def prepare(
     case = Path(case)
     source = source or Source()
     settings = read_settings(case, dictionary, source.region)
-    log.info("Reading flow of case %s", case if source.file is None else source.file)
-    flow = _read_flow(settings, time, source)
-    for note in flow.notes:
-        log.info("    %s", note)
-    return assemble(settings, flow, threads)
+    compiling = _compile_ahead(settings) if ahead else None
+    try:
+        log.info("Reading flow of case %s", case if source.file is None else source.file)
+        flow = _read_flow(settings, time, source)
+        for note in flow.notes:
+            log.info("    %s", note)
+        return replace(assemble(settings, flow, threads), ahead=compiling)
+    except BaseException:
+        if compiling:
+            compiling.stop()
+        raise
+
+
+def _compile_ahead(settings: Settings) -> Ahead:
+    """Begin to compile the loop that the settings will want, as far as they tell."""
+    scheme = settings.solution.shape
+    # Most particles are small.
+    models = _models(settings, "stokes" if scheme == "auto" else scheme)
+    shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
+    tense = any(injection.solid.surface_tension != 0.0 for injection in settings.injections)
+    flow = SeriesFlow if settings.solution.transient else MeshFlow
+    dt, medium = settings.solution.deltaT, _medium(settings)
+    ahead = Ahead(Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow)
+    if ahead:
+        log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+    return ahead
+
+
+def _medium(settings: Settings) -> Medium:
+    fluid, pressure_gradient = settings.fluid, float(settings.pressure_gradient)
+    return Medium(fluid.mu, fluid.rho, settings.gravity, pressure_gradient, settings.virtual_mass)
+
+
+def _models(settings: Settings, integrator: str) -> Models:
+    solid = settings.injections[0].solid.type if settings.injections else Models.material
+    tolerance = settings.solution.tolerance
+    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance)
 
 
 def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
@@ -147,13 +188,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         If a patch has no interaction or particles would start outside the flow.
     """
     interactions = match_patches(settings.patches, flow.patches, settings.file)
-    medium = Medium(
-        settings.fluid.mu,
-        settings.fluid.rho,
-        settings.gravity,
-        float(settings.pressure_gradient),
-        settings.virtual_mass,
-    )
+    medium = _medium(settings)
     start = _start(settings, flow)
     # Not a list, which would keep them.
     particles = concatenate(
@@ -166,14 +201,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     integrator = solution.shape
     if integrator == "auto":
         integrator = automatic(_shape_stokes_number(particles, flow, medium.mu, start))
-    models = Models(
-        settings.traction,
-        settings.drag,
-        settings.injections[0].solid.type,
-        settings.touching,
-        integrator,
-        solution.tolerance,
-    )
+    models = _models(settings, integrator)
     try:
         cloud = Cloud(
             particles,
@@ -359,6 +387,8 @@ def _execute(
     started, cpu = clock.perf_counter(), clock.process_time()
     _compile_measures(cloud)
     team.take(cloud)
+    if job.ahead:
+        job.ahead.wait()
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
     log.info("\nStarting time loop\n")

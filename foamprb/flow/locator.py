@@ -57,6 +57,35 @@ class MeshArrays(NamedTuple):
     """The wall triangles that a particle with its centre in the cell might touch."""
 
 
+def no_mesh() -> MeshArrays:
+    """The arrays of a mesh without cells, for which the kernels can be compiled."""
+    none = np.empty(0, dtype=np.int32)
+
+    def floats(k: int) -> Floats:
+        return np.empty((0, k))
+
+    def ints(k: int) -> Ints:
+        return np.empty((0, k), dtype=np.int32)
+
+    return MeshArrays(
+        nodes=floats(16),
+        n_points=0,
+        tets=ints(4),
+        neighbours=ints(4),
+        cell_start=none,
+        tree_boxes=floats(6),
+        tree_cells=ints(1),
+        triangles=ints(3),
+        triangle_patch=none,
+        triangle_normals=floats(3),
+        triangle_tet=none,
+        across=ints(2),
+        motions=floats(12),
+        near_start=none,
+        near=none,
+    )
+
+
 def cell_boxes(mesh: Mesh) -> Floats:
     """Bounding boxes of the cells, (n_cells, 6): lower corner, upper corner.
 

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import PatchFaces, Tetrahedra
-from foamprb.flow.locator import MeshArrays, locate
+from foamprb.flow.locator import MeshArrays, locate, no_mesh
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.openfoam import (
     PRECISION_NOTE,
@@ -173,6 +173,11 @@ class SeriesFlow:
         self._levels = range(0)
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
         self._ahead: tuple[int, Future[tuple[Floats, Floats]]] | None = None
+
+    @staticmethod
+    def nothing() -> SeriesArrays:
+        """As :meth:`MeshFlow.nothing`."""
+        return SeriesArrays(no_mesh(), np.empty(0), np.empty(0, dtype=np.int64), np.empty((0, 12)), 0.0)
 
     def load(self, start: float, end: float) -> float:
         """Hold the times from the last one up to ``start`` to the first one from ``end`` on, and return that.

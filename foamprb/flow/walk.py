@@ -18,7 +18,16 @@ from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
 from foamprb.compile import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import PatchFaces, Tetrahedra
-from foamprb.flow.locator import TOLERANCE, MeshArrays, build_tree, cell_boxes, frame, locate, weights
+from foamprb.flow.locator import (
+    TOLERANCE,
+    MeshArrays,
+    build_tree,
+    cell_boxes,
+    frame,
+    locate,
+    no_mesh,
+    weights,
+)
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.patch import WALLS
 
@@ -546,6 +555,11 @@ class MeshFlow:
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
         )
+
+    @staticmethod
+    def nothing() -> MeshArrays:
+        """What the kernels read where there is no flow, for which they can be compiled."""
+        return no_mesh()
 
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
         """Return infinity: the flow is the same at all times."""
