@@ -1,5 +1,6 @@
 """Formulas become machine code once, and the code is found again by whoever has the same formulas."""
 
+import gc
 import os
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numba import TypingError
 
 import foamprb
 from foamprb import compile as compiling
@@ -98,6 +100,17 @@ def test_called_and_inlined_functions_give_the_same(kept, separate, monkeypatch)
     for file in kept.rglob("*quadrupled*"):
         file.unlink()
     assert link(quadrupled, separate=separate)(1.25) == 5.0
+
+
+def test_garbage_is_collected_again_after_a_compilation(kept):
+    def unknown(x):
+        return x.nothing_of_the_kind
+
+    assert link(doubled)(2.0) == 4.0
+    assert gc.isenabled()
+    with pytest.raises(TypingError):
+        link(unknown)(2.0)
+    assert gc.isenabled()
 
 
 def test_separate_functions_stay_functions(kept):
