@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import gzip
+import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -140,6 +145,68 @@ def test_a_series_of_times_too(written, random):
             np.testing.assert_array_equal(a, b)
 
 
+def into_region(case):
+    """Make the mesh of a case and its parts that of a region."""
+    for folder in (case, *case.glob("processor*")):
+        for part in (folder / "constant", *(folder / time for time in TIMES)):
+            (part / "air").mkdir()
+            for path in [p for p in part.iterdir() if p.name != "air"]:
+                path.rename(part / "air" / path.name)
+    return case
+
+
+def add_gradient(case):
+    """Give every cell of a case and its parts a gradient of its own, at each time another."""
+    values = np.random.default_rng(2).random((read_case(case).mesh.n_cells, 9))
+    parts = [(case, np.arange(len(values)))]
+    for path in case.glob("processor*"):
+        parts.append((path, read_labels(path / "constant/polyMesh/cellProcAddressing")))
+    for folder, cells in parts:
+        names = re.findall(r"(\w+)\s*\{ type", (folder / "constant/polyMesh/boundary").read_text())
+        patches = "".join(
+            f"{name} {{ type {'processor' if name.startswith('proc') else 'calculated'};"
+            " value uniform (0 0 0 0 0 0 0 0 0); }\n"
+            for name in ["floor", "lid", "sides", *(n for n in names if n.startswith("proc"))]
+        )
+        for factor, time in enumerate(TIMES):
+            (folder / time / "grad(U)").write_text(
+                header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+                f"internalField nonuniform List<tensor> {len(cells)}\n(\n{rows(factor * values[cells])}\n);\n"
+                f"boundaryField\n{{\n{patches}}}\n"
+            )
+    return case
+
+
+def test_regions_and_given_gradients_are_put_together_too(case, random):
+    into_region(add_gradient(case))
+    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_decomposed_case))
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+    whole, parts = (
+        read(case, region="air", gradient="grad(U)") for read in (read_series, read_decomposed_series)
+    )
+    x = random.random((20, 3))
+    for t in (0.0, 0.2, 7.0):
+        found, expected = (flow.sample(x, flow.locate(x), t) for flow in (parts, whole))
+        np.testing.assert_array_equal(found[0], expected[0])
+        np.testing.assert_array_equal(found[1], expected[1])
+    assert np.abs(expected[1]).max() > 0.1
+
+
+def test_regions_of_parts_alone(case, capsys):
+    alone(into_region(case))
+    assert is_only_decomposed(case, "air")
+    with pytest.raises(InputError, match=r"divided into regions; choose one with -region\. Allowed: air"):
+        read_decomposed_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_decomposed_case(case, region="aire")
+    assert main(["info", "-case", str(case), "-region", "air"]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"^Region +air$", out, re.MULTILINE)
+    assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
+    with pytest.raises(InputError, match=r"processor0/0\.5/air/grad\(U\): no such file"):
+        read_decomposed_case(case, 0.5, region="air", gradient="grad(U)")
+
+
 def test_compressed_files_are_read_alike(case):
     for path in [*case.glob("processor*/*/U"), *case.glob("processor*/constant/polyMesh/*")]:
         with gzip.open(f"{path}.gz", "wb") as file:
@@ -160,6 +227,32 @@ def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch)
     (folder,) = tmp_path.iterdir()
     del flow
     assert not folder.exists()
+
+
+def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    script = (
+        "import os, signal, sys\nfrom pathlib import Path\nfrom foamprb.flow.decomposed import Rebuilt\n"
+        "whole = Rebuilt(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
+        "os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    command = [sys.executable, "-c", script, str(written)]
+    other = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    )
+    with other:
+        left = Path(other.stdout.readline().strip())
+        first = Rebuilt(written)
+        assert left.is_dir()
+        other.communicate("x")
+    assert other.returncode == -signal.SIGKILL
+    assert left.is_dir()
+    second = Rebuilt(written)
+    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder])
 
 
 def test_parts_alone_are_found_and_described(case, capsys):
@@ -238,6 +331,15 @@ MISTAKES = {
     ),
     "half of the field": (
         replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
+    ),
+    "no whole number": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n0.5\n"), r"owner: line \d+: a list of whole numbers",
+    ),
+    "a number beyond all": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
+    ),
+    "a count beyond all": (
+        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
     ),
     "a number that is none": (
         replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of numbers",
@@ -348,5 +450,5 @@ def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
 
 
 def test_patches_keep_all_their_entries(written):
-    patch = read_boundary(written / "processor0/constant/polyMesh/boundary")[0]
-    assert patch.entries["inGroups"] == "1(some)"
+    patch = read_boundary(written / "processor0/constant/polyMesh/boundary", written)[0]
+    assert patch.entries["inGroups"].split() == ["1", "(", "some", ")"]

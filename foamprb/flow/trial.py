@@ -17,14 +17,45 @@ from typing import Any
 
 from foamprb.errors import InputError
 
-__all__ = ["require_survival"]
+__all__ = ["read_vtk", "require_survival", "times_of"]
 
 _lock = threading.Lock()
 _server: Any = None
 
 
-def require_survival(path: Path) -> None:
-    """Refuse a file that VTK does not survive.
+def times_of(path: Path) -> list[float]:
+    """The times that a file of VTK's has, rising; none if it knows of no time."""
+    import pyvista
+
+    return _times(pyvista.get_reader(path))
+
+
+def read_vtk(path: Path, step: int | None = None) -> Any:
+    """Read a file of VTK's, at the time of a position among its times if it has any."""
+    import pyvista
+
+    reader = pyvista.get_reader(path)
+    if step is not None and isinstance(reader, pyvista.HDFReader):
+        reader.reader.SetStep(step)
+    elif step is not None:
+        reader.set_active_time_value(_times(reader)[step])
+    return reader.read()
+
+
+def _times(reader: Any) -> list[float]:
+    import pyvista
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+    if not isinstance(reader, pyvista.HDFReader):
+        return list(getattr(reader, "time_values", None) or [])
+    # Pyvista passes over the times of these.
+    reader.reader.UpdateInformation()
+    about, key = reader.reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    return list(about.Get(key)) if about.Has(key) else []
+
+
+def require_survival(path: Path, step: int | None = None) -> None:
+    """Refuse a file that VTK does not survive, at the time of a position among its times if it has any.
 
     Raises
     ------
@@ -32,13 +63,13 @@ def require_survival(path: Path) -> None:
         Reading the file ended the process that tried; the signal by which.
     """
     with _lock:
-        number = _ask(path)
+        number = _ask(path, step)
     if number:
         name = signal.Signals(number).name
         raise InputError(f"{path}: VTK cannot read it and does not survive it ({name}); the file is damaged.")
 
 
-def _ask(path: Path) -> int:
+def _ask(path: Path, step: int | None) -> int:
     """The signal that ended the copy which read the file, 0 if none did."""
     global _server
     if _server is None or _server.poll() is not None:
@@ -47,7 +78,7 @@ def _ask(path: Path) -> int:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )
     try:
-        _server.stdin.write(json.dumps(str(path.resolve())) + "\n")
+        _server.stdin.write(json.dumps([str(path.resolve()), step]) + "\n")
         _server.stdin.flush()
         return int(_server.stdout.readline())
     except (OSError, ValueError) as error:
@@ -57,10 +88,11 @@ def _ask(path: Path) -> int:
 
 
 def _serve() -> None:
-    """Answer paths, one in each line of the standard input, with numbers of signals."""
+    """Answer paths and times, one of each in each line of the standard input, with numbers of signals."""
     import contextlib
 
-    import pyvista
+    # Once for all the copies.
+    import pyvista  # noqa: F401
 
     answers = os.fdopen(os.dup(1), "w")
     with open(os.devnull, "wb") as nothing:  # noqa: PTH123
@@ -69,7 +101,8 @@ def _serve() -> None:
         copy = os.fork()
         if copy == 0:
             with contextlib.suppress(BaseException):
-                _touch(pyvista.get_reader(json.loads(line)).read())
+                path, step = json.loads(line)
+                _touch(read_vtk(Path(path), step))
             os._exit(0)
         _, status = os.waitpid(copy, 0)
         answers.write(f"{os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0}\n")
