@@ -338,6 +338,9 @@ MISTAKES = {
     "a number beyond all": (
         replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
     ),
+    "infinite": (
+        replace(f"{POLY}/owner", r"\n0\n", "\ninf\n"), r"a list of whole numbers",
+    ),
     "a count beyond all": (
         replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
     ),

@@ -286,6 +286,20 @@ def test_kinds_of_cells_in_vtk_files(suffix, kind, tmp_path, random):
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
 
 
+def test_a_cell_that_names_a_wrong_point_is_told_by_the_boundary(tmp_path):
+    points, hexes = corners(2, 0.2)
+    for wrong in (False, True):
+        if wrong:
+            hexes[3, 1] = 1
+        shape = grid(points, [(12, hexes)])
+        shape.cell_data["U"] = np.ones((8, 3))
+        shape.save(tmp_path / "flow.vtu")
+        for division in (None, Division(feature_angle=30.0)):
+            flow = read_mesh_file(tmp_path / "flow.vtu", division=division)
+            assert flow.mesh.inverted == 0
+            assert ("more than two boundary faces meet" in flow.notes[0]) == wrong
+
+
 def test_pieces_of_a_parallel_file_are_joined(tmp_path):
     shape = flowing()
     left = shape.cell_centers().points[:, 0] < 0.34

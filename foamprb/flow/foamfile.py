@@ -130,7 +130,7 @@ class _File:
     def labels(self) -> Labels:
         """A list of labels (n,), its number of entries first."""
         values = self.list(1, self._label)[:, 0]
-        if values.dtype.kind == "f" and not np.all((np.abs(values) < _LARGEST_LABEL) & (values % 1.0 == 0.0)):
+        if not np.all((np.abs(values) < _LARGEST_LABEL) & (np.trunc(values) == values)):
             raise self.broken("a list of whole numbers")
         return values.astype(np.int64)
 

@@ -498,7 +498,9 @@ def _divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mes
         labels = _by_angle(mesh, division.feature_angle)
         names = [f"{BOUNDARY}{k}" for k in range(labels.max() + 1)]
     else:
-        return mesh, "The file names no patches: the whole boundary is one wall, named boundary."
+        return mesh, " ".join(
+            ["The file names no patches: the whole boundary is one wall, named boundary.", *_crossings(mesh)]
+        )
     if len(names) > _MOST_PATCHES:
         raise InputError(f"{path}: the boundary falls into {len(names)} patches; at most {_MOST_PATCHES}.")
     sizes = np.diff(mesh.face_start)[mesh.n_internal :]
@@ -516,7 +518,7 @@ def _divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mes
     exact = grid.copy()
     exact.points = mesh.points
     mesh = build_mesh(exact, surfaces, source=str(path))
-    return mesh, f"The boundary is divided into {_named(mesh)}."
+    return mesh, " ".join([f"The boundary is divided into {_named(mesh)}.", *_crossings(mesh)])
 
 
 def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[np.intp], list[str]]:
@@ -556,15 +558,31 @@ def _groups(grid: Any) -> list[tuple[str, Any]]:
     ]
 
 
-def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
-    """The patch of each boundary face: faces are together across edges that turn by less than the angle."""
+def _boundary_edges(mesh: Mesh) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
+    """The edges of the boundary faces, face after face: a number for each that its points give; its face."""
     start = mesh.face_start[mesh.n_internal :].astype(np.intp)
     sizes = np.diff(start)
     a = mesh.face_points[start[0] :].astype(np.int64)
     b = np.roll(a, -1)
     b[start[1:] - start[0] - 1] = a[start[:-1] - start[0]]
-    edges = (np.minimum(a, b) << 32) | np.maximum(a, b)
-    face = np.repeat(np.arange(len(sizes)), sizes)
+    return (np.minimum(a, b) << 32) | np.maximum(a, b), np.repeat(np.arange(len(sizes)), sizes)
+
+
+def _crossings(mesh: Mesh) -> list[str]:
+    """A warning where the boundary crosses itself, as it does about a cell that names a wrong point."""
+    edges, _ = _boundary_edges(mesh)
+    crossings = np.count_nonzero(np.unique(edges, return_counts=True)[1] > 2)
+    if not crossings:
+        return []
+    return [
+        f"At {crossings} edges more than two boundary faces meet: the domain touches itself there, or cells "
+        "name points that are not theirs."
+    ]
+
+
+def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
+    """The patch of each boundary face: faces are together across edges that turn by less than the angle."""
+    edges, face = _boundary_edges(mesh)
     order = np.argsort(edges, kind="stable")
     same = edges[order[1:]] == edges[order[:-1]]
     one, other = face[order[:-1]][same], face[order[1:]][same]
@@ -574,7 +592,7 @@ def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
     smooth = np.einsum("ei,ei->e", normals[one], normals[other]) > np.cos(np.radians(angle))
     graph = sparse.coo_array(
         (np.ones(np.count_nonzero(smooth), dtype=np.int8), (one[smooth], other[smooth])),
-        shape=(len(sizes), len(sizes)),
+        shape=2 * (len(mesh.boundary_centres),),
     )
     labels: NDArray[np.intp] = csgraph.connected_components(graph, directed=False)[1].astype(np.intp)
     return labels
