@@ -14,6 +14,8 @@ import pytest
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
+from foamprb.flow.openfoam import describe
+from foamprb.flow.source import Source, read_flow
 
 pytestmark = pytest.mark.openfoam
 
@@ -22,11 +24,13 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="session")
 def tool():
+    path = list(sys.path)
     loader = importlib.machinery.SourceFileLoader("mesh_kinds", str(ROOT / "tools/mesh_kinds"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("mesh_kinds", loader))
     sys.modules["mesh_kinds"] = module
     loader.exec_module(module)
     yield module
+    sys.path[:] = path
     del sys.modules["mesh_kinds"]
 
 
@@ -52,17 +56,23 @@ def crowd_is_kept(tool, flow, n=5000):
     return cloud
 
 
-@pytest.mark.parametrize("kind", ["prisms", "tetrahedra", "polyhedra"])
+@pytest.mark.parametrize("kind", ["hexahedra", "prisms", "tetrahedra", "polyhedra"])
 def test_the_papers_particle_lands_alike_in_all_kinds_of_cells(kind, tool, cases):
     flow = read_case(cases(kind))
-    assert tool.landing(flow) == pytest.approx(tool.ANALYTIC, rel=0.01)
+    assert flow.mesh.inverted == 0
+    # The hexahedra, with the solver's own error, are 0.24 % off; the exact cell values 0.2 to 0.4 %.
+    assert tool.landing(flow) == pytest.approx(tool.ANALYTIC, rel=0.005)
     crowd_is_kept(tool, flow)
 
 
 def test_no_particle_is_lost_in_a_mesh_of_snappy_hex_mesh(tool, tmp_path):
     case = tmp_path / "bend"
     subprocess.run([ROOT / "cases/snappy/Allrun", case], check=True)
-    crowd_is_kept(tool, read_case(case), 20_000)
+    flow = read_case(case)
+    cells = describe(case).cells
+    assert cells["polyhedron"] > 4000
+    assert cells["prism"] > 1000
+    crowd_is_kept(tool, flow, 20_000)
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
 
 
@@ -89,18 +99,47 @@ def test_a_wedge_has_the_gradient_of_the_axisymmetric_flow(tool, cases):
     assert cloud.recovered == 0
 
 
-@pytest.mark.parametrize("name", ["plane", "cyclic"])
+@pytest.mark.parametrize("name", ["plane", "symmetry", "cyclic"])
 def test_plane_channels(name, tool, cases):
+    """Developed flow: between two walls, or between a wall and a plane of symmetry half as far apart."""
     flow = read_case(cases(name))
     x = np.column_stack(
-        [np.full(50, 8e-3 if name == "plane" else 9.99e-3), np.linspace(1e-5, 1.99e-3, 50), np.full(50, 1e-4)]
+        [
+            np.full(50, 9.99e-3 if name == "cyclic" else 8e-3),
+            np.linspace(1e-5, 1.99e-3, 50),
+            np.full(50, 1e-4),
+        ]
     )
     u, l = flow.sample(x, flow.locate(x), 0.0)
-    y = x[:, 1] / 2e-3
-    assert u[:, 0] == pytest.approx(6.0 * 0.3 * y * (1.0 - y), abs=0.01 * 0.3)
-    assert l[:, 0, 1] == pytest.approx(6.0 * 0.3 / 2e-3 * (1.0 - 2.0 * y), abs=0.03 * 900.0)
+    width = 4e-3 if name == "symmetry" else 2e-3
+    y = x[:, 1] / width
+    # Behind an inlet twice as wide, the flow of the half channel is developed to some percent.
+    off = 0.05 if name == "symmetry" else 0.01
+    assert u[:, 0] == pytest.approx(6.0 * 0.3 * y * (1.0 - y), abs=off * 0.3)
+    assert l[:, 0, 1] == pytest.approx(6.0 * 0.3 / width * (1.0 - 2.0 * y), abs=3.0 * off * 1.8 / width)
     assert np.abs(l[:, :, 2]).max() < 1e-3
     crowd_is_kept(tool, flow)
+
+
+def parts_of(tool, case, to):
+    """A decomposed copy of a case, and its flow."""
+    copy = tool.decomposed(shutil.copytree(case, to))
+    return copy, read_flow(copy, source=Source(decomposed=True))
+
+
+@pytest.mark.parametrize("name", ["cyclic", "wedge"])
+def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, tmp_path):
+    """To the last bit, also where decomposePar has cut a pair of cyclic patches into several."""
+    whole = read_case(cases(name))
+    copy, parts = parts_of(tool, cases(name), tmp_path / name)
+    cut = "".join(path.read_text() for path in copy.glob("processor*/constant/polyMesh/boundary"))
+    assert ("processorCyclic" in cut) == (name == "cyclic")
+    assert parts.patches == whole.patches
+    for field, a, b in zip(whole.arrays()._fields, whole.arrays(1e-4), parts.arrays(1e-4), strict=True):
+        np.testing.assert_array_equal(a, b, err_msg=field)
+    for coupling, other in zip(whole.mesh.couplings, parts.mesh.couplings, strict=True):
+        np.testing.assert_array_equal(coupling.shift, other.shift)
+        np.testing.assert_array_equal(coupling.partners, other.partners)
 
 
 def test_particles_go_round_in_a_cyclic_channel(tool, cases):
@@ -146,7 +185,7 @@ def last_to_start(case):
     shutil.rmtree(last)
 
 
-def test_regions_and_baffles(tool, cases, tmp_path):
+def test_a_region_of_a_mesh_that_is_split(tool, cases, tmp_path):
     case = shutil.copytree(cases("plane"), tmp_path / "channel")
     head = "FoamFile { version 2.0; format ascii; class dictionary; object d; }\n"
     whole = read_case(case)
@@ -166,25 +205,13 @@ def test_regions_and_baffles(tool, cases, tmp_path):
     assert {p.type for p in left.patches} >= {"patch", "wall", "empty"}
     assert main(["info", "-case", str(case), "-region", "left"]) == 0
 
-    case = shutil.copytree(cases("plane"), tmp_path / "baffle")
-    last_to_start(case)
-    (case / "system/topoSetDict").write_text(
-        f"{head}actions ( {{ name middle; type faceSet; action new; source boxToFace; sourceInfo"
-        " { box (0.0049 0.0009 -1) (0.0051 1 1); } }\n"
-        "{ name middle; type faceZoneSet; action new; source setToFaceZone;"
-        " sourceInfo { faceSet middle; } } );"
-    )
-    (case / "system/createBafflesDict").write_text(
-        f"{head}internalFacesOnly true;\nbaffles {{ middle {{ type faceZone; zoneName middle; patches"
-        " { master { name west; type wall; patchFields { U { type noSlip; } p { type zeroGradient; } } }"
-        " slave { name east; type wall; patchFields { U { type noSlip; } p { type zeroGradient; } } } } } }"
-    )
-    tool.run(case, "topoSet")
-    tool.run(case, "createBaffles", "-overwrite")
-    flow = read_case(case)
+
+def test_a_baffle_has_two_sides(tool, cases):
+    flow = read_case(cases("baffle"))
     assert [p.name for p in flow.patches][-2:] == ["west", "east"]
     assert np.diff(flow.mesh.patch_start)[-2:].tolist() == [13, 13]
-    assert flow.mesh.n_points > whole.mesh.n_points
+    assert flow.mesh.n_points > read_case(cases("plane")).mesh.n_points
+    crowd_is_kept(tool, flow)
     x = np.array([[0.00499, 0.0015, 1e-4]])
     p = spheres(x, d=5e-6, rho=1000.0, mu=1.0)
     p.v[:] = (0.5, 0.0, 0.0)
