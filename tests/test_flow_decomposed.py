@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import GRADIENT, header, rows, write_case
+from foam_writer import decompose, header, rows, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
@@ -32,86 +32,11 @@ from foamprb.flow.series import read_series
 TIMES = ("0", "0.5", "1e1")
 
 
-def plain(values):
-    return "\n".join(map(str, values))
-
-
-def decompose(case, mesh, part_of):
-    """Cut a case of :func:`write_case` as decomposePar does, each cell going to the part of its number."""
-    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
-    owner, neighbour = mesh.owner, mesh.neighbour
-    for part in range(part_of.max() + 1):
-        cells = np.flatnonzero(part_of == part)
-        cell_in = {cell: i for i, cell in enumerate(cells)}
-        own = part_of[owner] == part
-        other = np.zeros(len(owner), dtype=bool)
-        other[: len(neighbour)] = part_of[neighbour] == part
-        inner = np.flatnonzero(own & other)
-        patches = [
-            np.flatnonzero(own[first:last]) + first
-            for first, last in zip(
-                mesh.n_internal + mesh.patch_start[:-1], mesh.n_internal + mesh.patch_start[1:], strict=True
-            )
-        ]
-        between = np.flatnonzero((own ^ other) & (np.arange(len(owner)) < mesh.n_internal))
-        kept = np.concatenate([inner, *patches, between])
-        turned = ~own[kept]
-        lists = [
-            faces[f] if not turn else np.r_[faces[f][:1], faces[f][:0:-1]]
-            for f, turn in zip(kept, turned, strict=True)
-        ]
-        points = np.unique(np.concatenate(lists))
-        point_in = {point: i for i, point in enumerate(points)}
-        local = [[point_in[p] for p in face] for face in lists]
-        folder = case / f"processor{part}"
-        poly = folder / "constant/polyMesh"
-        poly.mkdir(parents=True)
-        owners = [cell_in[neighbour[f] if turn else owner[f]] for f, turn in zip(kept, turned, strict=True)]
-        files = {
-            "points": ("vectorField", rows(mesh.points[points]), len(points)),
-            "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in local), len(kept)),
-            "owner": ("labelList", plain(owners), len(kept)),
-            "neighbour": ("labelList", plain([cell_in[neighbour[f]] for f in inner]), len(inner)),
-            "pointProcAddressing": ("labelList", plain(points), len(points)),
-            "faceProcAddressing": ("labelList", plain(np.where(turned, -1, 1) * (kept + 1)), len(kept)),
-            "cellProcAddressing": ("labelList", plain(cells), len(cells)),
-            "boundaryProcAddressing": ("labelList", plain([*range(len(patches)), -1]), len(patches) + 1),
-        }
-        for name, (kind, body, count) in files.items():
-            (poly / name).write_text(header(kind, name) + f"{count}\n(\n{body}\n)\n")
-        text, start = "", len(inner)
-        blocks = [*zip(mesh.patches, patches, strict=True), (None, between)]
-        for patch, ids in blocks:
-            name, kind = (patch.name, patch.type) if patch else ("procBoundary", "processor")
-            text += f"{name} {{ type {kind}; inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
-            start += len(ids)
-        (poly / "boundary").write_text(
-            header("polyBoundaryMesh", "boundary") + f"{len(blocks)}\n(\n{text})\n"
-        )
-        values = "procBoundary { type processor; value uniform (1 2 3); }\n"
-        for patch, ids in zip(mesh.patches, patches, strict=True):
-            at = mesh.boundary_centres[ids - mesh.n_internal] @ GRADIENT.T
-            value = (
-                f"nonuniform List<vector> {len(at)}\n(\n{rows(at)}\n)"
-                if len(at)
-                else "nonuniform List<vector> 0()"
-            )
-            values += f"{patch.name} {{ type fixedValue; coefficients {{ a (1 2); }} value {value};\n}}\n"
-        for time in TIMES:
-            (folder / time).mkdir()
-            (folder / time / "U").write_text(
-                header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
-                f"internalField nonuniform List<vector> {len(cells)}\n(\n"
-                f"{rows(mesh.centres[cells] @ GRADIENT.T)}\n);\n"
-                f"// of the part\nboundaryField\n{{\n{values}}}\n"
-            )
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     case = tmp_path_factory.mktemp("decomposed") / "case"
     mesh = write_case(case, "mixed")
-    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells))
+    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells), TIMES)
     return case
 
 
@@ -135,6 +60,17 @@ def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
     for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
     assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
+
+
+def test_a_part_may_be_empty(tmp_path):
+    """As those of regions that do not reach to every processor."""
+    mesh = write_case(tmp_path / "case", "polyhedra", times=("0",))
+    parts = np.zeros(mesh.n_cells, dtype=int)
+    parts[mesh.n_cells // 2 :] = 2
+    decompose(tmp_path / "case", mesh, parts, ("0",))
+    assert len(read_labels(tmp_path / "case/processor1/constant/polyMesh/owner")) == 0
+    a, b = read_case(tmp_path / "case"), read_decomposed_case(tmp_path / "case")
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
 
 
 def test_a_series_of_times_too(written, random):
@@ -356,6 +292,22 @@ MISTAKES = {
     ),
     "parts of another case": (
         replace(f"{POLY}/cellProcAddressing", r"\(\n\d+", "(\n999"), r"do not make a whole mesh",
+    ),
+    "a cell twice": (
+        replace(f"{POLY}/cellProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "a point of another's": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"),
+        r"do not make a whole mesh",
+    ),
+    "a point that differs": (
+        replace(f"{POLY}/points", r"\(\n\(\S+", "(\n(0.125"), r"do not make a whole mesh",
+    ),
+    "a face twice": (
+        replace(f"{POLY}/faceProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "an address beyond all": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+", "(\n2147483647"), r"do not make a whole mesh",
     ),
     "a mesh that moves": (
         lambda case: (case / "processor0/0.5/polyMesh").mkdir(),

@@ -70,6 +70,8 @@ _HEADER = """FoamFile
 
 """
 _MESH = ("points", "faces", "owner", "neighbour", "boundary")
+_APART = 1e-6
+"""How far apart a point may be in two parts, of the extent of the mesh."""
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
 
 
@@ -335,8 +337,8 @@ def _read_part(case: Path, folder: Path, region: str) -> _Part:
     ):
         if len(values) and not 0 <= values.min() <= values.max() < limit:
             raise InputError(f"{mesh / name}: an index outside 0 to {limit - 1}.")
-    if np.any(signed == 0) or (len(part.cell_at) and part.cell_at.min() < 0) or part.point_at.min() < 0:
-        raise InputError(f"{mesh}: an addressing file points outside the mesh.")
+    if np.any(signed == 0):
+        raise InputError(f"{mesh / 'faceProcAddressing'}: there is no face 0.")
     return part
 
 
@@ -363,10 +365,23 @@ def _whole_patches(case: Path, parts: Sequence[_Part]) -> tuple[list[PatchInfo],
 def _write_mesh(
     folder: Path, case: Path, parts: Sequence[_Part], patches: Sequence[PatchInfo], ranges: Labels
 ) -> None:
-    n_cells = sum(len(part.cell_at) for part in parts)
-    n_points = 1 + max(int(part.point_at.max()) for part in parts)
-    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
-    points = np.full((n_points, 3), np.nan)
+    foreign = InputError(
+        f"{case}: the processor folders do not make a whole mesh; one of them is damaged or of another case."
+    )
+    n_cells = _whole_number([part.cell_at for part in parts])
+    n_points = _whole_number([part.point_at for part in parts])
+    n_faces = _whole_number([part.face_at[~part.turned] for part in parts])
+    n_internal = n_faces - int(ranges[-1])
+    turned = np.concatenate([part.face_at[part.turned] for part in parts])
+    if (
+        min(n_cells, n_points, n_internal) < 0
+        or n_cells != sum(len(part.cell_at) for part in parts)
+        or n_faces != sum(np.count_nonzero(~part.turned) for part in parts)
+        or turned.max(initial=-1) >= n_faces
+        or len(np.unique(turned)) != len(turned)
+    ):
+        raise foreign
+    points = np.empty((n_points, 3))
     owner, neighbour, size = (np.full(n_faces, -1, dtype=np.int64) for _ in range(3))
     for part in parts:
         points[part.point_at] = part.points
@@ -376,15 +391,13 @@ def _write_mesh(
         inside = len(part.neighbour)
         neighbour[part.face_at[:inside]] = part.cell_at[part.neighbour]
         neighbour[part.face_at[part.turned]] = part.cell_at[part.owner[part.turned]]
-    n_internal = n_faces - int(ranges[-1])
-    whole = (
-        not np.isnan(points).any() and (owner >= 0).all() and (neighbour[:n_internal] >= 0).all()
-        and (neighbour[n_internal:] < 0).all() and owner.max() < n_cells
-    )  # fmt: skip
-    if not whole:
-        raise InputError(
-            f"{case}: the processor folders do not make a whole mesh; one of them is of another case."
-        )
+    apart = max(float(np.abs(points[part.point_at] - part.points).max(initial=0.0)) for part in parts)
+    if (
+        not apart <= _APART * float(np.ptp(points, axis=0).max())
+        or np.any(neighbour[:n_internal] < 0)
+        or np.any(neighbour[n_internal:] >= 0)
+    ):
+        raise foreign
     start = np.concatenate([[0], np.cumsum(size)])
     lists = np.empty(start[-1], dtype=np.int64)
     for part in parts:
@@ -409,6 +422,15 @@ def _write_mesh(
         _HEADER.format(kind="polyBoundaryMesh", note="", name="boundary").replace("binary", "ascii")
         + f"{len(patches)}\n(\n{text})\n"
     )
+
+
+def _whole_number(addresses: Sequence[Labels]) -> int:
+    """How many pieces there are if the parts hold all numbers from 0 on, and no others; −1 if they do not."""
+    everything = np.concatenate(addresses)
+    n = int(everything.max(initial=-1)) + 1
+    if n > len(everything) or everything.min(initial=0) < 0:
+        return -1
+    return n if np.bincount(everything, minlength=n).all() else -1
 
 
 def _write_zones(path: Path, parts: Sequence[_Part]) -> None:
@@ -462,7 +484,7 @@ def _write_field(
     components = fields[0].cells.shape[1]
     of = {3: "vector", 9: "tensor"}[components]
     cells = np.empty((sum(len(part.cell_at) for part in parts), components))
-    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
+    n_faces = 1 + max(int(part.face_at.max(initial=-1)) for part in parts)
     boundary = np.zeros((int(ranges[-1]), components))
     valued = np.zeros(len(patches), dtype=bool)
     types = [""] * len(patches)
