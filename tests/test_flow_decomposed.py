@@ -281,7 +281,7 @@ MISTAKES = {
         replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
     ),
     "a number that is none": (
-        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of numbers",
+        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of whole numbers",
     ),
     "another count": (
         replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n9"),

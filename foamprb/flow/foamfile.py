@@ -43,7 +43,6 @@ _COUNT = re.compile(rb"\d+")
 _NUMBERS = re.compile(rb"[^()]*")
 _COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
 _FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
-_LARGEST_LABEL = 2.0**53
 _MOST_ENTRIES = 1 << 31
 
 
@@ -129,10 +128,8 @@ class _File:
 
     def labels(self) -> Labels:
         """A list of labels (n,), its number of entries first."""
-        values = self.list(1, self._label)[:, 0]
-        if not np.all((np.abs(values) < _LARGEST_LABEL) & (np.trunc(values) == values)):
-            raise self.broken("a list of whole numbers")
-        return values.astype(np.int64)
+        values: Labels = self.list(1, self._label)[:, 0]
+        return values
 
     def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
         """A list (n, components), its number of entries first; in binary of a type, by default a scalar."""
@@ -147,9 +144,9 @@ class _File:
         if not self.binary or self._is_uniform():
             self.skip()
             if self.take(b"{"):
-                return np.broadcast_to(self._numbers(1, components, b"}"), (n, components))
+                return np.broadcast_to(self._numbers(1, components, b"}", wide), (n, components))
             self.need(b"(")
-            return self._numbers(n, components, b")")
+            return self._numbers(n, components, b")", wide)
         begin = self.data.find(b"(", self.at) + 1
         end = begin + n * components * dtype.itemsize
         if begin == 0 or self.data[end : end + 1] != b")":
@@ -163,7 +160,7 @@ class _File:
         match = _BLANK.match(self.data, self.at)
         return match is not None and self.data[match.end() : match.end() + 1] == b"{"
 
-    def _numbers(self, n: int, components: int, closing: bytes) -> Floats:
+    def _numbers(self, n: int, components: int, closing: bytes, wide: type = np.float64) -> NDArray[Any]:
         """Numbers in ascii up to the closing bracket, which is passed; vectors in brackets of their own."""
         if components > 1:
             end = re.compile(rb"\)\s*" + re.escape(closing)).search(self.data, self.at)
@@ -176,9 +173,10 @@ class _File:
             raise self.broken(f"'{closing.decode()}'")
         text = _NOTE.sub(b" ", self.data[self.at : stop]).translate(bytes.maketrans(b"()", b"  "))
         try:
-            values = np.array(text.split(), dtype=np.float64)
-        except ValueError:
-            raise self.broken("a list of numbers") from None
+            values: NDArray[Any] = np.array(text.split(), dtype=wide)
+        except (ValueError, OverflowError):
+            kind = "numbers" if wide is np.float64 else "whole numbers"
+            raise self.broken(f"a list of {kind}") from None
         if len(values) != n * components:
             raise self.broken(f"a list of {n} entries, not {len(values) / components:g},")
         self.at = after
