@@ -114,13 +114,14 @@ def zones_file(zones, width=None):
     parts.append(f"// * * * //\n\n{len(zones)}\n(\n")
     data = "".join(parts).encode()
     for name, cells in zones.items():
-        data += f"{name}\n{{\n    type cellZone;\ncellLabels      List<label> \n".encode()
+        data += f"{name}\n{{\n    type cellZone;\ncellLabels      ".encode()
+        data += b"List<label> \n" if cells or width is None else b""
         if width is None:
             data += f"{len(cells)}\n(\n{' '.join(map(str, cells))}\n)\n".encode()
         elif len(cells):
             data += f"\n{len(cells)}\n(".encode() + np.array(cells, dtype=f"<i{width}").tobytes() + b")"
         else:
-            data += b"\n0\n"
+            data += b"0"
         data += b";\n}\n\n"
     return data + b")\n\n// ***** //\n"
 

@@ -344,8 +344,8 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
         cells: Labels | None = None
         while not file.take(b"}"):
             if file.word() == b"cellLabels":
-                if file.word() != b"List<label>":
-                    raise file.broken("List<label>")
+                # An empty zone in binary is a mere 0.
+                file.take(b"List<label>")
                 cells = file.labels()
                 file.need(b";")
             else:

@@ -118,25 +118,27 @@ def test_plane_channels(name, tool, cases):
     crowd_is_kept(tool, flow)
 
 
-def parts_of(tool, case, to):
-    """A decomposed copy of a case, and its flow."""
-    copy = tool.decomposed(shutil.copytree(case, to))
-    return copy, read_flow(copy, source=Source(decomposed=True))
-
-
-@pytest.mark.parametrize("name", ["cyclic", "wedge"])
-def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, tmp_path):
-    """To the last bit, also where decomposePar has cut a pair of cyclic patches into several."""
-    whole = read_case(cases(name))
-    copy, parts = parts_of(tool, cases(name), tmp_path / name)
-    cut = "".join(path.read_text() for path in copy.glob("processor*/constant/polyMesh/boundary"))
-    assert ("processorCyclic" in cut) == (name == "cyclic")
+def assert_same(whole, parts):
+    """To the last bit."""
     assert parts.patches == whole.patches
     for field, a, b in zip(whole.arrays()._fields, whole.arrays(1e-4), parts.arrays(1e-4), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=field)
     for coupling, other in zip(whole.mesh.couplings, parts.mesh.couplings, strict=True):
         np.testing.assert_array_equal(coupling.shift, other.shift)
         np.testing.assert_array_equal(coupling.partners, other.partners)
+
+
+@pytest.mark.parametrize("name", ["cyclic", "wedge"])
+def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, tmp_path):
+    """Also where decomposePar has cut a pair of cyclic patches into several."""
+    case = shutil.copytree(cases(name), tmp_path / name)
+    tool.run(case, "postProcess", "-func", "grad(U)", "-latestTime")
+    tool.decomposed(case)
+    cut = "".join(path.read_text() for path in case.glob("processor*/constant/polyMesh/boundary"))
+    assert ("processorCyclic" in cut) == (name == "cyclic")
+    for gradient in ("", "grad(U)"):
+        parts = read_flow(case, source=Source(gradient=gradient, decomposed=True))
+        assert_same(read_case(case, gradient=gradient), parts)
 
 
 def test_particles_go_round_in_a_cyclic_channel(tool, cases):
@@ -201,6 +203,14 @@ def test_a_region_of_a_mesh_that_is_split(tool, cases, tmp_path):
     assert left.mesh.n_cells == whole.mesh.n_cells // 2
     assert {p.type for p in left.patches} >= {"patch", "wall", "empty"}
     assert main(["info", "-case", str(case), "-region", "left"]) == 0
+    (case / "system/decomposeParDict").write_text(
+        f"{head}numberOfSubdomains 2; method simple; simpleCoeffs {{ n (2 1 1); delta 0.001; }}"
+    )
+    shutil.copy(case / "system/decomposeParDict", case / "system/left")
+    tool.run(case, "decomposePar", "-region", "left")
+    parts = read_flow(case, source=Source(region="left", decomposed=True))
+    assert parts.notes[0] == "The flow was put together from 2 processor folders."
+    assert_same(left, parts)
 
 
 def test_a_baffle_has_two_sides(tool, cases):
