@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError, suggestion
+from foamprb.errors import InputError
 from foamprb.flow.foamfile import (
     Field,
     Floats,
@@ -39,6 +39,8 @@ from foamprb.flow.openfoam import (
     describe,
     read_case,
     regions,
+    require_choice,
+    require_region,
     select_time,
 )
 from foamprb.flow.scratch import scratch_folder
@@ -150,7 +152,10 @@ class Rebuilt:
     def __init__(self, case: Path, region: str = "") -> None:
         self.case, self.region = case, region
         self._folders = processors(case)
-        _require_region(case, self._folders[0], region)
+        names = regions(self._folders[0])
+        require_region(case, region, names)
+        if not region and existing(self._folders[0] / "constant/polyMesh/faces") is None:
+            require_choice(case, names)
         self.times = _common_times(self._folders, region)
         self._parts = [_read_part(case, folder, region) for folder in self._folders]
         self._patches, self._ranges = _whole_patches(case, self._parts)
@@ -268,21 +273,6 @@ def _classes(folder: Path) -> dict[str, str]:
     paths = sorted(folder.iterdir()) if folder.is_dir() else ()
     found = {path.name.removesuffix(".gz"): header(path).get("class", "") for path in paths if path.is_file()}
     return {name: kind for name, kind in found.items() if kind.endswith("Field")}
-
-
-def _require_region(case: Path, folder: Path, region: str) -> None:
-    """Refuse a region that the parts do not have, or none where they have several."""
-    names = regions(folder)
-    if region and region not in names:
-        raise InputError(
-            f"{case}: no region {region}. {suggestion(region, names)}"
-            if names
-            else f"{case}: no region {region}; the case is not divided into regions."
-        )
-    if not region and names and existing(folder / "constant/polyMesh/faces") is None:
-        raise InputError(
-            f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
-        )
 
 
 def _common_times(folders: Sequence[Path], region: str) -> tuple[str, ...]:

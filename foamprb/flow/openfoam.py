@@ -38,7 +38,9 @@ __all__ = [
     "pick_time",
     "read_case",
     "regions",
+    "require_choice",
     "require_numbers",
+    "require_region",
     "require_volumes",
     "select_time",
     "spoken",
@@ -497,23 +499,33 @@ def _require_case(case: Path, region: str) -> None:
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     names = regions(case)
-    if region and region not in names:
-        raise InputError(
-            f"{case}: no region {region}. {suggestion(region, names)}"
-            if names
-            else f"{case}: no region {region}; the case is not divided into regions."
-        )
+    require_region(case, region, names)
     if existing(case / "constant" / region / "polyMesh" / "faces") is not None:
         return
     if _is_decomposed(case):
         raise InputError(
             f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
         )
+    require_choice(case, names)
+    raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
+
+
+def require_region(case: Path, region: str, names: Sequence[str]) -> None:
+    """Raise InputError if a region is named that a case of these regions does not have."""
+    if region and region not in names:
+        raise InputError(
+            f"{case}: no region {region}. {suggestion(region, names)}"
+            if names
+            else f"{case}: no region {region}; the case is not divided into regions."
+        )
+
+
+def require_choice(case: Path, names: Sequence[str]) -> None:
+    """Raise InputError if a case without a mesh of its own has regions, of which one must be chosen."""
     if names:
         raise InputError(
             f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
         )
-    raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
 
 
 def _is_decomposed(case: Path) -> bool:
