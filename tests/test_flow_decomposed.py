@@ -274,6 +274,12 @@ MISTAKES = {
     "a number beyond all": (
         replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
     ),
+    "a point beyond all": (
+        replace(f"{POLY}/faces", r"\n4\(\d+", "\n4(99999999999999999999"), r"faces: line \d+: a list of f",
+    ),
+    "a length below zero": (
+        replace(f"{POLY}/faces", r"\n4\(", "\n-4("), r"faces: line \d+: a list of \d+ faces",
+    ),
     "infinite": (
         replace(f"{POLY}/owner", r"\n0\n", "\ninf\n"), r"a list of whole numbers",
     ),

@@ -332,6 +332,22 @@ def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize("start", [1 << 40, 14336, 5])
+def test_starts_of_cells_that_do_not_fit_are_refused(start, tmp_path):
+    """The second offset in a legacy file, of 64 bits."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=True)
+    data = path.read_bytes()
+    at = data.index(b"\n", data.index(b"OFFSETS")) + 1 + 8
+    assert int.from_bytes(data[at : at + 8], "big") == 8
+    path.write_bytes(data[:at] + start.to_bytes(8, "big") + data[at + 8 :])
+    with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+
+
 def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
     """The points are said to lie in no compressed block instead of one."""
     points, hexes = corners(2, 0.2)

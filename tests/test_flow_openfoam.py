@@ -278,6 +278,17 @@ def test_a_damaged_owner_is_found_without_the_note(tmp_path):
 
 
 @pytest.mark.parametrize("label", [32, 64])
+def test_lengths_of_faces_that_do_not_fit_are_refused_before_vtk_sees_them(label, tmp_path):
+    write_case(tmp_path, form=Format(True, label))
+    path = tmp_path / POLY / "faces"
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1 + 10 * label // 8
+    path.write_bytes(data[: at + 2] + b"\x40" + data[at + 3 :])
+    with pytest.raises(InputError, match="faces: the lengths of the faces do not fit their points"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
 @pytest.mark.parametrize("name", ["owner", "neighbour"])
 def test_a_label_of_some_billions_costs_no_memory(name, label, tmp_path):
     write_case(tmp_path, form=Format(True, label), note=False)

@@ -264,7 +264,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     text = _NOTE.sub(b" ", file.data[file.at :]).translate(bytes.maketrans(b"()", b"  "))
     try:
         numbers = np.array(text.split(), dtype=np.int64)
-    except ValueError:
+    except (ValueError, OverflowError):
         raise file.broken("a list of faces") from None
     sizes = np.empty(n, dtype=np.int64)
     at = 0
@@ -272,7 +272,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
         if at >= len(numbers):
             raise file.broken(f"a list of {n} faces")
         sizes[face] = numbers[at]
-        at += 1 + int(numbers[at])
+        at += 1 + max(int(numbers[at]), 0)
     if at != len(numbers):
         raise file.broken(f"a list of {n} faces")
     start = np.concatenate([[0], np.cumsum(sizes)])

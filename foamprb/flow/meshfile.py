@@ -39,6 +39,8 @@ __all__ = ["VTK_SUFFIXES", "Division", "describe_file", "read_mesh_file", "read_
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 BOUNDARY = "boundary"
 _MOST_PATCHES = 1000
+_SIZES = {10: 4, 12: 8, 13: 6, 14: 5}
+"""Points of the kinds of cells that have always as many."""
 _MOST_LOOKED_AT = 10
 """Times of a transient flow at which it is seen whether the fluid moves on a patch."""
 _HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
@@ -471,12 +473,35 @@ def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
 def _solid_cells(grid: Any, path: Path) -> Any:
     """The grid without its points, lines and surfaces."""
     kinds = np.unique(grid.celltypes).tolist()
+    _require_lists(grid, path)
     if not set(kinds) & set(CELL_KINDS):
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
     flat = [kind for kind in kinds if pyvista.CellType(kind).dimension < 3]
     if not flat:
         return grid
     return grid.extract_cells(np.flatnonzero(~np.isin(grid.celltypes, flat)))
+
+
+def _require_lists(grid: Any, path: Path) -> None:
+    """Refuse cells whose lists of points or faces end outside of what there is, or are too long or short."""
+    cells = _lists(grid.GetCells(), path, grid.n_points)
+    for kind, size in _SIZES.items():
+        if np.any(cells[np.asarray(grid.celltypes) == kind] != size):
+            raise InputError(f"{path}: a {CELL_KINDS[kind]} has not {size} points; the file is broken.")
+    faces, of_cells = grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()
+    if faces is not None and of_cells is not None:
+        _lists(of_cells, path, len(_lists(faces, path, grid.n_points)))
+
+
+def _lists(cells: Any, path: Path, limit: int) -> NDArray[Any]:
+    """The lengths of VTK's lists of numbers, which are all below a limit."""
+    start = vtk_to_numpy(cells.GetOffsetsArray()).astype(np.int64)
+    numbers = vtk_to_numpy(cells.GetConnectivityArray())
+    lengths: NDArray[Any] = np.diff(start)
+    sound = not len(start) or (start[0] == 0 and start[-1] == len(numbers) and np.all(lengths >= 0))
+    if not sound or (len(numbers) and not 0 <= numbers.min() <= numbers.max() < limit):
+        raise InputError(f"{path}: the lists of the cells' points or faces are broken.")
+    return lengths
 
 
 def _moving(surfaces: Sequence[tuple[str, Any]], velocity: str) -> set[str]:

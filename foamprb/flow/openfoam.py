@@ -22,7 +22,15 @@ from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutput
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.foamfile import PatchInfo, existing, header, read_boundary, read_cell_zones, read_labels
+from foamprb.flow.foamfile import (
+    PatchInfo,
+    existing,
+    header,
+    read_boundary,
+    read_cell_zones,
+    read_faces,
+    read_labels,
+)
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
@@ -580,7 +588,10 @@ def _noted_counts(folder: Path) -> dict[str, int]:
 
 
 def _require_labels(folder: Path, noted: dict[str, int]) -> None:
-    """Refuse owners and neighbours that cannot be cells: VTK would make room for as many."""
+    """Refuse owners and neighbours that cannot be cells, for which VTK would make room, and broken faces."""
+    if header(_shown(folder / "faces")).get("class") == "faceCompactList":
+        # VTK does not survive lengths that do not fit.
+        read_faces(folder / "faces")
     faces = 0
     for name in ("owner", "neighbour"):
         path = _shown(folder / name)
