@@ -236,6 +236,10 @@ BREAKAGES = {
         rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
         "belongs to cell 77, but there are 8",
     ),
+    "a face of some billion points": (
+        rewrite(POLY + "faces", r"\n4\(", "\n2147483647("),
+        "faces: line 7: 2147483647 is neither a point nor a number of them",
+    ),
     "faces cut short": (cut(POLY + "faces"), "faces"),
     "points cut short": (cut(POLY + "points"), "points"),
     "no points": (remove(POLY + "points"), "points"),

@@ -27,6 +27,7 @@ from foamprb.flow.foamfile import (
     existing,
     header,
     read_boundary,
+    read_bytes,
     read_cell_zones,
     read_faces,
     read_labels,
@@ -589,9 +590,6 @@ def _noted_counts(folder: Path) -> dict[str, int]:
 
 def _require_labels(folder: Path, noted: dict[str, int]) -> None:
     """Refuse owners and neighbours that cannot be cells, for which VTK would make room, and broken faces."""
-    if header(_shown(folder / "faces")).get("class") == "faceCompactList":
-        # VTK does not survive lengths that do not fit.
-        read_faces(folder / "faces")
     faces = 0
     for name in ("owner", "neighbour"):
         path = _shown(folder / name)
@@ -604,6 +602,21 @@ def _require_labels(folder: Path, noted: dict[str, int]) -> None:
             raise InputError(
                 f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {limit} cells."
             )
+    _require_faces(_shown(folder / "faces"), 10 * max(faces, noted.get("nPoints", 0)))
+
+
+def _require_faces(path: Path, limit: int) -> None:
+    """Refuse lists of faces that VTK does not survive: lengths that do not fit, or beyond all memory."""
+    if header(path).get("class") == "faceCompactList":
+        read_faces(path)
+        return
+    data = read_bytes(path)
+    long = re.compile(rb"\d{%d,}" % (len(str(limit)) + 1)).search(data, max(data.find(b"}"), 0))
+    if long is not None:
+        line = data.count(b"\n", 0, long.start()) + 1
+        raise InputError(
+            f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a number of them."
+        )
 
 
 def _shown(path: Path) -> Path:
