@@ -13,6 +13,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 
 from foamprb.errors import InputError
+from foamprb.flow import trial
 from foamprb.flow.mesh import Patch, build_mesh
 from foamprb.flow.meshfile import Division, describe_file, read_mesh_file, read_mesh_series
 from foamprb.flow.walk import MeshFlow
@@ -359,6 +360,20 @@ def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
     assert "AQAAAACAAACIAgAA" in text
     path.write_text(text.replace("AQAAAACAAACIAgAA", "AAAAAACAAACIAgAA"))
     with pytest.raises(InputError, match=r"flow\.vtu: VTK"):
+        read_mesh_file(path)
+
+
+def test_a_file_that_vtk_never_ends_with_is_refused(tmp_path, monkeypatch):
+    """It counts up to a number of components that is none."""
+    monkeypatch.setattr(trial, "_LEAST_TIME", 1)
+    path = tmp_path / "flow.vtu"
+    flowing().save(path)
+    text = path.read_text()
+    assert 'Name="U" NumberOfComponents="3"' in text
+    path.write_text(
+        text.replace('Name="U" NumberOfComponents="3"', f'Name="U" NumberOfComponents="{20 * "9"}"')
+    )
+    with pytest.raises(InputError, match="VTK has not come to an end within 1 s of processor time"):
         read_mesh_file(path)
 
 

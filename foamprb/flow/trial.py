@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -19,6 +20,9 @@ from foamprb.errors import InputError
 
 __all__ = ["read_vtk", "require_survival", "times_of"]
 
+_LEAST_TIME = 20
+_LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
+"""Files that are read with others beside them."""
 _lock = threading.Lock()
 _server: Any = None
 
@@ -60,13 +64,24 @@ def require_survival(path: Path, step: int | None = None) -> None:
     Raises
     ------
     InputError
-        Reading the file ended the process that tried; the signal by which.
+        Reading the file ended the process that tried, by which signal; or it never ended.
     """
     with _lock:
         number = _ask(path, step)
+    if number == signal.SIGXCPU:
+        raise InputError(
+            f"{path}: VTK has not come to an end within {_limit(path)} s of processor time; the file is "
+            "damaged."
+        )
     if number:
         name = signal.Signals(number).name
         raise InputError(f"{path}: VTK cannot read it and does not survive it ({name}); the file is damaged.")
+
+
+def _limit(path: Path) -> int:
+    """Processor time after which reading a file is given up, s: at a megabyte a second, and never soon."""
+    files = path.parent.rglob("*") if path.suffix in _LISTS else [path]
+    return _LEAST_TIME + sum(file.stat().st_size for file in files if file.is_file()) // 1_000_000
 
 
 def _ask(path: Path, step: int | None) -> int:
@@ -78,7 +93,7 @@ def _ask(path: Path, step: int | None) -> int:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )
     try:
-        _server.stdin.write(json.dumps([str(path.resolve()), step]) + "\n")
+        _server.stdin.write(json.dumps([str(path.resolve()), step, _limit(path)]) + "\n")
         _server.stdin.flush()
         return int(_server.stdout.readline())
     except (OSError, ValueError) as error:
@@ -88,7 +103,7 @@ def _ask(path: Path, step: int | None) -> int:
 
 
 def _serve() -> None:
-    """Answer paths and times, one of each in each line of the standard input, with numbers of signals."""
+    """Answer lines of path, time and limit on the standard input with numbers of signals."""
     import contextlib
 
     # Once for all the copies.
@@ -101,7 +116,8 @@ def _serve() -> None:
         copy = os.fork()
         if copy == 0:
             with contextlib.suppress(BaseException):
-                path, step = json.loads(line)
+                path, step, limit = json.loads(line)
+                resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
                 _touch(read_vtk(Path(path), step))
             os._exit(0)
         _, status = os.waitpid(copy, 0)
