@@ -32,6 +32,7 @@ __all__ = [
     "read_field",
     "read_labels",
     "read_vectors",
+    "require_room",
 ]
 
 _HEADER_BYTES = 4096
@@ -227,6 +228,14 @@ class _File:
             else:
                 fields[key] = field
         return entries, fields
+
+
+def require_room(path: Path) -> None:
+    """Raise InputError if a file is too short for the entries that its list is said to have."""
+    file = _File(path)
+    n = file.count()
+    if n > len(file.data):
+        raise file.broken(f"a number of entries that the file has room for, not {n},")
 
 
 def read_labels(path: Path) -> Labels:

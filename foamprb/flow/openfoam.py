@@ -31,6 +31,7 @@ from foamprb.flow.foamfile import (
     read_cell_zones,
     read_faces,
     read_labels,
+    require_room,
 )
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
@@ -590,6 +591,9 @@ def _noted_counts(folder: Path) -> dict[str, int]:
 
 def _require_labels(folder: Path, noted: dict[str, int]) -> None:
     """Refuse owners and neighbours that cannot be cells, for which VTK would make room, and broken faces."""
+    for name in ("points", "faces"):
+        if existing(folder / name) is not None:
+            require_room(folder / name)
     faces = 0
     for name in ("owner", "neighbour"):
         path = _shown(folder / name)
