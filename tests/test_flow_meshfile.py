@@ -333,6 +333,19 @@ def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize(("kind", "name"), [(9, "cell of VTK type 9"), (10, "tetrahedron")])
+def test_a_cell_of_another_type_than_its_points_is_refused(kind, name, tmp_path):
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=False)
+    text = path.read_text()
+    path.write_text(text.replace("CELL_TYPES 8\n12", f"CELL_TYPES 8\n{kind}"))
+    with pytest.raises(InputError, match=f"a {name} has not 4 points"):
+        read_mesh_file(path)
+
+
 @pytest.mark.parametrize("start", [1 << 40, 14336, 5])
 def test_starts_of_cells_that_do_not_fit_are_refused(start, tmp_path):
     """The second offset in a legacy file, of 64 bits."""

@@ -39,7 +39,7 @@ __all__ = ["VTK_SUFFIXES", "Division", "describe_file", "read_mesh_file", "read_
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 BOUNDARY = "boundary"
 _MOST_PATCHES = 1000
-_SIZES = {10: 4, 12: 8, 13: 6, 14: 5}
+_SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5}
 """Points of the kinds of cells that have always as many."""
 _MOST_LOOKED_AT = 10
 """Times of a transient flow at which it is seen whether the fluid moves on a patch."""
@@ -299,6 +299,8 @@ def _read_mesh(
         mesh = build_mesh(grid, surfaces, source=str(path))
         note = f"The patches are those of the file: {_named(mesh)}."
     require_volumes(mesh, path)
+    if whole.n_cells > grid.n_cells:
+        note += f" {whole.n_cells - grid.n_cells} points, lines and surfaces among the cells are left out."
     return grid, mesh, named, note
 
 
@@ -487,7 +489,8 @@ def _require_lists(grid: Any, path: Path) -> None:
     cells = _lists(grid.GetCells(), path, grid.n_points)
     for kind, size in _SIZES.items():
         if np.any(cells[np.asarray(grid.celltypes) == kind] != size):
-            raise InputError(f"{path}: a {CELL_KINDS[kind]} has not {size} points; the file is broken.")
+            name = CELL_KINDS.get(kind, f"cell of VTK type {kind}")
+            raise InputError(f"{path}: a {name} has not {size} points; the file is broken.")
     faces, of_cells = grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()
     if faces is not None and of_cells is not None:
         _lists(of_cells, path, len(_lists(faces, path, grid.n_points)))
