@@ -200,10 +200,8 @@ def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     source = _source(arguments)
     if source.file is not None:
         lines = describe_file(source.file, source.velocity, source.division)
-    elif source.decomposed or is_only_decomposed(arguments.case):
-        if source.region:
-            raise InputError(f"{arguments.case}: region {source.region} is not read from a decomposed case.")
-        lines = describe_decomposed(arguments.case).lines()
+    elif source.decomposed or is_only_decomposed(arguments.case, source.region):
+        lines = describe_decomposed(arguments.case, source.region).lines()
     else:
         lines = describe(arguments.case, source.region).lines()
     print("\n".join(lines))

@@ -274,6 +274,12 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
+    wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
+    if wrong.any():
+        raise InputError(
+            f"injection model {injection.name}: the shear modulus of {np.count_nonzero(wrong)} of {p.size} "
+            f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {medium.mu:g} Pa s."
+        )
     rate: Any = solid.reference_shear_rate
     if rate is None:
         rate = shear_rate_at(flow, p, injection.model.SOI)

@@ -113,3 +113,78 @@ def save(path: Path, content: bytes, form: Format) -> None:
         path.with_name(path.name + ".gz").write_bytes(gzip.compress(content, mtime=0))
     else:
         path.write_bytes(content)
+
+
+def plain(values) -> str:
+    return "\n".join(map(str, values))
+
+
+def decompose(case: Path, mesh: Mesh, part_of: np.ndarray, times: tuple[str, ...]) -> None:
+    """Cut a case of :func:`write_case` as decomposePar does, each cell going to the part of its number."""
+    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
+    owner, neighbour = mesh.owner, mesh.neighbour
+    for part in range(part_of.max() + 1):
+        cells = np.flatnonzero(part_of == part)
+        cell_in = {cell: i for i, cell in enumerate(cells)}
+        own = part_of[owner] == part
+        other = np.zeros(len(owner), dtype=bool)
+        other[: len(neighbour)] = part_of[neighbour] == part
+        inner = np.flatnonzero(own & other)
+        patches = [
+            np.flatnonzero(own[first:last]) + first
+            for first, last in zip(
+                mesh.n_internal + mesh.patch_start[:-1], mesh.n_internal + mesh.patch_start[1:], strict=True
+            )
+        ]
+        between = np.flatnonzero((own ^ other) & (np.arange(len(owner)) < mesh.n_internal))
+        kept = np.concatenate([inner, *patches, between])
+        turned = ~own[kept]
+        lists = [
+            faces[f] if not turn else np.r_[faces[f][:1], faces[f][:0:-1]]
+            for f, turn in zip(kept, turned, strict=True)
+        ]
+        points = np.unique(np.concatenate([np.empty(0, dtype=int), *lists]))
+        point_in = {point: i for i, point in enumerate(points)}
+        local = [[point_in[p] for p in face] for face in lists]
+        folder = case / f"processor{part}"
+        poly = folder / "constant/polyMesh"
+        poly.mkdir(parents=True)
+        owners = [cell_in[neighbour[f] if turn else owner[f]] for f, turn in zip(kept, turned, strict=True)]
+        files = {
+            "points": ("vectorField", rows(mesh.points[points]), len(points)),
+            "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in local), len(kept)),
+            "owner": ("labelList", plain(owners), len(kept)),
+            "neighbour": ("labelList", plain([cell_in[neighbour[f]] for f in inner]), len(inner)),
+            "pointProcAddressing": ("labelList", plain(points), len(points)),
+            "faceProcAddressing": ("labelList", plain(np.where(turned, -1, 1) * (kept + 1)), len(kept)),
+            "cellProcAddressing": ("labelList", plain(cells), len(cells)),
+            "boundaryProcAddressing": ("labelList", plain([*range(len(patches)), -1]), len(patches) + 1),
+        }
+        for name, (kind, body, count) in files.items():
+            (poly / name).write_text(header(kind, name) + f"{count}\n(\n{body}\n)\n")
+        text, start = "", len(inner)
+        blocks = [*zip(mesh.patches, patches, strict=True), (None, between)]
+        for patch, ids in blocks:
+            name, kind = (patch.name, patch.type) if patch else ("procBoundary", "processor")
+            text += f"{name} {{ type {kind}; inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
+            start += len(ids)
+        (poly / "boundary").write_text(
+            header("polyBoundaryMesh", "boundary") + f"{len(blocks)}\n(\n{text})\n"
+        )
+        values = "procBoundary { type processor; value uniform (1 2 3); }\n"
+        for patch, ids in zip(mesh.patches, patches, strict=True):
+            at = mesh.boundary_centres[ids - mesh.n_internal] @ GRADIENT.T
+            value = (
+                f"nonuniform List<vector> {len(at)}\n(\n{rows(at)}\n)"
+                if len(at)
+                else "nonuniform List<vector> 0()"
+            )
+            values += f"{patch.name} {{ type fixedValue; coefficients {{ a (1 2); }} value {value};\n}}\n"
+        for time in times:
+            (folder / time).mkdir()
+            (folder / time / "U").write_text(
+                header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
+                f"internalField nonuniform List<vector> {len(cells)}\n(\n"
+                f"{rows(mesh.centres[cells] @ GRADIENT.T)}\n);\n"
+                f"// of the part\nboundaryField\n{{\n{values}}}\n"
+            )

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import gzip
+import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import GRADIENT, header, rows, write_case
+from foam_writer import decompose, header, rows, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
@@ -27,86 +32,11 @@ from foamprb.flow.series import read_series
 TIMES = ("0", "0.5", "1e1")
 
 
-def plain(values):
-    return "\n".join(map(str, values))
-
-
-def decompose(case, mesh, part_of):
-    """Cut a case of :func:`write_case` as decomposePar does, each cell going to the part of its number."""
-    faces = np.split(mesh.face_points, mesh.face_start[1:-1])
-    owner, neighbour = mesh.owner, mesh.neighbour
-    for part in range(part_of.max() + 1):
-        cells = np.flatnonzero(part_of == part)
-        cell_in = {cell: i for i, cell in enumerate(cells)}
-        own = part_of[owner] == part
-        other = np.zeros(len(owner), dtype=bool)
-        other[: len(neighbour)] = part_of[neighbour] == part
-        inner = np.flatnonzero(own & other)
-        patches = [
-            np.flatnonzero(own[first:last]) + first
-            for first, last in zip(
-                mesh.n_internal + mesh.patch_start[:-1], mesh.n_internal + mesh.patch_start[1:], strict=True
-            )
-        ]
-        between = np.flatnonzero((own ^ other) & (np.arange(len(owner)) < mesh.n_internal))
-        kept = np.concatenate([inner, *patches, between])
-        turned = ~own[kept]
-        lists = [
-            faces[f] if not turn else np.r_[faces[f][:1], faces[f][:0:-1]]
-            for f, turn in zip(kept, turned, strict=True)
-        ]
-        points = np.unique(np.concatenate(lists))
-        point_in = {point: i for i, point in enumerate(points)}
-        local = [[point_in[p] for p in face] for face in lists]
-        folder = case / f"processor{part}"
-        poly = folder / "constant/polyMesh"
-        poly.mkdir(parents=True)
-        owners = [cell_in[neighbour[f] if turn else owner[f]] for f, turn in zip(kept, turned, strict=True)]
-        files = {
-            "points": ("vectorField", rows(mesh.points[points]), len(points)),
-            "faces": ("faceList", "\n".join(f"{len(f)}({' '.join(map(str, f))})" for f in local), len(kept)),
-            "owner": ("labelList", plain(owners), len(kept)),
-            "neighbour": ("labelList", plain([cell_in[neighbour[f]] for f in inner]), len(inner)),
-            "pointProcAddressing": ("labelList", plain(points), len(points)),
-            "faceProcAddressing": ("labelList", plain(np.where(turned, -1, 1) * (kept + 1)), len(kept)),
-            "cellProcAddressing": ("labelList", plain(cells), len(cells)),
-            "boundaryProcAddressing": ("labelList", plain([*range(len(patches)), -1]), len(patches) + 1),
-        }
-        for name, (kind, body, count) in files.items():
-            (poly / name).write_text(header(kind, name) + f"{count}\n(\n{body}\n)\n")
-        text, start = "", len(inner)
-        blocks = [*zip(mesh.patches, patches, strict=True), (None, between)]
-        for patch, ids in blocks:
-            name, kind = (patch.name, patch.type) if patch else ("procBoundary", "processor")
-            text += f"{name} {{ type {kind}; inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
-            start += len(ids)
-        (poly / "boundary").write_text(
-            header("polyBoundaryMesh", "boundary") + f"{len(blocks)}\n(\n{text})\n"
-        )
-        values = "procBoundary { type processor; value uniform (1 2 3); }\n"
-        for patch, ids in zip(mesh.patches, patches, strict=True):
-            at = mesh.boundary_centres[ids - mesh.n_internal] @ GRADIENT.T
-            value = (
-                f"nonuniform List<vector> {len(at)}\n(\n{rows(at)}\n)"
-                if len(at)
-                else "nonuniform List<vector> 0()"
-            )
-            values += f"{patch.name} {{ type fixedValue; coefficients {{ a (1 2); }} value {value};\n}}\n"
-        for time in TIMES:
-            (folder / time).mkdir()
-            (folder / time / "U").write_text(
-                header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n"
-                f"internalField nonuniform List<vector> {len(cells)}\n(\n"
-                f"{rows(mesh.centres[cells] @ GRADIENT.T)}\n);\n"
-                f"// of the part\nboundaryField\n{{\n{values}}}\n"
-            )
-
-
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     case = tmp_path_factory.mktemp("decomposed") / "case"
     mesh = write_case(case, "mixed")
-    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells))
+    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells), TIMES)
     return case
 
 
@@ -132,12 +62,85 @@ def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
     assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
 
 
+def test_a_part_may_be_empty(tmp_path):
+    """As those of regions that do not reach to every processor."""
+    mesh = write_case(tmp_path / "case", "polyhedra", times=("0",))
+    parts = np.zeros(mesh.n_cells, dtype=int)
+    parts[mesh.n_cells // 2 :] = 2
+    decompose(tmp_path / "case", mesh, parts, ("0",))
+    assert len(read_labels(tmp_path / "case/processor1/constant/polyMesh/owner")) == 0
+    a, b = read_case(tmp_path / "case"), read_decomposed_case(tmp_path / "case")
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+
+
 def test_a_series_of_times_too(written, random):
     whole, parts = read_series(written), read_decomposed_series(written)
     x = random.random((20, 3))
     for t in (0.0, 0.2, 0.5, 7.0):
         for a, b in zip(*(flow.sample(x, flow.locate(x), t) for flow in (whole, parts)), strict=True):
             np.testing.assert_array_equal(a, b)
+
+
+def into_region(case):
+    """Make the mesh of a case and its parts that of a region."""
+    for folder in (case, *case.glob("processor*")):
+        for part in (folder / "constant", *(folder / time for time in TIMES)):
+            (part / "air").mkdir()
+            for path in [p for p in part.iterdir() if p.name != "air"]:
+                path.rename(part / "air" / path.name)
+    return case
+
+
+def add_gradient(case):
+    """Give every cell of a case and its parts a gradient of its own, at each time another."""
+    values = np.random.default_rng(2).random((read_case(case).mesh.n_cells, 9))
+    parts = [(case, np.arange(len(values)))]
+    for path in case.glob("processor*"):
+        parts.append((path, read_labels(path / "constant/polyMesh/cellProcAddressing")))
+    for folder, cells in parts:
+        names = re.findall(r"(\w+)\s*\{ type", (folder / "constant/polyMesh/boundary").read_text())
+        patches = "".join(
+            f"{name} {{ type {'processor' if name.startswith('proc') else 'calculated'};"
+            " value uniform (0 0 0 0 0 0 0 0 0); }\n"
+            for name in ["floor", "lid", "sides", *(n for n in names if n.startswith("proc"))]
+        )
+        for factor, time in enumerate(TIMES):
+            (folder / time / "grad(U)").write_text(
+                header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+                f"internalField nonuniform List<tensor> {len(cells)}\n(\n{rows(factor * values[cells])}\n);\n"
+                f"boundaryField\n{{\n{patches}}}\n"
+            )
+    return case
+
+
+def test_regions_and_given_gradients_are_put_together_too(case, random):
+    into_region(add_gradient(case))
+    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_decomposed_case))
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+    whole, parts = (
+        read(case, region="air", gradient="grad(U)") for read in (read_series, read_decomposed_series)
+    )
+    x = random.random((20, 3))
+    for t in (0.0, 0.2, 7.0):
+        found, expected = (flow.sample(x, flow.locate(x), t) for flow in (parts, whole))
+        np.testing.assert_array_equal(found[0], expected[0])
+        np.testing.assert_array_equal(found[1], expected[1])
+    assert np.abs(expected[1]).max() > 0.1
+
+
+def test_regions_of_parts_alone(case, capsys):
+    alone(into_region(case))
+    assert is_only_decomposed(case, "air")
+    with pytest.raises(InputError, match=r"divided into regions; choose one with -region\. Allowed: air"):
+        read_decomposed_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_decomposed_case(case, region="aire")
+    assert main(["info", "-case", str(case), "-region", "air"]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"^Region +air$", out, re.MULTILINE)
+    assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
+    with pytest.raises(InputError, match=r"processor0/0\.5/air/grad\(U\): no such file"):
+        read_decomposed_case(case, 0.5, region="air", gradient="grad(U)")
 
 
 def test_compressed_files_are_read_alike(case):
@@ -160,6 +163,32 @@ def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch)
     (folder,) = tmp_path.iterdir()
     del flow
     assert not folder.exists()
+
+
+def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    script = (
+        "import os, signal, sys\nfrom pathlib import Path\nfrom foamprb.flow.decomposed import Rebuilt\n"
+        "whole = Rebuilt(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
+        "os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    command = [sys.executable, "-c", script, str(written)]
+    other = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    )
+    with other:
+        left = Path(other.stdout.readline().strip())
+        first = Rebuilt(written)
+        assert left.is_dir()
+        other.communicate("x")
+    assert other.returncode == -signal.SIGKILL
+    assert left.is_dir()
+    second = Rebuilt(written)
+    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder])
 
 
 def test_parts_alone_are_found_and_described(case, capsys):
@@ -239,8 +268,26 @@ MISTAKES = {
     "half of the field": (
         replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
     ),
+    "no whole number": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n0.5\n"), r"owner: line \d+: a list of whole numbers",
+    ),
+    "a number beyond all": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
+    ),
+    "a point beyond all": (
+        replace(f"{POLY}/faces", r"\n4\(\d+", "\n4(99999999999999999999"), r"faces: line \d+: a list of f",
+    ),
+    "a length below zero": (
+        replace(f"{POLY}/faces", r"\n4\(", "\n-4("), r"faces: line \d+: a list of \d+ faces",
+    ),
+    "infinite": (
+        replace(f"{POLY}/owner", r"\n0\n", "\ninf\n"), r"a list of whole numbers",
+    ),
+    "a count beyond all": (
+        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
+    ),
     "a number that is none": (
-        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of numbers",
+        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of whole numbers",
     ),
     "another count": (
         replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n9"),
@@ -251,6 +298,22 @@ MISTAKES = {
     ),
     "parts of another case": (
         replace(f"{POLY}/cellProcAddressing", r"\(\n\d+", "(\n999"), r"do not make a whole mesh",
+    ),
+    "a cell twice": (
+        replace(f"{POLY}/cellProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "a point of another's": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"),
+        r"do not make a whole mesh",
+    ),
+    "a point that differs": (
+        replace(f"{POLY}/points", r"\(\n\(\S+", "(\n(0.125"), r"do not make a whole mesh",
+    ),
+    "a face twice": (
+        replace(f"{POLY}/faceProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "an address beyond all": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+", "(\n2147483647"), r"do not make a whole mesh",
     ),
     "a mesh that moves": (
         lambda case: (case / "processor0/0.5/polyMesh").mkdir(),
@@ -348,5 +411,5 @@ def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
 
 
 def test_patches_keep_all_their_entries(written):
-    patch = read_boundary(written / "processor0/constant/polyMesh/boundary")[0]
-    assert patch.entries["inGroups"] == "1(some)"
+    patch = read_boundary(written / "processor0/constant/polyMesh/boundary", written)[0]
+    assert patch.entries["inGroups"].split() == ["1", "(", "some", ")"]

@@ -236,6 +236,14 @@ BREAKAGES = {
         rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
         "belongs to cell 77, but there are 8",
     ),
+    "a face of some billion points": (
+        rewrite(POLY + "faces", r"\n4\(", "\n2147483647("),
+        "faces: line 7: 2147483647 is neither a point nor a number of them",
+    ),
+    "some billion points": (
+        rewrite(POLY + "points", r"\n27\n", "\n2147483646\n"),
+        r"points: line 5: a number of entries that the file has room for, not 2147483646, expected",
+    ),
     "faces cut short": (cut(POLY + "faces"), "faces"),
     "points cut short": (cut(POLY + "points"), "points"),
     "no points": (remove(POLY + "points"), "points"),
@@ -274,6 +282,17 @@ def test_a_damaged_owner_is_found_without_the_note(tmp_path):
     write_case(tmp_path, note=False)
     edit(tmp_path / "constant" / "polyMesh" / "owner", r"\n7\n", "\n999\n")
     with pytest.raises(InputError, match="owner: face 19 belongs to cell 999, but there are 36"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+def test_lengths_of_faces_that_do_not_fit_are_refused_before_vtk_sees_them(label, tmp_path):
+    write_case(tmp_path, form=Format(True, label))
+    path = tmp_path / POLY / "faces"
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1 + 10 * label // 8
+    path.write_bytes(data[: at + 2] + b"\x40" + data[at + 3 :])
+    with pytest.raises(InputError, match="faces: the lengths of the faces do not fit their points"):
         read_case(tmp_path)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 import shutil
 from pathlib import Path
@@ -175,6 +176,40 @@ def test_a_dry_run_reads_what_it_needs_and_says_what_it_found(case, capsys):
     out = capsys.readouterr().out
     assert "2 particles, 24 steps" in out
     assert "linear in time" in out
+
+
+def test_a_transient_flow_of_a_mesh_file(case, tmp_path):
+    """That of the case, written out by VTK: the same fates but for the cut of the faces."""
+    whole = run(case)
+    names = []
+    for time in SCALE:
+        flow = read_case(case, time)
+        grid = pyvista.OpenFOAMReader(str(marked(case)))
+        grid.set_active_time_value(float(time))
+        shape = grid.read()["internalMesh"]
+        shape.clear_data()
+        shape.cell_data["U"] = flow.arrays(0.0).nodes[flow.mesh.n_points :, 3:6]
+        shape.save(tmp_path / f"flow{time}.vtu")
+        names.append({"name": f"flow{time}.vtu", "time": float(time)})
+    (tmp_path / "flow.vtu.series").write_text(json.dumps({"files": names}))
+    expected = fates(whole)
+    shutil.rmtree(case / "postProcessing")
+    file = str(tmp_path / "flow.vtu.series")
+    found = fates(run(case, "-flow", file, "-time", "0:1.5"))
+    for a, b in zip(found, expected, strict=True):
+        assert [float(a[k]) for k in ("x1", "y1", "z1")] == pytest.approx(
+            [float(b[k]) for k in ("x1", "y1", "z1")], abs=1e-6
+        )
+
+
+def marked(case):
+    (case / "case.foam").touch()
+    return case / "case.foam"
+
+
+def fates(folder):
+    with (folder / "fates.csv").open() as file:
+        return list(csv.DictReader(file))
 
 
 def moving(case):

@@ -8,8 +8,6 @@ the flow is the same as that of the case before it was cut.
 from __future__ import annotations
 
 import re
-import shutil
-import tempfile
 import weakref
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -21,23 +19,33 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.foamfile import (
+    Field,
     Floats,
     Labels,
-    Patch,
-    VectorField,
+    PatchInfo,
     existing,
     header,
     read_boundary,
-    read_bytes,
+    read_cell_zones,
     read_faces,
     read_field,
     read_labels,
     read_vectors,
 )
-from foamprb.flow.openfoam import CaseInfo, TimeInfo, available_times, describe, read_case, select_time
+from foamprb.flow.openfoam import (
+    CaseInfo,
+    TimeInfo,
+    available_times,
+    describe,
+    read_case,
+    regions,
+    require_choice,
+    require_region,
+    select_time,
+)
+from foamprb.flow.scratch import scratch_folder
 from foamprb.flow.series import SeriesFlow, read_series
 from foamprb.flow.walk import MeshFlow
-from foamprb.flow.zones import parse_cell_zones
 
 __all__ = [
     "Rebuilt",
@@ -64,6 +72,8 @@ _HEADER = """FoamFile
 
 """
 _MESH = ("points", "faces", "owner", "neighbour", "boundary")
+_APART = 1e-6
+"""How far apart a point may be in two parts, of the extent of the mesh."""
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
 
 
@@ -93,13 +103,13 @@ def processors(case: Path) -> tuple[Path, ...]:
     return tuple(folders[number] for number in sorted(folders))
 
 
-def is_only_decomposed(case: Path) -> bool:
+def is_only_decomposed(case: Path, region: str = "") -> bool:
     """Whether the solution is in processor folders alone: no mesh beside them, or no time but 0."""
     folders = [path for path in case.glob("processor*") if (path / "constant").is_dir()]
     if not folders:
         return False
-    if existing(case / "constant/polyMesh/faces") is None:
-        return True
+    if existing(case / "constant" / region / "polyMesh/faces") is None:
+        return not regions(case) or bool(region)
     later = any(float(name) != 0.0 for name in available_times(case))
     return not later and any(float(name) != 0.0 for name in available_times(folders[0]))
 
@@ -107,13 +117,14 @@ def is_only_decomposed(case: Path) -> bool:
 class _Part(NamedTuple):
     """A processor's mesh, and the places of its pieces in the whole."""
 
-    folder: Path
+    mesh: Path
+    """The folder ``polyMesh``."""
     points: Floats
     face_start: Labels
     face_points: Labels
     owner: Labels
     neighbour: Labels
-    patches: list[Patch]
+    patches: Sequence[PatchInfo]
     point_at: Labels
     face_at: Labels
     turned: _Mask
@@ -129,6 +140,8 @@ class Rebuilt:
     ----------
     case
         The case.
+    region
+        Name of the mesh region, if the case has several.
 
     Raises
     ------
@@ -136,22 +149,26 @@ class Rebuilt:
         A file is missing or broken, or the parts do not make a whole; the file or the folder.
     """
 
-    def __init__(self, case: Path) -> None:
-        self.case = case
+    def __init__(self, case: Path, region: str = "") -> None:
+        self.case, self.region = case, region
         self._folders = processors(case)
-        self.times = _common_times(self._folders)
-        self._parts = [_read_part(folder) for folder in self._folders]
+        names = regions(self._folders[0])
+        require_region(case, region, names)
+        if not region and existing(self._folders[0] / "constant/polyMesh/faces") is None:
+            require_choice(case, names)
+        self.times = _common_times(self._folders, region)
+        self._parts = [_read_part(case, folder, region) for folder in self._folders]
         self._patches, self._ranges = _whole_patches(case, self._parts)
-        self.folder = Path(tempfile.mkdtemp(prefix="foamprb-"))
-        weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
+        self.folder = scratch_folder(self)
         for name in self.times:
-            (self.folder / name).mkdir()
+            (self.folder / name / region).mkdir(parents=True)
         (self.folder / "system").mkdir()
         (self.folder / "system/controlDict").write_text(
             _HEADER.format(kind="dictionary", note="", name="controlDict")
         )
-        _write_mesh(self.folder / "constant/polyMesh", case, self._parts, self._patches, self._ranges)
-        _write_zones(self.folder / "constant/polyMesh/cellZones", self._parts)
+        mesh = self.folder / "constant" / region / "polyMesh"
+        _write_mesh(mesh, case, self._parts, self._patches, self._ranges)
+        _write_zones(mesh / "cellZones", self._parts)
         # The fields need the addresses alone.
         nothing = np.empty(0, dtype=np.int64)
         self._parts = [
@@ -162,23 +179,30 @@ class Rebuilt:
             for part in self._parts
         ]  # fmt: skip
 
-    def write(self, time: str, velocity: str = "U") -> None:
-        """Put the velocity at a time together, in place of that at any other time.
+    def write(self, time: str, velocity: str = "U", gradient: str = "") -> None:
+        """Put the fields at a time together, in place of those at any other time.
 
         Raises
         ------
         InputError
-            A processor misses it, or its file is broken.
+            A processor misses one, or its file is broken.
         """
+        for name, kind in ((velocity, "volVectorField"), (gradient, "volTensorField")):
+            if name:
+                self._write(time, name, kind)
+
+    def _write(self, time: str, name: str, kind: str) -> None:
         for other in self.times:
-            (self.folder / other / velocity).unlink(missing_ok=True)
+            (self.folder / other / self.region / name).unlink(missing_ok=True)
         fields = []
-        for part in self._parts:
-            path = part.folder / time / velocity
+        for part, folder in zip(self._parts, self._folders, strict=True):
+            path = folder / time / self.region / name
             if existing(path) is None:
                 raise InputError(f"{path}: no such file.")
-            fields.append(_checked(read_field(path), part, path))
-        _write_field(self.folder / time / velocity, self._parts, fields, self._patches, self._ranges)
+            fields.append(_checked(read_field(path, kind), part, path))
+        _write_field(
+            self.folder / time / self.region / name, kind, self._parts, fields, self._patches, self._ranges
+        )
 
     def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
         """Call a function of a case; its messages then name the case, not the temporary folder."""
@@ -198,7 +222,9 @@ def _let_go(whole: Rebuilt) -> None:
     """Hold the folder until this is called."""
 
 
-def read_decomposed_case(case: Path, time: float | str = "latestTime", velocity: str = "U") -> MeshFlow:
+def read_decomposed_case(
+    case: Path, time: float | str = "latestTime", velocity: str = "U", region: str = "", gradient: str = ""
+) -> MeshFlow:
     """Read the flow of a decomposed case at one time, as :func:`foamprb.flow.openfoam.read_case`.
 
     Raises
@@ -206,14 +232,19 @@ def read_decomposed_case(case: Path, time: float | str = "latestTime", velocity:
     InputError
         What is missing, broken or inconsistent in the processor folders.
     """
-    whole = Rebuilt(case)
-    name = whole.call(select_time, time)
-    whole.write(name, velocity)
-    return whole.noted(whole.call(read_case, name, velocity))
+    whole = Rebuilt(case, region)
+    name = whole.call(select_time, time, region)
+    whole.write(name, velocity, gradient)
+    return whole.noted(whole.call(read_case, name, velocity, region, gradient))
 
 
 def read_decomposed_series(
-    case: Path, times: str | None = None, period: float | None = None, velocity: str = "U"
+    case: Path,
+    times: str | None = None,
+    period: float | None = None,
+    velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a decomposed case at several times, as :func:`foamprb.flow.series.read_series`.
 
@@ -222,34 +253,35 @@ def read_decomposed_series(
     InputError
         What is missing, broken or inconsistent in the processor folders.
     """
-    whole = Rebuilt(case)
+    whole = Rebuilt(case, region)
 
     def prepare(name: str) -> None:
-        whole.write(name, velocity)
+        whole.write(name, velocity, gradient)
 
-    return whole.noted(whole.call(read_series, times, period, velocity, prepare))
+    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, prepare))
 
 
-def describe_decomposed(case: Path) -> CaseInfo:
-    """Tell what a decomposed case holds, as :func:`foamprb.flow.openfoam.describe`."""
-    whole = Rebuilt(case)
-    first = whole._folders[0]
-    times = tuple(TimeInfo(name, _classes(first / name)) for name in whole.times)
-    return replace(whole.call(describe), case=case, times=times)
+def describe_decomposed(case: Path, region: str = "") -> CaseInfo:
+    """Tell what a decomposed case, or a region of it, holds, as :func:`foamprb.flow.openfoam.describe`."""
+    whole = Rebuilt(case, region)
+    first = processors(case)[0]
+    times = tuple(TimeInfo(name, _classes(first / name / region)) for name in whole.times)
+    return replace(whole.call(describe, region), case=case, times=times, regions=regions(first))
 
 
 def _classes(folder: Path) -> dict[str, str]:
-    found = {path.name.removesuffix(".gz"): header(path).get("class", "") for path in sorted(folder.iterdir())
-             if path.is_file()}  # fmt: skip
+    paths = sorted(folder.iterdir()) if folder.is_dir() else ()
+    found = {path.name.removesuffix(".gz"): header(path).get("class", "") for path in paths if path.is_file()}
     return {name: kind for name, kind in found.items() if kind.endswith("Field")}
 
 
-def _common_times(folders: Sequence[Path]) -> tuple[str, ...]:
+def _common_times(folders: Sequence[Path], region: str) -> tuple[str, ...]:
     """The times of all folders; raise InputError if one of them misses a time that another has."""
     times = available_times(folders[0])
     for folder in folders:
         here = available_times(folder)
-        moved = [folder / name / "polyMesh" for name in here if (folder / name / "polyMesh").is_dir()]
+        meshes = [folder / name / region / "polyMesh" for name in here]
+        moved = [mesh for mesh in meshes if mesh.is_dir()]
         if moved:
             raise InputError(f"{moved[0]}: the mesh changes in time; of decomposed cases it must not.")
         for name in (*times, *here):
@@ -259,8 +291,8 @@ def _common_times(folders: Sequence[Path]) -> tuple[str, ...]:
     return times
 
 
-def _read_part(folder: Path) -> _Part:
-    mesh = folder / "constant/polyMesh"
+def _read_part(case: Path, folder: Path, region: str) -> _Part:
+    mesh = folder / "constant" / region / "polyMesh"
     for name in _MESH:
         if existing(mesh / name) is None:
             raise InputError(f"{mesh / name}: no such file.")
@@ -273,8 +305,9 @@ def _read_part(folder: Path) -> _Part:
     start, points = read_faces(mesh / "faces")
     signed = read_labels(mesh / "faceProcAddressing")
     part = _Part(
-        folder, read_vectors(mesh / "points"), start, points,
-        read_labels(mesh / "owner"), read_labels(mesh / "neighbour"), read_boundary(mesh / "boundary"),
+        mesh, read_vectors(mesh / "points"), start, points,
+        read_labels(mesh / "owner"), read_labels(mesh / "neighbour"),
+        read_boundary(mesh / "boundary", case),
         read_labels(mesh / "pointProcAddressing"), np.abs(signed) - 1, signed < 0,
         read_labels(mesh / "cellProcAddressing"), read_labels(mesh / "boundaryProcAddressing"),
     )  # fmt: skip
@@ -294,14 +327,14 @@ def _read_part(folder: Path) -> _Part:
     ):
         if len(values) and not 0 <= values.min() <= values.max() < limit:
             raise InputError(f"{mesh / name}: an index outside 0 to {limit - 1}.")
-    if np.any(signed == 0) or (len(part.cell_at) and part.cell_at.min() < 0) or part.point_at.min() < 0:
-        raise InputError(f"{mesh}: an addressing file points outside the mesh.")
+    if np.any(signed == 0):
+        raise InputError(f"{mesh / 'faceProcAddressing'}: there is no face 0.")
     return part
 
 
-def _whole_patches(case: Path, parts: Sequence[_Part]) -> tuple[list[Patch], Labels]:
+def _whole_patches(case: Path, parts: Sequence[_Part]) -> tuple[list[PatchInfo], Labels]:
     """The patches of the whole, and where each begins after the interior faces; then where the last ends."""
-    known: dict[int, Patch] = {}
+    known: dict[int, PatchInfo] = {}
     counts: dict[int, int] = {}
     for part in parts:
         names = [patch.name for patch in part.patches]
@@ -320,12 +353,25 @@ def _whole_patches(case: Path, parts: Sequence[_Part]) -> tuple[list[Patch], Lab
 
 
 def _write_mesh(
-    folder: Path, case: Path, parts: Sequence[_Part], patches: Sequence[Patch], ranges: Labels
+    folder: Path, case: Path, parts: Sequence[_Part], patches: Sequence[PatchInfo], ranges: Labels
 ) -> None:
-    n_cells = sum(len(part.cell_at) for part in parts)
-    n_points = 1 + max(int(part.point_at.max()) for part in parts)
-    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
-    points = np.full((n_points, 3), np.nan)
+    foreign = InputError(
+        f"{case}: the processor folders do not make a whole mesh; one of them is damaged or of another case."
+    )
+    n_cells = _whole_number([part.cell_at for part in parts])
+    n_points = _whole_number([part.point_at for part in parts])
+    n_faces = _whole_number([part.face_at[~part.turned] for part in parts])
+    n_internal = n_faces - int(ranges[-1])
+    turned = np.concatenate([part.face_at[part.turned] for part in parts])
+    if (
+        min(n_cells, n_points, n_internal) < 0
+        or n_cells != sum(len(part.cell_at) for part in parts)
+        or n_faces != sum(np.count_nonzero(~part.turned) for part in parts)
+        or turned.max(initial=-1) >= n_faces
+        or len(np.unique(turned)) != len(turned)
+    ):
+        raise foreign
+    points = np.empty((n_points, 3))
     owner, neighbour, size = (np.full(n_faces, -1, dtype=np.int64) for _ in range(3))
     for part in parts:
         points[part.point_at] = part.points
@@ -335,15 +381,13 @@ def _write_mesh(
         inside = len(part.neighbour)
         neighbour[part.face_at[:inside]] = part.cell_at[part.neighbour]
         neighbour[part.face_at[part.turned]] = part.cell_at[part.owner[part.turned]]
-    n_internal = n_faces - int(ranges[-1])
-    whole = (
-        not np.isnan(points).any() and (owner >= 0).all() and (neighbour[:n_internal] >= 0).all()
-        and (neighbour[n_internal:] < 0).all() and owner.max() < n_cells
-    )  # fmt: skip
-    if not whole:
-        raise InputError(
-            f"{case}: the processor folders do not make a whole mesh; one of them is of another case."
-        )
+    apart = max(float(np.abs(points[part.point_at] - part.points).max(initial=0.0)) for part in parts)
+    if (
+        not apart <= _APART * float(np.ptp(points, axis=0).max())
+        or np.any(neighbour[:n_internal] < 0)
+        or np.any(neighbour[n_internal:] >= 0)
+    ):
+        raise foreign
     start = np.concatenate([[0], np.cumsum(size)])
     lists = np.empty(start[-1], dtype=np.int64)
     for part in parts:
@@ -370,12 +414,21 @@ def _write_mesh(
     )
 
 
+def _whole_number(addresses: Sequence[Labels]) -> int:
+    """How many pieces there are if the parts hold all numbers from 0 on, and no others; −1 if they do not."""
+    everything = np.concatenate(addresses)
+    n = int(everything.max(initial=-1)) + 1
+    if n > len(everything) or everything.min(initial=0) < 0:
+        return -1
+    return n if np.bincount(everything, minlength=n).all() else -1
+
+
 def _write_zones(path: Path, parts: Sequence[_Part]) -> None:
     """Put the zones of cells together, if there are any; each in the order of its cells."""
     zones: dict[str, list[Labels]] = {}
     for part in parts:
-        found = existing(part.folder / "constant/polyMesh/cellZones")
-        for name, cells in {} if found is None else parse_cell_zones(read_bytes(found), found).items():
+        found = existing(part.mesh / "cellZones")
+        for name, cells in ({} if found is None else read_cell_zones(found)).items():
             if len(cells) and not 0 <= cells.min() <= cells.max() < len(part.cell_at):
                 raise InputError(f"{found}: zone {name} names a cell that is not there.")
             zones.setdefault(name, []).append(part.cell_at[cells])
@@ -389,11 +442,11 @@ def _write_zones(path: Path, parts: Sequence[_Part]) -> None:
         path.write_text(f"{head}{len(zones)}\n(\n{text})\n")
 
 
-def _entries(patch: Patch, start: int) -> dict[str, str]:
+def _entries(patch: PatchInfo, start: int) -> dict[str, str]:
     return patch.entries | {"nFaces": str(patch.faces), "startFace": str(start)}
 
 
-def _checked(field: VectorField, part: _Part, path: Path) -> VectorField:
+def _checked(field: Field, part: _Part, path: Path) -> Field:
     """The field, if it has the part's size."""
     if len(field.cells) not in (1, len(part.cell_at)):
         raise InputError(f"{path}: {len(field.cells)} cells, but the mesh there has {len(part.cell_at)}.")
@@ -412,14 +465,17 @@ def _checked(field: VectorField, part: _Part, path: Path) -> VectorField:
 
 def _write_field(
     path: Path,
+    kind: str,
     parts: Sequence[_Part],
-    fields: Sequence[VectorField],
-    patches: Sequence[Patch],
+    fields: Sequence[Field],
+    patches: Sequence[PatchInfo],
     ranges: Labels,
 ) -> None:
-    cells = np.empty((sum(len(part.cell_at) for part in parts), 3))
-    n_faces = 1 + max(int(part.face_at.max()) for part in parts)
-    boundary = np.zeros((int(ranges[-1]), 3))
+    components = fields[0].cells.shape[1]
+    of = {3: "vector", 9: "tensor"}[components]
+    cells = np.empty((sum(len(part.cell_at) for part in parts), components))
+    n_faces = 1 + max(int(part.face_at.max(initial=-1)) for part in parts)
+    boundary = np.zeros((int(ranges[-1]), components))
     valued = np.zeros(len(patches), dtype=bool)
     types = [""] * len(patches)
     for part, field in zip(parts, fields, strict=True):
@@ -433,14 +489,15 @@ def _write_field(
                 boundary[faces - (n_faces - len(boundary))] = values
                 valued[at] = True
     with path.open("wb") as file:
-        file.write(_HEADER.format(kind="volVectorField", note="", name=path.name).encode())
-        file.write(b"dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> ")
+        file.write(_HEADER.format(kind=kind, note="", name=path.name).encode())
+        length = 1 if components == 3 else 0
+        file.write(f"dimensions [0 {length} -1 0 0 0 0];\ninternalField nonuniform List<{of}> ".encode())
         _write_list(file, cells)
         file.write(b";\nboundaryField\n{\n")
         for i, patch in enumerate(patches):
             file.write(f"{patch.name}\n{{\ntype {types[i]};\n".encode())
             if valued[i]:
-                file.write(b"value nonuniform List<vector> ")
+                file.write(f"value nonuniform List<{of}> ".encode())
                 _write_list(file, boundary[ranges[i] : ranges[i + 1]])
                 file.write(b";\n")
             file.write(b"}\n")

@@ -5,28 +5,34 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary import Stream, read_dictionary_list, unquoted
+from foamprb.entries import NonNegative
 from foamprb.errors import InputError
+from foamprb.records import read_entries
 
 Floats: TypeAlias = NDArray[np.float64]
 Labels: TypeAlias = NDArray[np.int64]
 
 __all__ = [
-    "Patch",
-    "VectorField",
+    "Field",
+    "PatchInfo",
     "existing",
     "header",
     "read_boundary",
     "read_bytes",
+    "read_cell_zones",
     "read_faces",
     "read_field",
     "read_labels",
     "read_vectors",
+    "require_room",
 ]
 
 _HEADER_BYTES = 4096
@@ -37,26 +43,31 @@ _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"\d+")
 _NUMBERS = re.compile(rb"[^()]*")
 _COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
+_FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
+_MOST_ENTRIES = 1 << 31
 
 
-class Patch(NamedTuple):
-    """A patch of ``polyMesh/boundary``."""
+class PatchInfo(NamedTuple):
+    """A patch as ``polyMesh/boundary`` lists it."""
 
     name: str
     type: str
     faces: int
     start: int
+    """Its first face."""
+    neighbour: str
+    """The patch that a coupled patch leads to."""
     entries: dict[str, str]
-    """All its entries, as they stand in the file."""
+    """All its entries but for dictionaries."""
 
 
-class VectorField(NamedTuple):
-    """A ``volVectorField``."""
+class Field(NamedTuple):
+    """A ``volVectorField`` of 3 components, or a ``volTensorField`` of 9."""
 
     cells: Floats
-    """(n_cells, 3), or (1, 3) if they are all alike."""
+    """(n_cells, components), or (1, components) if they are all alike."""
     patches: dict[str, tuple[str, Floats | None]]
-    """Type, and the values if there are any: (n_faces, 3), or (1, 3) if they are all alike."""
+    """Type, and the values if there are any: (n_faces, components), or one row if they are all alike."""
 
 
 class _File:
@@ -69,19 +80,20 @@ class _File:
         self.path, self.data = found, read_bytes(found)
         entries = header(found)
         self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
+        self._inner = _FIELDS.get(self.kind, b"vector")
         arch = entries.get("arch", "")
         order = ">" if arch.startswith("MSB") else "<"
         self._label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
         self._scalar = np.dtype(f"{order}f{4 if 'scalar=32' in arch else 8}")
         end = re.search(rb"FoamFile\s*\{.*?\}", self.data, re.DOTALL)
         self.at = end.end() if end else 0
-        self._skip()
+        self.skip()
 
     def broken(self, what: str) -> InputError:
         line = self.data.count(b"\n", 0, self.at) + 1
         return InputError(f"{self.path}: line {line}: {what} expected; the file is broken or cut short.")
 
-    def _skip(self) -> None:
+    def skip(self) -> None:
         match = _BLANK.match(self.data, self.at)
         self.at = match.end() if match else self.at
 
@@ -90,7 +102,7 @@ class _File:
         found = self.data.startswith(text, self.at)
         if found:
             self.at += len(text)
-            self._skip()
+            self.skip()
         return found
 
     def need(self, text: bytes) -> None:
@@ -102,7 +114,7 @@ class _File:
         if match is None:
             raise self.broken("a word")
         self.at = match.end()
-        self._skip()
+        self.skip()
         return match[0]
 
     def count(self) -> int:
@@ -111,31 +123,37 @@ class _File:
         if match is None:
             raise self.broken("a number of entries")
         self.at = match.end()
+        if int(match[0]) > _MOST_ENTRIES:
+            raise self.broken(f"a number of entries up to {_MOST_ENTRIES}")
         return int(match[0])
 
-    def list(self, components: int, *, labels: bool = False) -> NDArray[Any]:
-        """A list (n, components), its number of entries first."""
+    def labels(self) -> Labels:
+        """A list of labels (n,), its number of entries first."""
+        values: Labels = self.list(1, self._label)[:, 0]
+        return values
+
+    def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
+        """A list (n, components), its number of entries first; in binary of a type, by default a scalar."""
         n = self.count()
-        dtype = self._label if labels else self._scalar
-        wide = np.int64 if labels else np.float64
+        dtype = self._scalar if binary is None else binary
+        wide = np.float64 if dtype.kind == "f" else np.int64
         if n == 0:
-            self._skip()
+            self.skip()
             if self.take(b"("):
                 self.need(b")")
             return np.zeros((0, components), dtype=wide)
         if not self.binary or self._is_uniform():
-            self._skip()
+            self.skip()
             if self.take(b"{"):
-                one = self._numbers(1, components, b"}")
-                return np.repeat(one, n, axis=0).astype(wide)
+                return np.broadcast_to(self._numbers(1, components, b"}", wide), (n, components))
             self.need(b"(")
-            return self._numbers(n, components, b")").astype(wide)
+            return self._numbers(n, components, b")", wide)
         begin = self.data.find(b"(", self.at) + 1
         end = begin + n * components * dtype.itemsize
         if begin == 0 or self.data[end : end + 1] != b")":
             raise self.broken(f"a list of {n} entries in binary")
         self.at = end + 1
-        self._skip()
+        self.skip()
         values = np.frombuffer(self.data, dtype, n * components, begin)
         return values.reshape(n, components).astype(wide)
 
@@ -143,7 +161,7 @@ class _File:
         match = _BLANK.match(self.data, self.at)
         return match is not None and self.data[match.end() : match.end() + 1] == b"{"
 
-    def _numbers(self, n: int, components: int, closing: bytes) -> Floats:
+    def _numbers(self, n: int, components: int, closing: bytes, wide: type = np.float64) -> NDArray[Any]:
         """Numbers in ascii up to the closing bracket, which is passed; vectors in brackets of their own."""
         if components > 1:
             end = re.compile(rb"\)\s*" + re.escape(closing)).search(self.data, self.at)
@@ -156,28 +174,32 @@ class _File:
             raise self.broken(f"'{closing.decode()}'")
         text = _NOTE.sub(b" ", self.data[self.at : stop]).translate(bytes.maketrans(b"()", b"  "))
         try:
-            values = np.array(text.split(), dtype=np.float64)
-        except ValueError:
-            raise self.broken("a list of numbers") from None
+            values: NDArray[Any] = np.array(text.split(), dtype=wide)
+        except (ValueError, OverflowError):
+            kind = "numbers" if wide is np.float64 else "whole numbers"
+            raise self.broken(f"a list of {kind}") from None
         if len(values) != n * components:
             raise self.broken(f"a list of {n} entries, not {len(values) / components:g},")
         self.at = after
-        self._skip()
+        self.skip()
         return values.reshape(n, components)
 
     def value(self) -> Floats | None:
-        """The vectors after ``uniform`` or ``nonuniform``; None for anything else, which is passed."""
+        """The field's values after ``uniform`` or ``nonuniform``; None for anything else, which is passed."""
         found = None
+        wide = _COMPONENTS[self._inner]
         while not self.take(b";"):
             if self.take(b"nonuniform"):
-                kind = self.word() if not _COUNT.match(self.data, self.at) else b"List<vector>"
+                kind = self.word() if not _COUNT.match(self.data, self.at) else b"List<%b>" % self._inner
                 inner = kind[5:-1]
                 if inner not in _COMPONENTS:
-                    raise self.broken("List<vector>")
-                read = self.list(_COMPONENTS[inner], labels=inner == b"label")
-                found = read if inner == b"vector" else None
+                    raise self.broken(f"List<{self._inner.decode()}>")
+                read = self.list(_COMPONENTS[inner], self._label if inner == b"label" else None)
+                found = read if inner == self._inner else None
             elif self.take(b"uniform") and self.take(b"("):
-                found = self._numbers(3, 1, b")").reshape(1, 3) if self._three() else None
+                found = (
+                    self._numbers(wide, 1, b")").reshape(1, wide) if self._numbers_ahead() == wide else None
+                )
             elif self.at >= len(self.data):
                 raise self.broken("';'")
             elif self.data[self.at : self.at + 1] in (b"(", b")", b"{", b"}"):
@@ -186,12 +208,12 @@ class _File:
                 self.word()
         return found
 
-    def _three(self) -> bool:
+    def _numbers_ahead(self) -> int:
         match = _NUMBERS.match(self.data, self.at)
-        return match is not None and len(match[0].split()) == 3
+        return 0 if match is None else len(match[0].split())
 
     def dictionary(self) -> tuple[dict[str, str], dict[str, Floats | None]]:
-        """Plain entries, and fields of vectors, of a dictionary whose opening brace has been passed."""
+        """Plain entries, and fields, of a dictionary whose opening brace has been passed."""
         entries: dict[str, str] = {}
         fields: dict[str, Floats | None] = {}
         while not self.take(b"}"):
@@ -208,6 +230,14 @@ class _File:
         return entries, fields
 
 
+def require_room(path: Path) -> None:
+    """Raise InputError if a file is too short for the entries that its list is said to have."""
+    file = _File(path)
+    n = file.count()
+    if n > len(file.data):
+        raise file.broken(f"a number of entries that the file has room for, not {n},")
+
+
 def read_labels(path: Path) -> Labels:
     """Read a ``labelList``, (n,).
 
@@ -216,7 +246,7 @@ def read_labels(path: Path) -> Labels:
     InputError
         The file is missing or broken.
     """
-    return _File(path).list(1, labels=True)[:, 0]
+    return _File(path).labels()
 
 
 def read_vectors(path: Path) -> Floats:
@@ -235,8 +265,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     """
     file = _File(path)
     if file.kind == "faceCompactList":
-        start = file.list(1, labels=True)[:, 0]
-        points = file.list(1, labels=True)[:, 0]
+        start, points = file.labels(), file.labels()
         if len(start) == 0 or start[0] != 0 or start[-1] != len(points) or np.any(np.diff(start) < 0):
             raise InputError(f"{file.path}: the lengths of the faces do not fit their points.")
         return start, points
@@ -244,7 +273,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     text = _NOTE.sub(b" ", file.data[file.at :]).translate(bytes.maketrans(b"()", b"  "))
     try:
         numbers = np.array(text.split(), dtype=np.int64)
-    except ValueError:
+    except (ValueError, OverflowError):
         raise file.broken("a list of faces") from None
     sizes = np.empty(n, dtype=np.int64)
     at = 0
@@ -252,7 +281,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
         if at >= len(numbers):
             raise file.broken(f"a list of {n} faces")
         sizes[face] = numbers[at]
-        at += 1 + int(numbers[at])
+        at += 1 + max(int(numbers[at]), 0)
     if at != len(numbers):
         raise file.broken(f"a list of {n} faces")
     start = np.concatenate([[0], np.cumsum(sizes)])
@@ -261,29 +290,94 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     return start, numbers[kept]
 
 
-def read_boundary(path: Path) -> list[Patch]:
-    """Read the patches of ``polyMesh/boundary``; raise InputError if it is missing or broken."""
+@dataclass(frozen=True, kw_only=True)
+class _BoundaryEntry:
+    """What is read of a patch in ``polyMesh/boundary``."""
+
+    type: str
+    nFaces: Annotated[int, NonNegative]
+    startFace: Annotated[int, NonNegative]
+    neighbourPatch: str = ""
+
+
+def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    """Read the patches of ``polyMesh/boundary``.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken, a patch occurs twice, or does not begin where the one before it ends.
+    """
+    found = existing(path)
+    if found is None:
+        raise InputError(f"{path}: no such file.")
+    try:
+        return _patches(found, case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+
+
+def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    patches: list[PatchInfo] = []
+    for dictionary in read_dictionary_list(path, case).items:
+        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
+        name = unquoted(dictionary.key)
+        if any(name == patch.name for patch in patches):
+            raise dictionary.mistake("occurs twice.")
+        if patches and read.startFace != patches[-1].start + patches[-1].faces:
+            expected = patches[-1].start + patches[-1].faces
+            raise dictionary.mistake(
+                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
+            )
+        entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
+        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, entries))
+    return tuple(patches)
+
+
+def read_cell_zones(path: Path) -> dict[str, Labels]:
+    """Read the cells of each zone from ``polyMesh/cellZones``.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken.
+    """
     file = _File(path)
-    file.count()
-    file._skip()
+    n = file.count()
+    file.skip()
     file.need(b"(")
-    patches = []
+    zones: dict[str, Labels] = {}
     while not file.take(b")"):
         name = file.word().decode("utf-8", "replace").strip('"')
         file.need(b"{")
-        entries, _ = file.dictionary()
-        numbers = [entries.get(key, "") for key in ("nFaces", "startFace")]
-        if "type" not in entries or not all(number.isdigit() for number in numbers):
-            raise InputError(f"{file.path}: patch {name} lacks its type, nFaces or startFace.")
-        patches.append(Patch(name, entries["type"], int(numbers[0]), int(numbers[1]), entries))
-    return patches
+        cells: Labels | None = None
+        while not file.take(b"}"):
+            if file.word() == b"cellLabels":
+                # An empty zone in binary is a mere 0.
+                file.take(b"List<label>")
+                cells = file.labels()
+                file.need(b";")
+            else:
+                file.value()
+        if cells is None:
+            raise InputError(f"{file.path}: zone {name} has no cellLabels.")
+        zones[name] = cells
+    if len(zones) != n:
+        raise InputError(f"{file.path}: only {len(zones)} of {n} zones could be read.")
+    return zones
 
 
-def read_field(path: Path) -> VectorField:
-    """Read a ``volVectorField``; raise InputError if it is missing, broken, or another field."""
+def read_field(path: Path, kind: str = "volVectorField") -> Field:
+    """Read a ``volVectorField`` or a ``volTensorField``.
+
+    Raises
+    ------
+    InputError
+        The file is missing, broken, or another field.
+    """
     file = _File(path)
-    if file.kind != "volVectorField":
-        raise InputError(f"{file.path}: the class is {file.kind or '(none)'}, not volVectorField.")
+    if file.kind != kind:
+        raise InputError(f"{file.path}: the class is {file.kind or '(none)'}, not {kind}.")
     cells: Floats | None = None
     patches: dict[str, tuple[str, Floats | None]] | None = None
     while file.at < len(file.data):
@@ -298,9 +392,10 @@ def read_field(path: Path) -> VectorField:
             file.value()
     if cells is None or patches is None:
         raise InputError(
-            f"{file.path}: no internalField of vectors and boundaryField; the file is cut short."
+            f"{file.path}: no internalField of {_FIELDS[kind].decode()}s and boundaryField; the file is cut "
+            "short."
         )
-    return VectorField(cells, patches)
+    return Field(cells, patches)
 
 
 def _patch_fields(file: _File) -> dict[str, tuple[str, Floats | None]]:

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pyvista
@@ -21,22 +21,25 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
-from foamprb.dictionary import read_dictionary_list, unquoted
-from foamprb.entries import NonNegative
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.foamfile import existing as _existing
-from foamprb.flow.foamfile import header as _header
-from foamprb.flow.foamfile import read_bytes as _read_bytes
+from foamprb.flow.foamfile import (
+    PatchInfo,
+    existing,
+    header,
+    read_boundary,
+    read_bytes,
+    read_cell_zones,
+    read_faces,
+    read_labels,
+    require_room,
+)
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
 from foamprb.flow.reconstruct import VALUELESS, Reconstruction
 from foamprb.flow.walk import MeshFlow
-from foamprb.flow.zones import parse_cell_zones
-from foamprb.records import read_entries
 
 __all__ = [
     "PRECISION_NOTE",
     "CaseInfo",
-    "PatchInfo",
     "TimeInfo",
     "VelocityReader",
     "available_times",
@@ -45,15 +48,15 @@ __all__ = [
     "pick_time",
     "read_case",
     "regions",
+    "require_choice",
     "require_numbers",
+    "require_region",
     "require_volumes",
     "select_time",
     "spoken",
 ]
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
-_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
-_LIST = re.compile(rb"\n\s*(\d+)\s*\(")
 LARGEST = 1e30
 """Larger numbers, in m or m/s, are none: products of a few of them must stay finite."""
 _SPOKEN = re.compile(
@@ -64,18 +67,6 @@ PRECISION_NOTE = (
     "Coordinates and velocities have passed through single precision in VTK's OpenFOAM reader: a relative "
     "error of up to 6e-8 each, the coordinates' relative to their distance from the origin."
 )
-
-
-class PatchInfo(NamedTuple):
-    """A patch as ``polyMesh/boundary`` lists it."""
-
-    name: str
-    type: str
-    faces: int
-    start: int
-    """Its first face."""
-    neighbour: str = ""
-    """The patch that a coupled patch leads to."""
 
 
 class TimeInfo(NamedTuple):
@@ -187,9 +178,9 @@ def describe(case: Path, region: str = "") -> CaseInfo:
     names = available_times(case)
     times = tuple(TimeInfo(name, _fields(case / name / region)) for name in names)
     folder = _mesh_folder(case, names[-1] if names else None, region)
-    patches = _read_boundary(case, folder)
+    patches = read_boundary(folder / "boundary", case)
     _require_labels(folder, _noted_counts(folder))
-    blocks, said = _read_blocks(case, names[-1] if names else None, None, region, patches=False)
+    blocks, said = _read_blocks(case, names[-1] if names else None, (), region, patches=False)
     _raise_spoken(case, said)
     grid = blocks["internalMesh"]
     kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)
@@ -240,10 +231,19 @@ def read_case(
 
 
 def _read_gradient(case: Path, time: str, field: str, region: str) -> Floats:
-    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j, 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
-    path = _field_path(case / time / region, field, "volTensorField", "the gradient of a velocity")
-    blocks, said = _read_blocks(case, time, field, region, patches=False)
+    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j, 1/s."""
+    path = _gradient_path(case / time / region, field)
+    blocks, said = _read_blocks(case, time, (field,), region, patches=False)
     _raise_spoken(case, said)
+    return _gradients(blocks, field, path)
+
+
+def _gradient_path(folder: Path, field: str) -> Path:
+    return _field_path(folder, field, "volTensorField", "the gradient of a velocity")
+
+
+def _gradients(blocks: dict[str, Any], field: str, path: Path) -> Floats:
+    """l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
     return _values(blocks["internalMesh"], field, path, "the cells", 9).reshape(-1, 3, 3).transpose(0, 2, 1)
 
 
@@ -265,10 +265,10 @@ def read_fields(
     name = select_time(case, time, region)
     path = _field_path(case / name / region, velocity)
     folder = _mesh_folder(case, name, region)
-    patches = _read_boundary(case, folder)
+    patches = read_boundary(folder / "boundary", case)
     noted = _noted_counts(folder)
     _require_labels(folder, noted)
-    blocks, said = _read_blocks(case, name, velocity, region, patches=True)
+    blocks, said = _read_blocks(case, name, (velocity,), region, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
         if word in noted and noted[word] != found:
@@ -302,30 +302,34 @@ class VelocityReader:
         The case, whose mesh does not change.
     time
         Name of a time directory.
-    velocity
-        Name of the velocity field.
+    velocity, region, gradient
+        As :func:`read_case`.
     """
 
-    def __init__(self, case: Path, time: str, velocity: str) -> None:
-        self._case, self._velocity = case, velocity
-        self._folder = _mesh_folder(case, time, "")
-        self._patches = _read_boundary(case, self._folder)
+    def __init__(self, case: Path, time: str, velocity: str, region: str = "", gradient: str = "") -> None:
+        self._case, self._region, self._velocity, self._gradient = case, region, velocity, gradient
+        self._folder = _mesh_folder(case, time, region)
+        self._patches = read_boundary(self._folder / "boundary", case)
         with spoken():
-            self._reader = _open(case, velocity, "", patches=True)
+            self._reader = _open(case, (velocity, gradient), region, patches=True)
 
-    def __call__(self, time: str) -> tuple[Floats, Floats]:
-        """Velocity at the cells (n_cells, 3) and boundary faces (n_boundary, 3) at a time, m/s.
+    def __call__(self, time: str) -> tuple[Floats, Floats, Floats | None]:
+        """Velocity at the cells (n_cells, 3) and boundary faces (n_boundary, 3), m/s, and the given gradient.
 
         Raises
         ------
         InputError
-            The field is missing, broken or not of the mesh's size.
+            A field is missing, broken or not of the mesh's size.
         """
-        path = _field_path(self._case / time, self._velocity)
+        folder = self._case / time / self._region
+        path = _field_path(folder, self._velocity)
+        given = _gradient_path(folder, self._gradient) if self._gradient else None
         with spoken() as said:
             blocks = _update(self._reader, time)
         _raise_spoken(self._case, said)
-        return _velocities(blocks, self._patches, self._velocity, path)
+        cells, boundary = _velocities(blocks, self._patches, self._velocity, path)
+        l = None if given is None else _gradients(blocks, self._gradient, given)
+        return cells, boundary, l
 
     def zones(self) -> Mapping[str, NDArray[np.int64]]:
         """The cells of each zone, by name; InputError if they cannot be read."""
@@ -427,11 +431,11 @@ def spoken() -> Iterator[Spoken]:
 
 
 def _read_blocks(
-    case: Path, time: str | None, velocity: str | None, region: str, *, patches: bool
+    case: Path, time: str | None, fields: Sequence[str], region: str, *, patches: bool
 ) -> tuple[dict[str, Any], Spoken]:
     """The reader's blocks by name, ``internalMesh`` and the patches; and what VTK said."""
     with spoken() as said:
-        blocks = _update(_open(case, velocity, region, patches=patches), time)
+        blocks = _update(_open(case, fields, region, patches=patches), time)
     grid = blocks.get("internalMesh")
     if grid is None or grid.n_cells == 0:
         _raise_spoken(case, said)
@@ -442,8 +446,8 @@ def _read_blocks(
     return blocks, said
 
 
-def _open(case: Path, velocity: str | None, region: str, *, patches: bool) -> Any:
-    """VTK's reader of the mesh, of the velocity if it is named, and of the patches."""
+def _open(case: Path, fields: Sequence[str], region: str, *, patches: bool) -> Any:
+    """VTK's reader of the mesh, of some fields, and of the patches."""
     reader = vtkOpenFOAMReader()
     # The name only tells the folder; the file need not be there.
     reader.SetFileName(str(case.resolve() / "case.foam"))
@@ -454,8 +458,8 @@ def _open(case: Path, velocity: str | None, region: str, *, patches: bool) -> An
     reader.DisableAllCellArrays()
     reader.DisableAllPointArrays()
     reader.DisableAllLagrangianArrays()
-    if velocity is not None:
-        reader.SetCellArrayStatus(velocity, 1)
+    for field in fields:
+        reader.SetCellArrayStatus(field, 1)
     for index in range(reader.GetNumberOfPatchArrays()):
         part = reader.GetPatchArrayName(index)
         of_region = f"/{region}/" if region else ""
@@ -505,23 +509,33 @@ def _require_case(case: Path, region: str) -> None:
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     names = regions(case)
+    require_region(case, region, names)
+    if existing(case / "constant" / region / "polyMesh" / "faces") is not None:
+        return
+    if _is_decomposed(case):
+        raise InputError(
+            f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
+        )
+    require_choice(case, names)
+    raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
+
+
+def require_region(case: Path, region: str, names: Sequence[str]) -> None:
+    """Raise InputError if a region is named that a case of these regions does not have."""
     if region and region not in names:
         raise InputError(
             f"{case}: no region {region}. {suggestion(region, names)}"
             if names
             else f"{case}: no region {region}; the case is not divided into regions."
         )
-    if _existing(case / "constant" / region / "polyMesh" / "faces") is not None:
-        return
-    if _is_decomposed(case):
-        raise InputError(
-            f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
-        )
+
+
+def require_choice(case: Path, names: Sequence[str]) -> None:
+    """Raise InputError if a case without a mesh of its own has regions, of which one must be chosen."""
     if names:
         raise InputError(
             f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
         )
-    raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
 
 
 def _is_decomposed(case: Path) -> bool:
@@ -533,7 +547,7 @@ def _mesh_folder(case: Path, time: str | None, region: str) -> Path:
     folder = case / "constant" / region / "polyMesh"
     for name in available_times(case):
         changed = case / name / region / "polyMesh"
-        if time is not None and float(name) <= float(time) and _existing(changed / "faces") is not None:
+        if time is not None and float(name) <= float(time) and existing(changed / "faces") is not None:
             folder = changed
     return folder
 
@@ -541,10 +555,10 @@ def _mesh_folder(case: Path, time: str | None, region: str) -> Path:
 def _field_path(
     folder: Path, field: str, wanted: str = "volVectorField", meaning: str = "a velocity"
 ) -> Path:
-    path = _existing(folder / field)
+    path = existing(folder / field)
     if path is None:
         raise InputError(f"{folder}: no field {field}; the fields are {listed(_fields(folder))}.")
-    kind = _header(path).get("class", "(none)")
+    kind = header(path).get("class", "(none)")
     if kind != wanted:
         raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
     return path
@@ -555,71 +569,36 @@ def _fields(folder: Path) -> dict[str, str]:
     found = {}
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.is_file():
-            kind = _header(path).get("class", "")
+            kind = header(path).get("class", "")
             if kind.endswith("Field"):
                 found[path.name.removesuffix(".gz")] = kind
     return found
 
 
-@dataclass(frozen=True, kw_only=True)
-class _BoundaryEntry:
-    """What is read of a patch in ``polyMesh/boundary``."""
-
-    type: str
-    nFaces: Annotated[int, NonNegative]
-    startFace: Annotated[int, NonNegative]
-    neighbourPatch: str = ""
-
-
-def _read_boundary(case: Path, folder: Path) -> tuple[PatchInfo, ...]:
-    path = _existing(folder / "boundary")
-    if path is None:
-        raise InputError(f"{folder / 'boundary'}: no such file.")
-    try:
-        return _boundary_entries(path, case)
-    except InputError as error:
-        raise InputError(f"{case}: {error}") from None
-
-
-def _boundary_entries(path: Path, case: Path) -> tuple[PatchInfo, ...]:
-    patches: list[PatchInfo] = []
-    for dictionary in read_dictionary_list(path, case).items:
-        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
-        name = unquoted(dictionary.key)
-        if any(name == patch.name for patch in patches):
-            raise dictionary.mistake("occurs twice.")
-        if patches and read.startFace != patches[-1].start + patches[-1].faces:
-            expected = patches[-1].start + patches[-1].faces
-            raise dictionary.mistake(
-                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
-            )
-        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch))
-    return tuple(patches)
-
-
 def _read_cell_zones(folder: Path) -> Mapping[str, NDArray[np.int64]]:
-    path = _existing(folder / "cellZones")
-    return {} if path is None else parse_cell_zones(_read_bytes(path), path)
+    path = existing(folder / "cellZones")
+    return {} if path is None else read_cell_zones(path)
 
 
 def _noted_counts(folder: Path) -> dict[str, int]:
     """Counts that OpenFOAM notes in the header of ``owner``: nPoints, nCells, nFaces, nInternalFaces."""
     for name in ("faces", "owner", "neighbour"):
-        if _existing(folder / name) is None:
+        if existing(folder / name) is None:
             raise InputError(f"{folder / name}: no such file.")
-    note = _header(_shown(folder / "owner")).get("note", "")
+    note = header(_shown(folder / "owner")).get("note", "")
     return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
 
 
 def _require_labels(folder: Path, noted: dict[str, int]) -> None:
-    """Refuse owners and neighbours that cannot be cells: VTK would make room for as many."""
+    """Refuse owners and neighbours that cannot be cells, for which VTK would make room, and broken faces."""
+    for name in ("points", "faces"):
+        if existing(folder / name) is not None:
+            require_room(folder / name)
     faces = 0
     for name in ("owner", "neighbour"):
         path = _shown(folder / name)
-        labels = _labels(path)
-        faces = max(faces, 0 if labels is None else len(labels))
-        if labels is None or len(labels) == 0:
-            continue
+        labels = read_labels(path)
+        faces = max(faces, len(labels))
         # There are fewer cells than faces in any mesh.
         limit = noted.get("nCells", faces)
         wrong = np.flatnonzero((labels < 0) | (labels >= limit))
@@ -627,30 +606,25 @@ def _require_labels(folder: Path, noted: dict[str, int]) -> None:
             raise InputError(
                 f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {limit} cells."
             )
+    _require_faces(_shown(folder / "faces"), 10 * max(faces, noted.get("nPoints", 0)))
 
 
-def _labels(path: Path) -> NDArray[np.int64] | None:
-    """A list of labels, None if it is not in the form that OpenFOAM writes."""
-    data = _read_bytes(path)
-    header = _header(path)
-    match = _LIST.search(data, max(data.find(b"}"), 0))
-    if match is None:
-        return None
-    count, body = int(match[1]), data[match.end() :]
-    if header.get("format") == "binary":
-        size = 8 if "label=64" in header.get("arch", "") else 4
-        if len(body) < count * size:
-            return None
-        return np.frombuffer(body, f"<i{size}", count).astype(np.int64)
-    words = body[: body.find(b")")].split()
-    try:
-        return np.array(words, dtype=np.int64) if len(words) == count else None
-    except (ValueError, OverflowError):
-        return None
+def _require_faces(path: Path, limit: int) -> None:
+    """Refuse lists of faces that VTK does not survive: lengths that do not fit, or beyond all memory."""
+    if header(path).get("class") == "faceCompactList":
+        read_faces(path)
+        return
+    data = read_bytes(path)
+    long = re.compile(rb"\d{%d,}" % (len(str(limit)) + 1)).search(data, max(data.find(b"}"), 0))
+    if long is not None:
+        line = data.count(b"\n", 0, long.start()) + 1
+        raise InputError(
+            f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a number of them."
+        )
 
 
 def _shown(path: Path) -> Path:
-    return _existing(path) or path
+    return existing(path) or path
 
 
 def listed(names: Any) -> str:

@@ -20,12 +20,14 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import PatchFaces, Tetrahedra
+from foamprb.flow.foamfile import existing
 from foamprb.flow.locator import MeshArrays, locate, no_mesh
 from foamprb.flow.mesh import Floats, Ints, Mesh
 from foamprb.flow.openfoam import (
     PRECISION_NOTE,
     VelocityReader,
     available_times,
+    pick_time,
     read_case,
     read_fields,
     select_time,
@@ -36,7 +38,7 @@ from foamprb.flow.walk import cross as still_cross
 from foamprb.flow.walk import gap as still_gap
 from foamprb.flow.walk import walk as still_walk
 
-__all__ = ["SeriesArrays", "SeriesFlow", "read_series", "select_times"]
+__all__ = ["SeriesArrays", "SeriesFlow", "choose_times", "read_series", "select_times", "stream"]
 
 _SLACK = 1e-6
 """Share of the shortest interval by which two times may differ and still be the same."""
@@ -347,13 +349,27 @@ def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
 _RANGE = re.compile(r"([^:]*):([^:]*)")
 
 
-def select_times(case: Path, selection: str | None = None) -> tuple[str, ...]:
-    """Names of the time directories that OpenFOAM's option ``-time`` would select, in the order of time.
+def select_times(case: Path, selection: str | None = None, region: str = "") -> tuple[str, ...]:
+    """Names of the time directories of a case that ``selection`` means, as :func:`choose_times`.
+
+    Raises
+    ------
+    InputError
+        The case cannot be read; or as :func:`choose_times`.
+    """
+    select_time(case, region=region)
+    return choose_times(case, available_times(case), selection)
+
+
+def choose_times(source: Path, names: Sequence[str], selection: str | None = None) -> tuple[str, ...]:
+    """The names of times that OpenFOAM's option ``-time`` would select, in the order of time.
 
     Parameters
     ----------
-    case
-        The case.
+    source
+        What has these times, for the messages.
+    names
+        The names of all times, in their order; at least one.
     selection
         Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), with commas or blanks between them;
         ``latestTime``; None for all.
@@ -363,30 +379,28 @@ def select_times(case: Path, selection: str | None = None) -> tuple[str, ...]:
     InputError
         A value or a range selects nothing.
     """
-    latest = select_time(case)
-    names = available_times(case)
     if selection is None:
-        return names
+        return tuple(names)
     chosen: set[str] = set()
     for word in re.split(r"[,\s]+", selection.strip()):
         if match := _RANGE.fullmatch(word):
-            low, high = _bound(case, word, match[1], -math.inf), _bound(case, word, match[2], math.inf)
+            low, high = _bound(source, word, match[1], -math.inf), _bound(source, word, match[2], math.inf)
             found = {name for name in names if low <= float(name) <= high}
             if not found:
-                raise InputError(f"{case}: no time in {word}; the times go from {names[0]} to {names[-1]}.")
+                raise InputError(f"{source}: no time in {word}; the times go from {names[0]} to {names[-1]}.")
             chosen |= found
         else:
-            chosen.add(latest if word == "latestTime" else select_time(case, word))
+            chosen.add(names[pick_time(source, names, word)])
     return tuple(name for name in names if name in chosen)
 
 
-def _bound(case: Path, word: str, text: str, default: float) -> float:
+def _bound(source: Path, word: str, text: str, default: float) -> float:
     try:
         value = float(text or default)
     except ValueError:
         value = math.nan
     if math.isnan(value):
-        raise InputError(f"{case}: '{word}' is no range of times, such as 0.1:0.5, 0.1: or :0.5.")
+        raise InputError(f"{source}: '{word}' is no range of times, such as 0.1:0.5, 0.1: or :0.5.")
     # Names of times are rounded.
     return value + math.copysign(1e-9 * abs(value), default) if text else value
 
@@ -396,6 +410,8 @@ def read_series(
     times: str | None = None,
     period: float | None = None,
     velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
     prepare: Callable[[str], None] | None = None,
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
@@ -405,50 +421,82 @@ def read_series(
     case
         The case's folder.
     times
-        As :func:`select_times`.
+        As :func:`choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity
-        Name of the velocity field, a ``volVectorField`` in m/s.
+    velocity, region, gradient
+        As :func:`foamprb.flow.openfoam.read_case`.
     prepare
         Called with the name of a time directory before it is read.
 
     Raises
     ------
     InputError
-        What is missing, broken or inconsistent: the case, a time, the field, the mesh or a patch; a mesh that
+        What is missing, broken or inconsistent: the case, a time, a field, the mesh or a patch; a mesh that
         moves; times that do not fill the period.
     """
     case = Path(case)
-    names = select_times(case, times)
+    names = select_times(case, times, region)
     if prepare is not None:
         prepare(names[0])
     if len(names) == 1:
-        return read_case(case, names[0], velocity)
-    _refuse_moving(case, names)
-    mesh, *_ = read_fields(case, names[0], velocity)
+        return read_case(case, names[0], velocity, region, gradient)
+    _refuse_moving(case, names, region)
+    mesh, *_ = read_fields(case, names[0], velocity, region)
     reconstruct = Reconstruction(mesh)
-    reader = VelocityReader(case, names[0], velocity)
+    reader = VelocityReader(case, names[0], velocity, region, gradient)
 
-    def read(index: int) -> tuple[Floats, Floats]:
+    def read(name: str) -> tuple[Floats, Floats]:
         if prepare is not None:
-            prepare(names[index])
-        return reconstruct(*reader(names[index]))
+            prepare(name)
+        return reconstruct(*reader(name))
 
-    values = [float(name) for name in names]
+    return stream(case, mesh, names, read, period, [PRECISION_NOTE], reader.zones)
+
+
+def stream(
+    source: Path,
+    mesh: Mesh,
+    names: Sequence[str],
+    read: Callable[[str], tuple[Floats, Floats]],
+    period: float | None,
+    notes: Sequence[str],
+    zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+) -> SeriesFlow:
+    """Make a flow of the times of a case or a file, in memory as few as needed, or all of a short period.
+
+    Parameters
+    ----------
+    source
+        What it comes from, for the messages.
+    mesh
+        The mesh, of all times.
+    names
+        The names of the times, rising.
+    read
+        Gives u and l at the nodes of the time with a given name, as :class:`SeriesFlow`'s.
+    period, notes, zones
+        As :class:`SeriesFlow`'s.
+
+    Raises
+    ------
+    InputError
+        The times do not rise, or do not fill the period.
+    """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
     a_time = 96 * (mesh.n_points + mesh.n_cells)
     keep = _MOST_KEPT // a_time if period is not None else 0
+    times = [float(name) for name in names]
     try:
-        return SeriesFlow(mesh, values, read, period, [PRECISION_NOTE, note], keep, reader.zones)
+        return SeriesFlow(mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones)
     except InputError as error:
-        raise InputError(f"{case}: {error}") from None
+        raise InputError(f"{source}: {error}") from None
 
 
-def _refuse_moving(case: Path, names: Sequence[str]) -> None:
+def _refuse_moving(case: Path, names: Sequence[str], region: str) -> None:
     for name in names[1:]:
         for part in ("points", "faces"):
-            for path in (case / name / "polyMesh" / part, case / name / "polyMesh" / f"{part}.gz"):
-                if path.is_file():
-                    raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")
+            path = existing(case / name / region / "polyMesh" / part)
+            if path is not None:
+                raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from foamprb.errors import InputError
 from foamprb.flow.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
-from foamprb.flow.meshfile import Division, read_mesh_file
+from foamprb.flow.meshfile import Division, read_mesh_file, read_mesh_series
 from foamprb.flow.openfoam import read_case
 from foamprb.flow.series import SeriesFlow, read_series
 from foamprb.flow.walk import MeshFlow
@@ -44,16 +44,11 @@ def read_flow(case: Path, time: float | str = "latestTime", source: Source | Non
     """
     source = source or Source()
     if source.file is None:
-        if source.division is not None:
-            raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
-        if source.decomposed or is_only_decomposed(case):
-            _refuse_parts(case, source, "a decomposed case")
-            return read_decomposed_case(case, time, source.velocity)
-        return read_case(case, time, source.velocity, source.region, source.gradient)
-    if source.region:
-        raise InputError(
-            f"{source.file}: a mesh file has no regions, but region {source.region} is asked for."
-        )
+        _refuse_division(case, source)
+        decomposed = source.decomposed or is_only_decomposed(case, source.region)
+        read = read_decomposed_case if decomposed else read_case
+        return read(case, time, source.velocity, source.region, source.gradient)
+    _refuse_region(source)
     return read_mesh_file(
         source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
     )
@@ -62,25 +57,32 @@ def read_flow(case: Path, time: float | str = "latestTime", source: Source | Non
 def read_transient_flow(
     case: Path, times: str | None, period: float | None, source: Source
 ) -> SeriesFlow | MeshFlow:
-    """Read the flow of a case at several times, as it is needed.
+    """Read the flow of a case or of a mesh file at several times, as it is needed.
 
     Raises
     ------
     InputError
-        As :func:`foamprb.flow.series.read_series`; or the source asks for a mesh file, a region or a given
-        gradient, which are read at one time only.
+        As :func:`foamprb.flow.series.read_series` and :func:`foamprb.flow.meshfile.read_mesh_series`; or the
+        source asks for what its kind does not have.
     """
     if source.file is not None:
-        raise InputError(
-            f"{source.file}: of a mesh file one time is read; set solution/transient no, or use a case."
+        _refuse_region(source)
+        return read_mesh_series(
+            source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
         )
-    _refuse_parts(case, source, "a transient flow")
-    decomposed = source.decomposed or is_only_decomposed(case)
+    _refuse_division(case, source)
+    decomposed = source.decomposed or is_only_decomposed(case, source.region)
     read = read_decomposed_series if decomposed else read_series
-    return read(case, times, period, source.velocity)
+    return read(case, times, period, source.velocity, source.region, source.gradient)
 
 
-def _refuse_parts(case: Path, source: Source, what: str) -> None:
-    if source.region or source.gradient:
-        asked = f"region {source.region}" if source.region else f"gradient {source.gradient}"
-        raise InputError(f"{case}: {asked} is not read from {what}.")
+def _refuse_region(source: Source) -> None:
+    if source.region:
+        raise InputError(
+            f"{source.file}: a mesh file has no regions, but region {source.region} is asked for."
+        )
+
+
+def _refuse_division(case: Path, source: Source) -> None:
+    if source.division is not None:
+        raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -17,28 +18,73 @@ from typing import Any
 
 from foamprb.errors import InputError
 
-__all__ = ["require_survival"]
+__all__ = ["read_vtk", "require_survival", "times_of"]
 
+_LEAST_TIME = 20
+_LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
+"""Files that are read with others beside them."""
 _lock = threading.Lock()
 _server: Any = None
 
 
-def require_survival(path: Path) -> None:
-    """Refuse a file that VTK does not survive.
+def times_of(path: Path) -> list[float]:
+    """The times that a file of VTK's has, rising; none if it knows of no time."""
+    import pyvista
+
+    return _times(pyvista.get_reader(path))
+
+
+def read_vtk(path: Path, step: int | None = None) -> Any:
+    """Read a file of VTK's, at the time of a position among its times if it has any."""
+    import pyvista
+
+    reader = pyvista.get_reader(path)
+    if step is not None and isinstance(reader, pyvista.HDFReader):
+        reader.reader.SetStep(step)
+    elif step is not None:
+        reader.set_active_time_value(_times(reader)[step])
+    return reader.read()
+
+
+def _times(reader: Any) -> list[float]:
+    import pyvista
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+    if not isinstance(reader, pyvista.HDFReader):
+        return list(getattr(reader, "time_values", None) or [])
+    # Pyvista passes over the times of these.
+    reader.reader.UpdateInformation()
+    about, key = reader.reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    return list(about.Get(key)) if about.Has(key) else []
+
+
+def require_survival(path: Path, step: int | None = None) -> None:
+    """Refuse a file that VTK does not survive, at the time of a position among its times if it has any.
 
     Raises
     ------
     InputError
-        Reading the file ended the process that tried; the signal by which.
+        Reading the file ended the process that tried, by which signal; or it never ended.
     """
     with _lock:
-        number = _ask(path)
+        number = _ask(path, step)
+    if number == signal.SIGXCPU:
+        raise InputError(
+            f"{path}: VTK has not come to an end within {_limit(path)} s of processor time; the file is "
+            "damaged."
+        )
     if number:
         name = signal.Signals(number).name
         raise InputError(f"{path}: VTK cannot read it and does not survive it ({name}); the file is damaged.")
 
 
-def _ask(path: Path) -> int:
+def _limit(path: Path) -> int:
+    """Processor time after which reading a file is given up, s: at a megabyte a second, and never soon."""
+    files = path.parent.rglob("*") if path.suffix in _LISTS else [path]
+    return _LEAST_TIME + sum(file.stat().st_size for file in files if file.is_file()) // 1_000_000
+
+
+def _ask(path: Path, step: int | None) -> int:
     """The signal that ended the copy which read the file, 0 if none did."""
     global _server
     if _server is None or _server.poll() is not None:
@@ -47,7 +93,7 @@ def _ask(path: Path) -> int:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )
     try:
-        _server.stdin.write(json.dumps(str(path.resolve())) + "\n")
+        _server.stdin.write(json.dumps([str(path.resolve()), step, _limit(path)]) + "\n")
         _server.stdin.flush()
         return int(_server.stdout.readline())
     except (OSError, ValueError) as error:
@@ -57,10 +103,11 @@ def _ask(path: Path) -> int:
 
 
 def _serve() -> None:
-    """Answer paths, one in each line of the standard input, with numbers of signals."""
+    """Answer lines of path, time and limit on the standard input with numbers of signals."""
     import contextlib
 
-    import pyvista
+    # Once for all the copies.
+    import pyvista  # noqa: F401
 
     answers = os.fdopen(os.dup(1), "w")
     with open(os.devnull, "wb") as nothing:  # noqa: PTH123
@@ -69,7 +116,9 @@ def _serve() -> None:
         copy = os.fork()
         if copy == 0:
             with contextlib.suppress(BaseException):
-                _touch(pyvista.get_reader(json.loads(line)).read())
+                path, step, limit = json.loads(line)
+                resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))
+                _touch(read_vtk(Path(path), step))
             os._exit(0)
         _, status = os.waitpid(copy, 0)
         answers.write(f"{os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0}\n")

@@ -1,0 +1,63 @@
+"""Temporary folders that do not outlive their process by long, however it ends."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import tempfile
+import weakref
+from pathlib import Path
+
+__all__ = ["scratch_folder"]
+
+_PREFIX = "foamprb-"
+
+
+def scratch_folder(owner: object) -> Path:
+    """A new temporary folder that goes with its owner.
+
+    A process that is killed leaves its folder behind. But a folder is locked as long as its process lives:
+    those of the same kind that nobody holds any more are removed here.
+    """
+    _remove_left()
+    while True:
+        folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
+        descriptor = os.open(folder, os.O_RDONLY)
+        # Before it was locked another process may have taken it for one left behind.
+        if _lock(descriptor) and folder.is_dir():
+            weakref.finalize(owner, _remove, folder, descriptor)
+            return folder
+        os.close(descriptor)
+
+
+def _lock(descriptor: int) -> bool:
+    """Lock a folder, if nobody has; where the file system has no locks, as if it were done."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        pass
+    return True
+
+
+def _remove(folder: Path, descriptor: int) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    os.close(descriptor)
+
+
+def _remove_left() -> None:
+    """Remove the folders that no process holds."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
+        try:
+            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        except OSError:
+            # Somebody else's, or gone.
+            continue
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(descriptor)
+        else:
+            _remove(folder, descriptor)
