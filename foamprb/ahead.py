@@ -1,22 +1,35 @@
-"""Compile the particle loop in another process while this one reads the flow, which takes about as long.
+"""Compilation before the code is wanted.
 
-It is done where the loop has never been compiled and there is a processor to spare. What the other process
-makes is found where compiled code is kept; if it fails, or made what is not wanted, this process compiles.
+Where the particle loop has never been compiled and there is a processor to spare, another process compiles it
+while the first reads the flow, which takes about as long. What it makes is found where compiled code is kept;
+if it fails, or made what is not wanted, the first process compiles.
 """
 
 from __future__ import annotations
 
 import atexit
+import logging
 import pickle
 import subprocess
 import sys
 
-from foamprb.cloud.cloud import Tracker, available_threads
-from foamprb.cloud.state import empty
+import numpy as np
+import pyvista
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import LOOPS, Cloud, Models, Tracker, available_threads
+from foamprb.cloud.measures import context, measure
+from foamprb.cloud.patches import Stick
+from foamprb.cloud.state import empty, spheres
+from foamprb.compile import cache_directory
+from foamprb.flow.mesh import build_mesh
+from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walk import MeshFlow
 
-__all__ = ["Ahead"]
+__all__ = ["Ahead", "compile_all"]
+
+log = logging.getLogger("foamprb")
 
 
 class Ahead:
@@ -59,6 +72,28 @@ class Ahead:
         if self._process is not None:
             self._process.kill()
             self._process.wait()
+
+
+def compile_all() -> None:
+    """Compile what runs need that select nothing of their own: reading of meshes, all loops, the output.
+
+    Steady and transient flows have loops of their own, and so has each integrator.
+    """
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    cells = {pyvista.CellType.HEXAHEDRON: np.arange(8).reshape(1, 8)}
+    mesh = build_mesh(pyvista.UnstructuredGrid(cells, np.array(corners, dtype=float)))
+    nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
+    flows = {"steady": MeshFlow(mesh, *nodes), "transient": SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)}
+    medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
+    for kind, flow in flows.items():
+        for integrator in LOOPS:
+            log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
+            particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
+            models = Models(integrator=integrator)
+            cloud = Cloud(particle, flow, medium, [Stick()] * len(mesh.patches), 1e-3, models, threads=1)
+            cloud.advance(1)
+        measure(context(cloud.particles, flow, medium.mu, cloud.time))
+    log.info("The code is kept in %s", cache_directory())
 
 
 def main() -> None:

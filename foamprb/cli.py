@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from foamprb.settings import StartFrom
     from foamprb.team import OnDevice
 
-_COMMANDS = ("run", "info", "validate")
+_COMMANDS = ("run", "info", "validate", "compile")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -53,7 +53,13 @@ def _parser() -> argparse.ArgumentParser:
     validate = commands.add_parser(
         "validate", help="compare with independent solutions", add_help=False, allow_abbrev=False
     )
-    for command in (run, info, validate):
+    compiling = commands.add_parser(
+        "compile",
+        help="compile the particle loops, so that no run has to",
+        add_help=False,
+        allow_abbrev=False,
+    )
+    for command in (run, info, validate, compiling):
         command.add_argument("--help", action="help", help="show this text and stop")
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
     for command in (run, info):
@@ -220,6 +226,13 @@ def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
     return 0 if validate(chosen, arguments.output, arguments.quick) else 1
 
 
+def _compile(_: argparse.Namespace, __: Root | None) -> int:
+    from foamprb.ahead import compile_all
+
+    compile_all()
+    return 0
+
+
 class _Format(logging.Formatter):
     """Plain lines; a warning in OpenFOAM's manner."""
 
@@ -263,6 +276,7 @@ def _answer(words: Sequence[str], team: Root | None = None) -> int:
             "run": _run,
             "info": _info,
             "validate": _validate,
+            "compile": _compile,
         }
         return commands[parsed.command](parsed, team)
     except (InputError, RunStopped, RankError, OSError) as error:

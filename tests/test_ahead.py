@@ -7,9 +7,9 @@ from test_flow_shapes import block
 import foamprb
 from foamprb import compile as compiling
 from foamprb.ahead import Ahead
-from foamprb.cloud import cloud as clouds
+from foamprb.cli import main
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import LOOPS, Cloud, Models, Tracker
 from foamprb.flow.mesh import build_mesh
 from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walk import MeshFlow
@@ -35,7 +35,7 @@ def test_what_was_compiled_ahead_is_what_is_wanted(make, tmp_path, monkeypatch):
     p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
     assert not cloud.compiled
-    early = clouds.Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
     ahead = Ahead(early, type(flow))
     assert ahead
     ahead.wait()
@@ -51,8 +51,18 @@ def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(compiling, "_parts", {})
     monkeypatch.setattr("foamprb.ahead.available_threads", lambda: 2)
-    tracker = clouds.Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
     ahead = Ahead(tracker, MeshFlow)
     ahead.stop()
     ahead.wait()
     assert not tracker.compiled
+
+
+def test_after_compile_no_run_has_to(capsys):
+    """Where other tests keep their code as well, as much of it is theirs."""
+    assert main(["compile"]) == 0
+    assert "The code is kept in" in capsys.readouterr().out
+    for kind in (MeshFlow, SeriesFlow):
+        for integrator in LOOPS:
+            models = Models(integrator=integrator)
+            assert Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False).compiled

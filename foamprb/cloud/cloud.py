@@ -163,7 +163,8 @@ class Tracker:
         """
         rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
-        rows = rows[np.lexsort((rows, p.host[rows], p.status[rows]))]
+        place = (p.status[rows].astype(np.int64) << 32) + p.host[rows]
+        rows = rows[np.argsort(place, kind="stable")]
 
         def work(first: int) -> int:
             scratch = Scratch(

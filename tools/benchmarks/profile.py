@@ -15,7 +15,7 @@ from foamprb.cloud import adaptive, advance, block
 from foamprb.cloud.block import LANES, frame_stage
 from foamprb.cloud.block import frame_stage as medium_stage
 from foamprb.compile import link
-from foamprb.flow.walk import gap, sample, walk
+from foamprb.flow.walk import LONG, gap, sample, walk
 
 
 class Stage(NamedTuple):
@@ -31,11 +31,13 @@ STAGES: dict[str, dict[str, Stage]] = {
         "traction": Stage(advance.traction_stage, 1, True),
         "newton": Stage(advance.newton_stage, 1),
         "frame": Stage(block.frame_stage, 1),
+        "stretches": Stage(block.stretch_stage, 1),
         "integrals": Stage(block.integrals_stage, 1),
         "barycentre": Stage(advance.barycentre_stage, 1, True),
     },
     "stokes": {
         "frame": Stage(block.frame_stage, 2),
+        "stretches": Stage(block.stretch_stage, 2),
         "integrals": Stage(block.integrals_stage, 2),
         "first slope": Stage(adaptive.first_inertialess, 1, True),
         "second slope": Stage(adaptive.second_inertialess, 1, True),
@@ -103,7 +105,7 @@ def filled(cloud: Any, members: Any) -> Any:
         block.store3(data, block.AT_U, i, tuple(u[i]))
         block.store9(data, block.AT_L, i, tuple(l[i].ravel()))
         data[adaptive.AT_H * LANES + i] = cloud.dt
-    for stage in (block.frame_stage, block.integrals_stage):
+    for stage in (block.frame_stage, block.stretch_stage, block.integrals_stage):
         link(_repeat, {"frame_stage": stage}, separate=(stage,))(data, 1)
     return data
 
@@ -129,8 +131,8 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     arrays = cloud.flow.arrays(1e-5)
     out = np.zeros(LANES)
     sampling = link(_repeat_sample)
-    walking = link(_repeat_walk, separate=(walk,))
-    touching = link(_repeat_gap, separate=(gap,))
+    walking = link(_repeat_walk, separate=LONG)
+    touching = link(_repeat_gap, separate=LONG)
     places = [(p.host[m], p.x[m], p.x[m] + cloud.dt * p.v[m], p.F[m], p.R[m]) for m, _ in chosen]
     runs["sample"] = lambda times: [sampling(arrays, h, x, times, out) for h, x, *_ in places]
     runs["walk"] = lambda times: [walking(arrays, h, x, x1, times, out) for h, x, x1, *_ in places]
