@@ -83,7 +83,8 @@ def compile_all() -> None:
     cells = {pyvista.CellType.HEXAHEDRON: np.arange(8).reshape(1, 8)}
     mesh = build_mesh(pyvista.UnstructuredGrid(cells, np.array(corners, dtype=float)))
     nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
-    flows = {"steady": MeshFlow(mesh, *nodes), "transient": SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)}
+    steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
+    flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
     medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
     for kind, flow in flows.items():
         for integrator in LOOPS:

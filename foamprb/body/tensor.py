@@ -294,6 +294,22 @@ def _norm(v: Vector) -> Scalar:
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
+def _gram(G: Tensor) -> tuple[Vector, Vector]:
+    """G Gᵀ: its components 11, 22, 33, and 12, 13, 23."""
+    return (
+        (
+            G[0] * G[0] + G[1] * G[1] + G[2] * G[2],
+            G[3] * G[3] + G[4] * G[4] + G[5] * G[5],
+            G[6] * G[6] + G[7] * G[7] + G[8] * G[8],
+        ),
+        (
+            G[0] * G[3] + G[1] * G[4] + G[2] * G[5],
+            G[0] * G[6] + G[1] * G[7] + G[2] * G[8],
+            G[3] * G[6] + G[4] * G[7] + G[5] * G[8],
+        ),
+    )
+
+
 def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     """Stretches along the rows of Q, and how far these are from principal directions of F.
 
@@ -303,13 +319,7 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
         λ_a = |Fᵀ·n_a|, to round-off times the ratio of the largest to the smallest; and the largest of
         |b_ac|/(λ_a λ_c) in the frame, squared.
     """
-    G = dot(Q, F)
-    x = G[0] * G[0] + G[1] * G[1] + G[2] * G[2]
-    y = G[3] * G[3] + G[4] * G[4] + G[5] * G[5]
-    z = G[6] * G[6] + G[7] * G[7] + G[8] * G[8]
-    xy = G[0] * G[3] + G[1] * G[4] + G[2] * G[5]
-    xz = G[0] * G[6] + G[1] * G[7] + G[2] * G[8]
-    yz = G[3] * G[6] + G[4] * G[7] + G[5] * G[8]
+    (x, y, z), (xy, xz, yz) = _gram(dot(Q, F))
     largest = np.maximum(xy * xy * z, np.maximum(xz * xz * y, yz * yz * x))
     return (np.sqrt(x), np.sqrt(y), np.sqrt(z)), largest / (x * y * z)
 
@@ -320,12 +330,7 @@ def longest_stretch(F: Tensor) -> Scalar:
     With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
-    x = F[0] * F[0] + F[1] * F[1] + F[2] * F[2]
-    y = F[3] * F[3] + F[4] * F[4] + F[5] * F[5]
-    z = F[6] * F[6] + F[7] * F[7] + F[8] * F[8]
-    xy = F[0] * F[3] + F[1] * F[4] + F[2] * F[5]
-    xz = F[0] * F[6] + F[1] * F[7] + F[2] * F[8]
-    yz = F[3] * F[6] + F[4] * F[7] + F[5] * F[8]
+    (x, y, z), (xy, xz, yz) = _gram(F)
     m = (x + y + z) / 3.0
     x, y, z = x - m, y - m, z - m
     variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
@@ -339,17 +344,7 @@ def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
     round-off where the frame has turned by up to 0.1 since. Where :func:`stretches_in_frame` says that they
     have not, the caller repeats them.
     """
-    G = dot(Q, F)
-    b = (
-        G[0] * G[0] + G[1] * G[1] + G[2] * G[2],
-        G[3] * G[3] + G[4] * G[4] + G[5] * G[5],
-        G[6] * G[6] + G[7] * G[7] + G[8] * G[8],
-    )
-    off = (
-        G[0] * G[3] + G[1] * G[4] + G[2] * G[5],
-        G[0] * G[6] + G[1] * G[7] + G[2] * G[8],
-        G[3] * G[6] + G[4] * G[7] + G[5] * G[8],
-    )
+    b, off = _gram(dot(Q, F))
     # Three sweeps, written out: a loop here would keep the compiler from vectorising the one over lanes.
     b, off, turned = _diagonalise(b, off, Q)
     b, off, turned = _diagonalise(b, off, turned)
