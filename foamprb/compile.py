@@ -89,7 +89,7 @@ def link(
         Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
         ``{"traction": roscoe}``.
     separate
-        Callees that are compiled and cached on their own, and called, so that several entries share them;
+        Callees that are compiled on their own, and called, so that several entries of a process share them;
         every other callee is inlined.
     target
         ``"cuda"`` makes a kernel of ``entry`` and device functions of its callees; it needs numba-cuda.
@@ -204,7 +204,7 @@ def _compiler(target: Target) -> str:
 
 def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
     dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
-    if role != "inlined":
+    if role == "entry":
         _folders[id(dispatcher)] = folder = cache_directory() / key
         keep(dispatcher, folder, key)
     return dispatcher

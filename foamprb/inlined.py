@@ -38,19 +38,9 @@ class _Inlined(JITCodeLibrary):  # type: ignore[misc]
 class _Called(JITCodeLibrary):  # type: ignore[misc]
     """Intermediate code that others link in and call, optimised."""
 
-    function = ""
-
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
         self._finalized = True
-
-    def _get_module_for_linking(self) -> Any:
-        module = super()._get_module_for_linking()
-        module.get_function(self.function).add_function_attribute("noinline")
-        return module
-
-    def serialize_using_object_code(self) -> tuple[str, str, bytes]:
-        return self.name, "bitcode", self._get_module_for_linking().as_bitcode()
 
 
 def _not_executable(library: Any, fndesc: Any, env: Any) -> Any:
@@ -86,7 +76,7 @@ class _LoweringOfCalled(NativeLowering):  # type: ignore[misc]
     def run_pass(self, state: Any) -> bool:
         library = _Called(state.targetctx.codegen(), state.func_id.func_qualname)
         changed = _lower(self, state, library)
-        library.function = state.cr.fndesc.mangled_name
+        library.get_function(state.cr.fndesc.mangled_name).add_function_attribute("noinline")
         return changed
 
 
@@ -116,7 +106,6 @@ def _options(compiler: type[CompilerBase]) -> dict[str, Any]:
         "_optimize_final_module",
         "_finalize_final_module",
         "_finalize_dynamic_globals",
-        "_get_module_for_linking",
     )
     as_expected = all(hasattr(JITCodeLibrary, name) for name in replaced)
     return {"pipeline_class": compiler} if as_expected else {}

@@ -97,9 +97,18 @@ def machine() -> str:
     return f"{processor}, {processors} processors, Python {platform.python_version()}, {versions}"
 
 
-def load() -> float:
-    """Processes that want to run, the mean of the last minute: above 0.5 at the start, times are in doubt."""
-    return os.getloadavg()[0]
+def load(seconds: float = 2.0) -> float:
+    """Processors that others keep busy while this process sleeps: above 0.5, times are in doubt."""
+    idle, whole = _processor_time()
+    time.sleep(seconds)
+    idle_now, whole_now = _processor_time()
+    return (os.cpu_count() or 1) * (1.0 - (idle_now - idle) / (whole_now - whole))
+
+
+def _processor_time() -> tuple[float, float]:
+    """What all processors together have spent idle, and altogether, in the kernel's ticks."""
+    ticks = [float(word) for word in _text("/proc/stat").split("\n", 1)[0].split()[1:9]]
+    return ticks[3] + ticks[4], sum(ticks)
 
 
 def available_memory() -> float:

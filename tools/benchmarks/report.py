@@ -50,6 +50,13 @@ def _ready(results: Results) -> float | None:
     return None if vtk is None else _quotient(ours, 3.0 * vtk + 10.0)
 
 
+def _written_over(yardstick: str) -> Callable[[Results], float | None]:
+    """Bytes per second of a snapshot of a million particles, over what disk or compressor do alone."""
+    return lambda results: _quotient(
+        results.get("throughput", "snapshot to file", 1e6), results.get("throughput", yardstick, 1e6)
+    )
+
+
 _KEPT = _got("memory kept per cell, kB", "", pipe.GRIDS["1M"].cells)
 _PEAK = _got("peak memory, GB", "foamprb", pipe.GRIDS["8M"].cells)
 
@@ -70,6 +77,15 @@ TARGETS = (
     Target("1e6 cells: memory kept per cell, kB", _KEPT, 1.5),
     Target("8e6 cells: peak memory, GB", _PEAK, 20),
     Target("CPU per particle-step, 1e6 cells over 5e3", _got("cost of fine over coarse", "1M over 5k"), 2),
+    Target(
+        "writing 1e6 particles: rate over zlib's own", _written_over("zlib alone, level 1"), 0.5, least=True
+    ),
+    Target(
+        "writing 1e6 particles: rate over the disk's own", _written_over("disk, with fsync"), 0.5, least=True
+    ),
+    Target(
+        "share of a run's time in which it waits for output", _got("share of the wall time", "output"), 0.1
+    ),
     Target("`foamprb -help`, s", _got("start", "-help"), 0.4),
     Target("first start, with compilation, s", _got("start", "first run"), 15),
     Target("first start says that it compiles", _got("first run says so"), 1, least=True),
@@ -117,7 +133,7 @@ def _machines(results: Results) -> str:
     for row in results.rows:
         if row.quantity == "machine":
             busy = (
-                f"; **busy** (load {row.value:.1f} at the start): times are in doubt"
+                f"; **busy** ({row.value:.1f} processors, before it began): times are in doubt"
                 if row.value > _BUSY
                 else ""
             )
