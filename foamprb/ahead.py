@@ -12,6 +12,7 @@ import logging
 import pickle
 import subprocess
 import sys
+from contextlib import suppress
 
 import numpy as np
 import pyvista
@@ -53,10 +54,11 @@ class Ahead:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        assert self._process.stdin is not None
-        with self._process.stdin as pipe:
-            pickle.dump((tracker, flow), pipe)
         atexit.register(self.stop)
+        assert self._process.stdin is not None
+        # It may have ended already, if it cannot import what it needs.
+        with suppress(BrokenPipeError), self._process.stdin as pipe:
+            pickle.dump((tracker, flow), pipe)
 
     def __bool__(self) -> bool:
         """Whether there is such a process."""

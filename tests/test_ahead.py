@@ -58,6 +58,17 @@ def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):
     assert not tracker.compiled
 
 
+def test_one_that_cannot_start_costs_nothing_but_its_help(tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.ahead.available_threads", lambda: 2)
+    monkeypatch.setattr("foamprb.ahead.sys.executable", "/bin/false")
+    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    ahead = Ahead(tracker, MeshFlow)
+    ahead.wait()
+    assert not tracker.compiled
+
+
 def test_after_compile_no_run_has_to(capsys):
     """Where other tests keep their code as well, as much of it is theirs."""
     assert main(["compile"]) == 0
