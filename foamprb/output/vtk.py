@@ -119,20 +119,25 @@ class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
         self.parts = parts
         self.layout: tuple[PieceArray, ...] = ()
         self.error: Exception | None = None
-        """What VTK, from which no exception comes back, was told as a failure."""
+        """What went wrong: no exception comes back from VTK."""
+        self._last: vtkPolyData | None = None
 
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
         outputs.GetInformationObject(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
         return 1
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
-        try:
-            snapshot = next(self.parts.snapshots)
-            self.layout = self.layout or layout(snapshot)
-            vtkPolyData.GetData(outputs).ShallowCopy(_poly_data(snapshot))
-        except Exception as error:
-            self.error = error
+        if self.error is None:
+            try:
+                snapshot = next(self.parts.snapshots)
+                self.layout = self.layout or layout(snapshot)
+                self._last = _poly_data(snapshot)
+            except Exception as error:
+                self.error = error
+        if self._last is None:
             return 0
+        # Also after an error: a writer whose source fails after the first piece would ask for ever.
+        vtkPolyData.GetData(outputs).ShallowCopy(self._last)
         return 1
 
 
