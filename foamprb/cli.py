@@ -118,8 +118,8 @@ def _run(arguments: argparse.Namespace, team: Root | None) -> int:
     threads = arguments.threads or (team.threads if team else None)
     time = "latestTime" if arguments.latestTime else arguments.time
     on_device = _on_device(arguments, team)
-    # With others to compile as well, or for a device, it is done when the loop is wanted.
-    ahead = team is None and on_device is None
+    # With others to compile as well, or for a device, it is done when the loop is wanted, if it ever is.
+    ahead = team is None and on_device is None and not arguments.dry_run
     job = prepare(arguments.case, time, arguments.dict, threads, _source(arguments), ahead)
     describe(job)
     if arguments.dry_run:

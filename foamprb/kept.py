@@ -16,7 +16,10 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLoca
 __all__ = ["keep"]
 
 # A type of an argument may have gone, or be one that cannot be imported.
-_UNREADABLE = (OSError, AttributeError, ImportError, pickle.PickleError, EOFError)
+_GONE = (OSError, AttributeError, ImportError)
+# What unpickling damaged bytes comes to.
+_DAMAGED = (pickle.PickleError, EOFError, IndexError, KeyError, ValueError)
+_UNREADABLE = (*_GONE, *_DAMAGED)
 
 
 class _Cache(FunctionCache):  # type: ignore[misc]

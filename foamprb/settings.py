@@ -24,7 +24,7 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.imex import INTEGRATORS
 from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled
+from foamprb.cloud.distribution import DISTRIBUTIONS, Distribution, Scaled, scaled
 from foamprb.cloud.injection import INJECTIONS, Injection
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
 from foamprb.cloud.shapes import SHAPES, Ellipsoid, Shape, Sphere
@@ -358,7 +358,9 @@ def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float | Distributi
 
 def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
     """``factor`` times a power of a quantity, distributed or not."""
-    return factor * quantity**power if isinstance(quantity, float) else Scaled(quantity, factor, power)
+    if isinstance(quantity, float):
+        return float(scaled(quantity, factor, power))
+    return Scaled(quantity, factor, power)
 
 
 def _functions(dictionary: Dictionary | None) -> dict[str, CloudFunction]:

@@ -155,6 +155,13 @@ def test_what_follows_from_a_distributed_quantity():
     np.testing.assert_allclose(young.quantile(shares), 3.0 * base.quantile(shares), rtol=1e-15)
 
 
+def test_what_is_beyond_all_numbers_is_infinite():
+    """Particles made of it are refused by a message, which names how many they are."""
+    mu = Scaled(Uniform(minValue=1e-320, maxValue=1.0), factor=2.0, power=-1)
+    assert mu.limits == (2.0, np.inf)
+    np.testing.assert_array_equal(mu.quantile(np.array([0.0, 1.0])), [2.0, np.inf])
+
+
 def test_a_number_is_the_same_for_all():
     random = np.random.default_rng(0)
     np.testing.assert_array_equal(draw(4.0, 3, random), [4.0, 4.0, 4.0])

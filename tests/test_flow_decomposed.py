@@ -167,6 +167,10 @@ def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch)
 
 def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    of_others = [tmp_path / "foamprb-benchmark-1", tmp_path / "foamprb-scratch-mine"]
+    for folder in of_others:
+        folder.mkdir()
+        (folder / "results.csv").write_text("of a day's work")
     script = (
         "import os, signal, sys\nfrom pathlib import Path\nfrom foamprb.flow.decomposed import Rebuilt\n"
         "whole = Rebuilt(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
@@ -188,7 +192,8 @@ def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monke
     assert other.returncode == -signal.SIGKILL
     assert left.is_dir()
     second = Rebuilt(written)
-    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder])
+    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder, *of_others])
+    assert all((folder / "results.csv").exists() for folder in of_others)
 
 
 def test_parts_alone_are_found_and_described(case, capsys):

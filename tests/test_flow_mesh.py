@@ -16,6 +16,7 @@ from test_flow_shapes import (
     pipe_patches,
     polyhedra,
 )
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh import Patch, PatchSurface, build_mesh
@@ -236,6 +237,14 @@ def test_polyhedra_with_points_beyond_the_mesh_are_refused():
     faces = [hexes[0][list(face)] for face in HEXAHEDRON_FACES]
     with pytest.raises(InputError, match="a cell names point 7, but there are 7 points"):
         build_mesh(polyhedra(points[:7], [faces]))
+
+
+def test_polyhedra_whose_faces_are_not_there_are_refused():
+    points, hexes = corners(1, 0.0)
+    shape = polyhedra(points, [[hexes[0][list(face)] for face in HEXAHEDRON_FACES]])
+    vtk_to_numpy(shape.GetPolyhedronFaceLocations().GetConnectivityArray())[-1] = 6
+    with pytest.raises(InputError, match="the faces of the polyhedra do not fit its cells"):
+        build_mesh(shape)
 
 
 @pytest.mark.parametrize(("kind", "size"), [(11, 8), (9, 4)])

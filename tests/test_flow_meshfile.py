@@ -45,6 +45,20 @@ def write_series(folder, first=1.0):
     return path
 
 
+def test_flat_cells_are_left_out_and_told(tmp_path):
+    """Triangles on a side, as some meshers leave them among the cells."""
+    shape = flowing("tetrahedra")
+    side = shape.extract_surface(algorithm=None)
+    both = shape.merge(side.cast_to_unstructured_grid())
+    both.cell_data["U"] = np.zeros((both.n_cells, 3))
+    both.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu")
+    assert flow.mesh.n_cells == shape.n_cells
+    assert any(
+        f"{side.n_cells} points, lines and surfaces among the cells are left out" in n for n in flow.notes
+    )
+
+
 def test_a_series_of_foam_to_vtk(tmp_path):
     path = write_series(tmp_path)
     assert read_mesh_file(path).patches == (

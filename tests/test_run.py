@@ -290,6 +290,20 @@ def test_a_population_is_spread_and_reproducible(case):
             np.testing.assert_array_equal(array, other)
 
 
+def test_a_stiffness_beyond_all_numbers_is_one_message(case, capsys):
+    edit(case, r"Ca\s+0\.5;(?=\s+//)", "Ca 1e-320;")
+    text = message(case, capsys, "-dry-run")
+    assert re.search(r"the shear modulus of \d+ of \d+ particles is inf, no positive number", text)
+
+
+def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
+    monkeypatch.setattr("foamprb.ahead.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles"))
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(case / "cache"))
+    monkeypatch.setattr("foamprb.compile._parts", {})
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    assert "ompiling" not in capsys.readouterr().out
+
+
 def test_a_cloud_function_that_cannot_work_stops_a_dry_run(case, capsys):
     edit(
         case, r"cloudFunctions\s*\{\}", "cloudFunctions { hits { type patchPostProcessing; patches (wal); } }"

@@ -294,22 +294,6 @@ def _norm(v: Vector) -> Scalar:
     return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
 
 
-def _gram(G: Tensor) -> tuple[Vector, Vector]:
-    """G Gᵀ: its components 11, 22, 33, and 12, 13, 23."""
-    return (
-        (
-            G[0] * G[0] + G[1] * G[1] + G[2] * G[2],
-            G[3] * G[3] + G[4] * G[4] + G[5] * G[5],
-            G[6] * G[6] + G[7] * G[7] + G[8] * G[8],
-        ),
-        (
-            G[0] * G[3] + G[1] * G[4] + G[2] * G[5],
-            G[0] * G[6] + G[1] * G[7] + G[2] * G[8],
-            G[3] * G[6] + G[4] * G[7] + G[5] * G[8],
-        ),
-    )
-
-
 def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     """Stretches along the rows of Q, and how far these are from principal directions of F.
 
@@ -319,7 +303,8 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
         λ_a = |Fᵀ·n_a|, to round-off times the ratio of the largest to the smallest; and the largest of
         |b_ac|/(λ_a λ_c) in the frame, squared.
     """
-    (x, y, z), (xy, xz, yz) = _gram(dot(Q, F))
+    G = dot(Q, F)
+    x, xy, xz, _, y, yz, _, _, z = dot(G, transpose(G))
     largest = np.maximum(xy * xy * z, np.maximum(xz * xz * y, yz * yz * x))
     return (np.sqrt(x), np.sqrt(y), np.sqrt(z)), largest / (x * y * z)
 
@@ -330,7 +315,7 @@ def longest_stretch(F: Tensor) -> Scalar:
     With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
-    (x, y, z), (xy, xz, yz) = _gram(F)
+    x, xy, xz, _, y, yz, _, _, z = dot(F, transpose(F))
     m = (x + y + z) / 3.0
     x, y, z = x - m, y - m, z - m
     variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
@@ -344,7 +329,9 @@ def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
     round-off where the frame has turned by up to 0.1 since. Where :func:`stretches_in_frame` says that they
     have not, the caller repeats them.
     """
-    b, off = _gram(dot(Q, F))
+    G = dot(Q, F)
+    x, xy, xz, _, y, yz, _, _, z = dot(G, transpose(G))
+    b, off = (x, y, z), (xy, xz, yz)
     # Three sweeps, written out: a loop here would keep the compiler from vectorising the one over lanes.
     b, off, turned = _diagonalise(b, off, Q)
     b, off, turned = _diagonalise(b, off, turned)

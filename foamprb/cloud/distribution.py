@@ -189,13 +189,19 @@ class Scaled:
     @property
     def limits(self) -> tuple[float, float]:
         """Of the result; the base is positive."""
-        low, high = (self.factor * value**self.power for value in self.base.limits)
+        low, high = (float(scaled(value, self.factor, self.power)) for value in self.base.limits)
         return min(low, high), max(low, high)
 
     def quantile(self, share: Floats) -> Floats:
         """Of the result; a power −1 turns the order around."""
         below = share if self.power > 0 else 1.0 - share
-        return np.asarray(self.factor * self.base.quantile(below) ** self.power)
+        return scaled(self.base.quantile(below), self.factor, self.power)
+
+
+def scaled(value: float | Floats, factor: float, power: int) -> Floats:
+    """``factor`` times a power of each value; infinite where that is beyond all numbers."""
+    with np.errstate(over="ignore"):
+        return np.asarray(factor * np.asarray(value, dtype=float) ** power)
 
 
 def draw(quantity: float | Distribution, n: int, random: np.random.Generator) -> Floats:

@@ -11,28 +11,30 @@ from pathlib import Path
 
 __all__ = ["scratch_folder"]
 
-_PREFIX = "foamprb-"
+_PREFIX = "foamprb-scratch-"
+_LOCK = ".lock"
+"""A file in each such folder, by which it is known and held."""
 
 
 def scratch_folder(owner: object) -> Path:
     """A new temporary folder that goes with its owner.
 
-    A process that is killed leaves its folder behind. But a folder is locked as long as its process lives:
-    those of the same kind that nobody holds any more are removed here.
+    A process that is killed leaves its folder behind. But a file in it is locked as long as the process
+    lives: folders with such a file that nobody holds any more are removed here, and no others.
     """
     _remove_left()
     while True:
         folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
-        descriptor = os.open(folder, os.O_RDONLY)
+        descriptor = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o600)
         # Before it was locked another process may have taken it for one left behind.
-        if _lock(descriptor) and folder.is_dir():
+        if _lock(descriptor) and (folder / _LOCK).exists():
             weakref.finalize(owner, _remove, folder, descriptor)
             return folder
         os.close(descriptor)
 
 
 def _lock(descriptor: int) -> bool:
-    """Lock a folder, if nobody has; where the file system has no locks, as if it were done."""
+    """Lock a file, if nobody has; where the file system has no locks, as if it were done."""
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -51,9 +53,9 @@ def _remove_left() -> None:
     """Remove the folders that no process holds."""
     for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
         try:
-            descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+            descriptor = os.open(folder / _LOCK, os.O_RDWR | os.O_NOFOLLOW)
         except OSError:
-            # Somebody else's, or gone.
+            # Somebody else's, of another kind, or gone.
             continue
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import threading
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from foamprb.errors import InputError
 __all__ = ["read_vtk", "require_survival", "times_of"]
 
 _LEAST_TIME = 20
+_MOST_FILES = 10_000
 _LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
 """Files that are read with others beside them."""
 _lock = threading.Lock()
@@ -80,7 +82,8 @@ def require_survival(path: Path, step: int | None = None) -> None:
 
 def _limit(path: Path) -> int:
     """Processor time after which reading a file is given up, s: at a megabyte a second, and never soon."""
-    files = path.parent.rglob("*") if path.suffix in _LISTS else [path]
+    # The folder may be one in which much else lies.
+    files = islice(path.parent.rglob("*"), _MOST_FILES) if path.suffix in _LISTS else [path]
     return _LEAST_TIME + sum(file.stat().st_size for file in files if file.is_file()) // 1_000_000
 
 

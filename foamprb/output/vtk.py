@@ -101,6 +101,8 @@ def write_snapshot(path: Path, cloud: Snapshot | Parts) -> tuple[PieceArray, ...
     ------
     OSError
         If the file cannot be written.
+    Exception
+        Whatever the parts raise; what was at ``path`` is as it was.
     """
     parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, Snapshot) else cloud
     source = _Source(parts)
