@@ -9,7 +9,7 @@ from foamprb.body.ellipsoid import integrals, reach
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, stored_energy
 from foamprb.cloud.advance import track_block
-from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
+from foamprb.cloud.block import ROWS, Medium, new_scratch
 from foamprb.cloud.cloud import Cloud, Models
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
@@ -164,12 +164,11 @@ class TestBookkeeping:
         compiled, plain = clouds
         compiled.advance(5)
         table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0))
-        scratch = Scratch(
-            np.empty(ROWS * LANES), np.empty(LANES), np.empty(LANES, dtype=np.int64), np.empty((9, 10))
-        )
         with np.errstate(all="ignore"):
             flow = plain.flow.arrays(0.0, ())
-            track_block(flow, table, AIR, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, scratch)
+            track_block(
+                flow, table, AIR, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, new_scratch(ROWS)
+            )
         for name in ("x", "v", "F"):
             a, b = getattr(compiled.particles, name), getattr(plain.particles, name)
             np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-14)

@@ -49,6 +49,7 @@ from foamprb.body.tensor import (
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
     AT_A,
+    AT_CLEARANCE,
     AT_DUDT,
     AT_ERROR,
     AT_ETA,
@@ -67,7 +68,10 @@ from foamprb.cloud.block import (
     AT_Q,
     AT_R,
     AT_RHO,
+    AT_SIZE,
     AT_STRETCH,
+    AT_T,
+    AT_T0,
     AT_TENSION,
     AT_U,
     AT_V,
@@ -99,13 +103,13 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
+    clearance_of,
     fail,
     is_sound,
     reach_end,
     release,
 )
 from foamprb.cloud.state import Particles
-from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
@@ -499,38 +503,36 @@ def track_adaptive(
     """
     recovered = 0
     last = step + steps
-    block, clearance, current = scratch.block, scratch.clearance, scratch.step
+    block, status, current = scratch.block, scratch.status, scratch.step
     for i in range(LANES):
         idle(block, i, dt)
         block[AT_H * LANES + i] = dt
         current[i] = step
     for i in range(len(members)):
-        k = members[i]
-        load_particle(p, k, block, i)
-        clearance[i] = math.inf
-        if p.status[k] == ACTIVE:
-            clearance[i], _, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
+        load_particle(p, members[i], scratch, i)
+        if status[i] == ACTIVE:
+            block[AT_CLEARANCE * LANES + i], _, _ = clearance_of(flow, scratch, i)
 
     while True:
         moving = 0
         for i in range(len(members)):
-            k = members[i]
             block[AT_MOVING * LANES + i] = 0.0
-            while p.status[k] == PENDING and current[i] < last:
-                if p.t0[k] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
-                    clearance[i] = release(flow, patches, p, k, block, i)
-                    p.h[k] = dt
+            while status[i] == PENDING and current[i] < last:
+                if block[AT_T0 * LANES + i] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
+                    release(flow, patches, scratch, i)
+                    block[AT_SIZE * LANES + i] = dt
                 else:
                     current[i] += 1
-            if p.status[k] != ACTIVE or current[i] >= last:
+            if status[i] != ACTIVE or current[i] >= last:
                 continue
             moving += 1
             block[AT_MOVING * LANES + i] = 1.0
-            rest = start + (current[i] + 1) * dt - p.t[k]
+            t, size = block[AT_T * LANES + i], block[AT_SIZE * LANES + i]
+            rest = start + (current[i] + 1) * dt - t
             # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
-            h = rest if p.h[k] >= rest - SHORTEST_STEP * dt else min(p.h[k], 0.5 * rest)
+            h = rest if size >= rest - SHORTEST_STEP * dt else min(size, 0.5 * rest)
             _begin(block, i, h)
-            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            u, l_f, u_t = sample(flow, scratch.host[i], load3(block, AT_X, i), t)
             store_fluid(block, i, u, l_f, u_t)
         if moving == 0:
             break
@@ -539,10 +541,9 @@ def track_adaptive(
         integrals_stage(block)
         first_slope(block, medium)
         for i in range(len(members)):
-            k = members[i]
-            if p.status[k] == ACTIVE and current[i] < last:
-                host = _predicted_host(flow, p.host[k], block, i)
-                t_new = p.t[k] + block[AT_H * LANES + i]
+            if status[i] == ACTIVE and current[i] < last:
+                host = _predicted_host(flow, scratch.host[i], block, i)
+                t_new = block[AT_T * LANES + i] + block[AT_H * LANES + i]
                 u, l_f, u_t = sample(flow, host, load3(block, AT_NEW_X, i), t_new)
                 store_fluid(block, i, u, l_f, u_t)
         new_frames(block)
@@ -551,41 +552,43 @@ def track_adaptive(
         accept_stage(block, tolerance)
 
         for i in range(len(members)):
-            k = members[i]
-            if p.status[k] != ACTIVE or current[i] >= last:
+            if status[i] != ACTIVE or current[i] >= last:
                 continue
             h = block[AT_H * LANES + i]
             t_end = start + (current[i] + 1) * dt
             error = block[AT_ERROR * LANES + i]
             size = _next_size(h, error, tolerance)
             if not error <= tolerance:
-                p.h[k] = size
+                block[AT_SIZE * LANES + i] = size
                 if size < _SMALLEST * dt:
-                    fail(p, k, NOT_CONVERGED)
+                    fail(scratch, i, NOT_CONVERGED)
                 continue
-            if not is_sound(p, k, block, i):
+            if not is_sound(scratch, i):
                 continue
-            whole = p.t[k] + h >= t_end - SHORTEST_STEP * dt
-            # A step cut short by the end of Δt says nothing against the size before it.
-            p.h[k] = min(dt, max(size, p.h[k]) if whole else size)
+            t_new = block[AT_T * LANES + i] + h
+            whole = t_new >= t_end - SHORTEST_STEP * dt
+            if whole:
+                t_new = t_end
+                # A step cut short by the end of Δt says nothing against the size before it.
+                size = max(size, block[AT_SIZE * LANES + i])
+            block[AT_SIZE * LANES + i] = min(dt, size)
             goal = load3(block, AT_NEW_X, i)
-            t_new = t_end if whole else p.t[k] + h
-            recovered += reach_end(flow, patches, p, k, block, i, goal, t_new, h, clearance)
+            recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
                 current[i] += 1
     for i in range(len(members)):
-        k = members[i]
         block[AT_MOVING * LANES + i] = 0.0
-        if p.status[k] == ACTIVE:
+        if status[i] == ACTIVE:
             block[AT_MOVING * LANES + i] = 1.0
             store9(block, AT_NEW_F, i, load9(block, AT_F, i))
-            u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), p.t[k])
+            x, t = load3(block, AT_X, i), block[AT_T * LANES + i]
+            u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
     new_frames(block)
     integrals_stage(block)
     end_slope(block, medium)
     for i in range(len(members)):
-        save_particle(p, members[i], block, i)
+        save_particle(p, members[i], scratch, i)
     return recovered
 
 

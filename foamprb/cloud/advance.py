@@ -27,6 +27,7 @@ from foamprb.body.tensor import Tensor, add, det, dot, inverse, scale, to_frame,
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
     AT_A,
+    AT_CLEARANCE,
     AT_DT,
     AT_DUDT,
     AT_ERROR,
@@ -47,6 +48,7 @@ from foamprb.cloud.block import (
     AT_RHO,
     AT_STRESS,
     AT_STRETCH,
+    AT_T0,
     AT_U,
     AT_V,
     AT_X,
@@ -71,9 +73,17 @@ from foamprb.cloud.block import (
     straighten_lane,
     stretch_stage,
 )
-from foamprb.cloud.motion import ACTIVE, PENDING, SHORTEST_STEP, PatchTable, is_sound, reach_end, release
+from foamprb.cloud.motion import (
+    ACTIVE,
+    PENDING,
+    SHORTEST_STEP,
+    PatchTable,
+    clearance_of,
+    is_sound,
+    reach_end,
+    release,
+)
 from foamprb.cloud.state import Particles
-from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
@@ -228,15 +238,13 @@ def track_block(
     The number of walks that failed and were mended by the tree.
     """
     recovered = 0
-    block, clearance = scratch.block, scratch.clearance
+    block, status = scratch.block, scratch.status
     for i in range(LANES):
         idle(block, i, dt)
     for i in range(len(members)):
-        k = members[i]
-        load_particle(p, k, block, i)
-        clearance[i] = math.inf
-        if p.status[k] == ACTIVE:
-            clearance[i], _, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
+        load_particle(p, members[i], scratch, i)
+        if status[i] == ACTIVE:
+            block[AT_CLEARANCE * LANES + i], _, _ = clearance_of(flow, scratch, i)
     resume_frames(block)
     integrals_stage(block)
 
@@ -244,18 +252,18 @@ def track_block(
         t_end = start + (n + 1) * dt
         moving = 0
         for i in range(len(members)):
-            k = members[i]
             block[AT_MOVING * LANES + i] = 0.0
+            t0 = block[AT_T0 * LANES + i]
             # A first step of no length would divide round-off by nothing in Aⁿ⁺¹.
-            if p.status[k] == PENDING and p.t0[k] < t_end - SHORTEST_STEP * dt:
-                clearance[i] = release(flow, patches, p, k, block, i)
-            if p.status[k] == ACTIVE:
+            if status[i] == PENDING and t0 < t_end - SHORTEST_STEP * dt:
+                release(flow, patches, scratch, i)
+            if status[i] == ACTIVE:
                 moving += 1
                 block[AT_MOVING * LANES + i] = 1.0
-                block[AT_DT * LANES + i] = t_end - max(start + n * dt, p.t0[k])
-                u, l_f, u_t = sample(flow, p.host[k], load3(block, AT_X, i), t_end)
+                block[AT_DT * LANES + i] = t_end - max(start + n * dt, t0)
+                u, l_f, u_t = sample(flow, scratch.host[i], load3(block, AT_X, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
-            elif p.status[k] == PENDING:
+            elif status[i] == PENDING:
                 moving += 1
         if moving == 0:
             break
@@ -264,7 +272,7 @@ def track_block(
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):
-            if p.status[members[i]] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
+            if status[i] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
                 dense_newton(block, i, scratch.matrix)
         new_frames(block)
         integrals_stage(block)
@@ -272,15 +280,14 @@ def track_block(
         accept_stage(block, RELATIVE_TOLERANCE)
 
         for i in range(len(members)):
-            k = members[i]
-            if p.status[k] != ACTIVE or not is_sound(p, k, block, i):
+            if status[i] != ACTIVE or not is_sound(scratch, i):
                 continue
             h = block[AT_DT * LANES + i]
             x, v = load3(block, AT_X, i), load3(block, AT_V, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
-            recovered += reach_end(flow, patches, p, k, block, i, goal, t_end, h, clearance)
+            recovered += reach_end(flow, patches, scratch, i, goal, t_end, h)
     for i in range(len(members)):
-        save_particle(p, members[i], block, i)
+        save_particle(p, members[i], scratch, i)
     return recovered
 
 

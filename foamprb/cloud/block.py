@@ -36,7 +36,8 @@ AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102,
 AT_NEW_X, AT_K = 104, 107
 AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
 AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT, AT_RENEWED = 122, 131, 132, 133, 134
-ROWS = 135
+AT_T, AT_T0, AT_SIZE, AT_F0, AT_CLEARANCE = 135, 136, 137, 138, 147
+ROWS = 148
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -60,16 +61,29 @@ class Medium(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Working memory of a loop."""
+    """Working memory of a loop: while a block is in it, the cloud's arrays are left alone.
+
+    Neighbours in memory may be in the blocks of other threads, and a line of memory that two processors write
+    to goes to and fro between them.
+    """
 
     block: Any
     """Rows × LANES numbers, flat."""
-    clearance: Any
-    """LANES numbers: the clearance of each particle at the end of its last step, m."""
+    status: Any
+    """LANES whole numbers, as those that follow: what each particle is doing."""
+    reason: Any
+    patch: Any
+    host: Any
     step: Any
-    """LANES whole numbers: the step at which each particle is."""
+    """The step at which each particle is."""
     matrix: Any
     """9 × 10 numbers: one particle's equations."""
+
+
+def new_scratch(rows: int) -> Scratch:
+    """Working memory for a block of that many rows."""
+    a, b, c, d, e = np.empty((5, LANES), dtype=np.int64)
+    return Scratch(np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)))
 
 
 def load3(block: Any, row: int, i: int) -> Vector:
@@ -233,8 +247,13 @@ def integrals_stage(block: Any) -> None:
         block[(AT_INTEGRALS + 9) * LANES + i] = g.chi
 
 
-def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
+def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
+    block = s.block
+    s.status[i], s.reason[i], s.patch[i], s.host[i] = p.status[k], p.reason[k], p.patch[k], p.host[k]
+    block[AT_T * LANES + i] = p.t[k]
+    block[AT_T0 * LANES + i] = p.t0[k]
+    block[AT_SIZE * LANES + i] = p.h[k]
     for c in range(3):
         block[(AT_X + c) * LANES + i] = p.x[k, c]
         block[(AT_V + c) * LANES + i] = p.v[k, c]
@@ -255,11 +274,17 @@ def load_particle(p: Particles, k: int, block: Any, i: int) -> None:
         p.F0[k, 3], p.F0[k, 4], p.F0[k, 5],
         p.F0[k, 6], p.F0[k, 7], p.F0[k, 8],
     )  # fmt: skip
+    store9(block, AT_F0, i, F0)
     store9(block, AT_M, i, metric_at_rest(F0))
+    block[AT_CLEARANCE * LANES + i] = np.inf
 
 
-def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
+def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy the state in lane i back to particle k of the cloud."""
+    block = s.block
+    p.status[k], p.reason[k], p.patch[k], p.host[k] = s.status[i], s.reason[i], s.patch[i], s.host[i]
+    p.t[k] = block[AT_T * LANES + i]
+    p.h[k] = block[AT_SIZE * LANES + i]
     for c in range(3):
         p.x[k, c] = block[(AT_X + c) * LANES + i]
         p.v[k, c] = block[(AT_V + c) * LANES + i]
@@ -267,6 +292,7 @@ def save_particle(p: Particles, k: int, block: Any, i: int) -> None:
         p.F[k, c] = block[(AT_F + c) * LANES + i]
         p.A[k, c] = block[(AT_A + c) * LANES + i]
         p.Q[k, c] = block[(AT_FRAME + c) * LANES + i]
+        p.F0[k, c] = block[(AT_F0 + c) * LANES + i]
 
 
 def idle(block: Any, i: int, dt: float) -> None:

@@ -28,7 +28,7 @@ from foamprb.cloud.adaptive import (
     track_adaptive,
 )
 from foamprb.cloud.advance import STAGES, track_block, track_share
-from foamprb.cloud.block import LANES, ROWS, Medium, Scratch
+from foamprb.cloud.block import LANES, ROWS, Medium, new_scratch
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import RARE, PatchTable, longest_of
 from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
@@ -167,25 +167,24 @@ class Tracker:
         rows = rows[np.argsort(place, kind="stable")]
 
         def work(first: int) -> int:
-            scratch = Scratch(
-                np.empty(self.loop.rows * LANES),
-                np.empty(LANES),
-                np.empty(LANES, dtype=np.int64),
-                np.empty((9, 10)),
-            )
+            scratch = new_scratch(self.loop.rows)
             mended: int = self._track(
-                flow, self.table, self.medium, p, rows, first, threads,
+                flow, self.table, self.medium, p, rows, first, shares,
                 step, steps, self.dt, self.start, scratch, self.options,
             )  # fmt: skip
             return mended
 
-        threads = max(1, min(threads, -(-len(rows) // LANES)))
-        if threads == 1:
+        blocks = -(-len(rows) // LANES)
+        # A thread that is held up leaves the shares that it has not begun to others.
+        shares = max(1, min(_SHARES * threads if threads > 1 else 1, blocks))
+        if shares == 1:
             return work(0)
         with ThreadPoolExecutor(threads) as pool:
-            return sum(pool.map(work, range(threads)))
+            return sum(pool.map(work, range(shares)))
 
 
+_SHARES = 8
+"""Of the particles, for each of several threads."""
 AT_ONCE = 10_000_000
 """Steps of a particle that threads take in a second or so."""
 

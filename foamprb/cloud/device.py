@@ -69,7 +69,10 @@ def track_each(
     if i < rows.shape[0]:
         scratch = Scratch(
             cuda.local.array(ROWS, np.float64),
-            cuda.local.array(1, np.float64),
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),
             cuda.local.array((9, 10), np.float64),
         )

@@ -16,16 +16,21 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
     AT_A,
+    AT_CLEARANCE,
     AT_F,
+    AT_F0,
     AT_FRAME,
     AT_M,
     AT_R,
     AT_RENEWED,
+    AT_T,
+    AT_T0,
     AT_V,
     AT_VERDICT,
     AT_X,
     LANES,
     LOST,
+    Scratch,
     load3,
     load9,
     store3,
@@ -58,36 +63,32 @@ class PatchTable(NamedTuple):
     mu: NDArray[np.float64]
 
 
-def fail(p: Particles, k: int, reason: int) -> None:
-    """End particle k with a reason."""
-    p.status[k] = FAILED
-    p.reason[k] = reason
+def fail(s: Scratch, i: int, reason: int) -> None:
+    """End the particle in lane i with a reason."""
+    s.status[i] = FAILED
+    s.reason[i] = reason
 
 
 def reach_end(
     flow: Any,
     patches: PatchTable,
-    p: Particles,
-    k: int,
-    block: Any,
+    s: Scratch,
     i: int,
     goal: Vector,
     t_end: float,
     h: float,
-    clearance: Any,
 ) -> int:
-    """Move particle k in lane i to its goal, which it would reach at t_end after a step h, and touch walls.
+    """Move the particle in lane i to its goal, which it would reach at t_end after a step h, and touch walls.
 
     Returns
     -------
     The number of walks that the tree had to mend.
     """
-    end, start, spent, mended = move_centre(flow, patches, p, k, block, i, goal, h)
-    store3(block, AT_X, i, end)
-    if p.status[k] == ACTIVE or p.status[k] == STUCK:
-        clearance[i], f = touch(flow, patches, p, k, block, i, clearance[i], start)
-        spent *= f
-    p.t[k] = t_end if p.status[k] == ACTIVE else t_end - h + spent
+    end, start, spent, mended = move_centre(flow, patches, s, i, goal, h)
+    store3(s.block, AT_X, i, end)
+    if s.status[i] == ACTIVE or s.status[i] == STUCK:
+        spent *= touch(flow, patches, s, i, start)
+    s.block[AT_T * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
     return mended
 
 
@@ -96,24 +97,32 @@ def between(a: Vector, b: Vector, f: float) -> Vector:
     return a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2])
 
 
-def settle(p: Particles, k: int, patch: int, code: int) -> None:
-    """End particle k on a patch, stuck or escaped."""
-    p.status[k] = STUCK if code == STICK else ESCAPED
-    p.patch[k] = patch
+def settle(s: Scratch, i: int, patch: int, code: int) -> None:
+    """End the particle in lane i on a patch, stuck or escaped."""
+    s.status[i] = STUCK if code == STICK else ESCAPED
+    s.patch[i] = patch
+
+
+def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
+    """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle."""
+    block = s.block
+    R = block[AT_R * LANES + i]
+    return gap(flow, s.host[i], load3(block, AT_X, i), load9(block, AT_F, i), R)
 
 
 def beyond(
-    flow: Any, p: Particles, k: int, block: Any, i: int, code: int, triangle: int, x0: Vector, x1: Vector
+    flow: Any, s: Scratch, i: int, code: int, triangle: int, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
-    """Take particle k, which meets a mirror or a coupled patch at x0 on its way to x1, to the other side.
+    """Take the particle in lane i to the other side of a mirror or a coupled patch.
 
-    Everything of it that has a direction is mirrored or turned.
+    It meets the patch at x0 on its way to x1. Everything of it that has a direction is mirrored or turned.
 
     Returns
     -------
     x0, x1, turn, shift
         Both points as seen from the other side; what was done to them, x → turn·x + shift.
     """
+    block = s.block
     F, A, Q = load9(block, AT_F, i), load9(block, AT_A, i), load9(block, AT_FRAME, i)
     v = load3(block, AT_V, i)
     if code == MIRROR:
@@ -127,15 +136,11 @@ def beyond(
         # The state at rest is mirrored too, and one axis turned round: J and det Q stay positive.
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
         store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
-        f = p.F0
-        F0 = (f[k, 0], f[k, 1], f[k, 2], f[k, 3], f[k, 4], f[k, 5], f[k, 6], f[k, 7], f[k, 8])
-        F0 = dot(turn, dot(F0, turn))
-        for c in range(9):
-            f[k, c] = F0[c]
+        store9(block, AT_F0, i, dot(turn, dot(load9(block, AT_F0, i), turn)))
         Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
     else:
         host, y0, turn = cross(flow, triangle, x0)
-        p.host[k] = host
+        s.host[i] = host
         Q = dot(Q, transpose(turn))
     store9(block, AT_F, i, dot(turn, F))
     store9(block, AT_A, i, dot(turn, A))
@@ -170,7 +175,7 @@ def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
 
 
 def move_centre(
-    flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int, goal: Vector, dt: float
+    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, dt: float
 ) -> tuple[Vector, Vector, float, int]:
     """Carry the centre to its goal in Δt, through the mesh and off, onto or across the patches that it meets.
 
@@ -182,42 +187,43 @@ def move_centre(
     The position where it ended, its start as seen from there, the time that it took, and the number of walks
     that the tree had to mend.
     """
+    block = s.block
     recovered, bounces = 0, 0
     spent = 0.0
     x0, x1 = load3(block, AT_X, i), goal
     start = x0
     for _ in range(_MAX_PATCHES):
         rest = dt - spent
-        host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
+        host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
         if patch == -2:
             recovered += 1
             host, done = last_inside(flow, x0, x1)
             if host < 0:
-                fail(p, k, LOST)
+                fail(s, i, LOST)
                 return x1, start, dt, recovered
-            p.host[k] = host
+            s.host[i] = host
             if done >= 1.0:
                 return x1, start, dt, recovered
             x0 = between(x0, x1, done)
             spent += done * rest
             rest = dt - spent
-            host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
+            host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
             if patch == -2:
                 return x0, start, dt, recovered
-        p.host[k] = host
+        s.host[i] = host
         if patch == -1:
             return x1, start, dt, recovered
         x0 = between(x0, x1, fraction)
         spent += fraction * rest
         code = patches.code[patch]
         if code in (STICK, ESCAPE):
-            settle(p, k, patch, code)
+            settle(s, i, patch, code)
             return x0, start, spent, recovered
         bounces += code != CYCLIC
         if bounces > _MAX_BOUNCES:
             break
         if code in (MIRROR, CYCLIC):
-            x0, x1, turn, shift = beyond(flow, p, k, block, i, code, triangle, x0, x1)
+            x0, x1, turn, shift = beyond(flow, s, i, code, triangle, x0, x1)
             start = moved(turn, shift, start)
             continue
         n = normal(flow, triangle, x0)
@@ -229,7 +235,7 @@ def move_centre(
 
 
 def move_back(
-    flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int, x0: Vector, x1: Vector
+    flow: Any, patches: PatchTable, s: Scratch, i: int, x0: Vector, x1: Vector
 ) -> tuple[Vector, bool]:
     """Take the centre from x0 back to x1, through mirrors and coupled patches.
 
@@ -237,40 +243,39 @@ def move_back(
     the centre went there.
     """
     for _ in range(_MAX_BOUNCES):
-        host, fraction, patch, triangle = walk(flow, p.host[k], x0, x1)
+        host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
         if patch == -2:
             return x0, False
-        p.host[k] = host
+        s.host[i] = host
         if patch < 0:
             return x1, True
         code = patches.code[patch]
         if code not in (MIRROR, CYCLIC):
             return x1, True
-        x0, x1, _, _ = beyond(flow, p, k, block, i, code, triangle, between(x0, x1, fraction), x1)
+        x0, x1, _, _ = beyond(flow, s, i, code, triangle, between(x0, x1, fraction), x1)
     return x0, True
 
 
-def touch(
-    flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int, before: float, start: Vector
-) -> tuple[float, float]:
+def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> float:
     """Let the ellipsoid touch the walls near it, after its centre went from ``start`` to its new place.
 
-    Returns the clearance that is left, and the fraction of the way at which a particle stopped.
+    Returns the fraction of the way at which a particle stopped.
     """
-    x = load3(block, AT_X, i)
-    F = load9(block, AT_F, i)
-    R = block[AT_R * LANES + i]
-    after, patch, triangle = gap(flow, p.host[k], x, F, R)
+    block = s.block
+    before = block[AT_CLEARANCE * LANES + i]
+    after, patch, triangle = clearance_of(flow, s, i)
+    block[AT_CLEARANCE * LANES + i] = after
     if after > 0.0:
-        return after, 1.0
+        return 1.0
+    x = load3(block, AT_X, i)
     f = 0.0
     if before > 0.0:
         f = before / (before - after) if before < math.inf else 1.0
     if patches.code[patch] == STICK:
-        contact, _ = move_back(flow, patches, p, k, block, i, x, between(start, x, f))
+        contact, _ = move_back(flow, patches, s, i, x, between(start, x, f))
         store3(block, AT_X, i, contact)
-        settle(p, k, patch, STICK)
-        return 0.0, f
+        settle(s, i, patch, STICK)
+        return f
     n = normal(flow, triangle, x)
     v = load3(block, AT_V, i)
     store3(block, AT_V, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
@@ -279,32 +284,33 @@ def touch(
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
     back = -(1.0 - f) * min(beyond, 0.0)
     place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
-    place, went = move_back(flow, patches, p, k, block, i, x, place)
+    place, went = move_back(flow, patches, s, i, x, place)
     if went:
         store3(block, AT_X, i, place)
-        after, _, _ = gap(flow, p.host[k], place, load9(block, AT_F, i), R)
-    return after, 1.0
+        block[AT_CLEARANCE * LANES + i], _, _ = clearance_of(flow, s, i)
+    return 1.0
 
 
-def release(flow: Any, patches: PatchTable, p: Particles, k: int, block: Any, i: int) -> float:
+def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
     """Make a pending particle active, or stuck if it appears in touch with a sticky wall."""
-    p.status[k] = ACTIVE
-    p.t[k] = p.t0[k]
+    block = s.block
+    s.status[i] = ACTIVE
+    t = block[AT_T * LANES + i] = block[AT_T0 * LANES + i]
     block[AT_RENEWED * LANES + i] = 1.0
     if math.isnan(block[AT_V * LANES + i]):
-        u, _, _ = sample(flow, p.host[k], load3(block, AT_X, i), p.t0[k])
+        u, _, _ = sample(flow, s.host[i], load3(block, AT_X, i), t)
         store3(block, AT_V, i, u)
-    clearance, patch, _ = gap(flow, p.host[k], load3(block, AT_X, i), load9(block, AT_F, i), p.R[k])
+    clearance, patch, _ = clearance_of(flow, s, i)
+    block[AT_CLEARANCE * LANES + i] = clearance
     if clearance <= 0.0 and patches.code[patch] == STICK:
-        settle(p, k, patch, STICK)
-    return clearance
+        settle(s, i, patch, STICK)
 
 
-def is_sound(p: Particles, k: int, block: Any, i: int) -> bool:
-    """Whether the new shape of particle k was taken over; if not, the particle fails."""
-    verdict = int(block[AT_VERDICT * LANES + i])
+def is_sound(s: Scratch, i: int) -> bool:
+    """Whether the new shape of the particle in lane i was taken over; if not, the particle fails."""
+    verdict = int(s.block[AT_VERDICT * LANES + i])
     if verdict:
-        fail(p, k, verdict)
+        fail(s, i, verdict)
     return verdict == 0
 
 

@@ -96,12 +96,14 @@ def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
 
 def filled(cloud: Any, members: Any) -> Any:
     """A block with the state of the particles, the flow around them and their frame."""
-    data = np.zeros(adaptive.ADAPTIVE_ROWS * LANES)
+    scratch = block.new_scratch(adaptive.ADAPTIVE_ROWS)
+    data = scratch.block
+    data[:] = 0.0
     p = cloud.particles
     u, l = cloud.flow.sample(p.x[members], p.host[members], cloud.time)
     for i, k in enumerate(members):
         block.idle(data, i, cloud.dt)
-        block.load_particle(p, k, data, i)
+        block.load_particle(p, k, scratch, i)
         block.store3(data, block.AT_U, i, tuple(u[i]))
         block.store9(data, block.AT_L, i, tuple(l[i].ravel()))
         data[adaptive.AT_H * LANES + i] = cloud.dt
