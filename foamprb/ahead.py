@@ -1,36 +1,28 @@
 """Compilation before the code is wanted.
 
 Where the particle loop has never been compiled and there is a processor to spare, another process compiles it
-while the first reads the flow, which takes about as long. What it makes is found where compiled code is kept;
-if it fails, or made what is not wanted, the first process compiles.
+while the first compiles some of its stages and reads the flow. Each finds what the other has made where
+compiled code is kept; if the other process fails, or made what is not wanted, the first compiles.
 """
 
 from __future__ import annotations
 
 import atexit
-import logging
 import pickle
 import subprocess
 import sys
 from contextlib import suppress
+from typing import TYPE_CHECKING
 
-import numpy as np
-import pyvista
+from foamprb.cloud.cloud import Tracker, available_threads
+from foamprb.cloud.state import empty
 
-from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import LOOPS, Cloud, Models, Tracker, available_threads
-from foamprb.cloud.measures import context, measure
-from foamprb.cloud.patches import Stick
-from foamprb.cloud.state import empty, spheres
-from foamprb.compile import cache_directory
-from foamprb.flow.mesh import build_mesh
-from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walk import MeshFlow
+if TYPE_CHECKING:
+    # The process that compiles should soon begin to.
+    from foamprb.flow.series import SeriesFlow
+    from foamprb.flow.walk import MeshFlow
 
-__all__ = ["Ahead", "compile_all"]
-
-log = logging.getLogger("foamprb")
+__all__ = ["Ahead"]
 
 
 class Ahead:
@@ -76,32 +68,10 @@ class Ahead:
             self._process.wait()
 
 
-def compile_all() -> None:
-    """Compile what runs need that select nothing of their own: reading of meshes, all loops, the output.
-
-    Steady and transient flows have loops of their own, and so has each integrator.
-    """
-    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-    cells = {pyvista.CellType.HEXAHEDRON: np.arange(8).reshape(1, 8)}
-    mesh = build_mesh(pyvista.UnstructuredGrid(cells, np.array(corners, dtype=float)))
-    nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
-    steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
-    flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
-    medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
-    for kind, flow in flows.items():
-        for integrator in LOOPS:
-            log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
-            particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
-            models = Models(integrator=integrator)
-            cloud = Cloud(particle, flow, medium, [Stick()] * len(mesh.patches), 1e-3, models, threads=1)
-            cloud.advance(1)
-        measure(context(cloud.particles, flow, medium.mu, cloud.time))
-    log.info("The code is kept in %s", cache_directory())
-
-
 def main() -> None:
     """Compile what stands on the standard input."""
     tracker, flow = pickle.load(sys.stdin.buffer)
+    tracker.compile_moves(flow.nothing())
     # With no particles nothing is done but to compile.
     tracker.advance(flow.nothing(), empty(0), 0, 0, 1)
 

@@ -227,7 +227,7 @@ def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
 
 
 def _compile(_: argparse.Namespace, __: Root | None) -> int:
-    from foamprb.ahead import compile_all
+    from foamprb.everything import compile_all
 
     compile_all()
     return 0

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import gc
 import hashlib
+import inspect
 import os
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
@@ -26,10 +27,10 @@ from numba.core.event import Event, Listener, register
 
 from foamprb import inlined
 from foamprb.body.tensor import select
-from foamprb.inlined import CALLED, INLINED
+from foamprb.inlined import CALLED, ENTRY, INLINED, Kept, KeptToCall
 from foamprb.kept import keep
 
-__all__ = ["Target", "cache_directory", "is_compiled", "link"]
+__all__ = ["Target", "cache_directory", "compile_part", "is_compiled", "link"]
 
 Target: TypeAlias = Literal["cpu", "cuda"]
 
@@ -96,10 +97,32 @@ def link(
 
     Returns
     -------
-    A numba dispatcher. Equal code with equal bindings is compiled once per process and kept on disk in
-    :func:`cache_directory`, under a key made of the code of every function that was linked.
+    A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
+    separate callees are kept on disk in :func:`cache_directory`, under keys made of the code of every
+    function that was linked.
     """
     return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
+
+
+def compile_part(
+    function: Callable[..., Any],
+    arguments: Mapping[str, Any],
+    bindings: Mapping[str, Any],
+    separate: Collection[Callable[..., Any]],
+) -> None:
+    """Compile a callee of an entry before that is compiled, here or by another process.
+
+    Parameters
+    ----------
+    arguments
+        An example of each argument, by the names of the parameters; there may be others.
+    bindings, separate
+        As the entry will have them. Only separate callees are kept on disk, for others to find.
+    """
+    role: _Role = "separate" if function in separate else "inlined"
+    part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
+    names = inspect.signature(function).parameters
+    part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
 
 
 def is_compiled(dispatcher: Any) -> bool:
@@ -128,7 +151,7 @@ _Role: TypeAlias = Literal["entry", "separate", "inlined"]
 # Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
 _UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _ROLES: dict[_Role, dict[str, Any]] = {
-    "entry": {"forceinline": False, "no_cfunc_wrapper": True},
+    "entry": {"forceinline": False, "no_cfunc_wrapper": True, **ENTRY},
     "separate": {"forceinline": False, **_UNWRAPPED, **CALLED},
     "inlined": {"forceinline": True, **_UNWRAPPED, **INLINED},
 }
@@ -170,7 +193,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
     key = digest.hexdigest()[:24]
     if key not in _parts:
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
-        clone.__qualname__ = function.__qualname__
+        # Code is linked by name, and other processes may have put other models behind a name.
+        clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
         compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
         _parts[key] = _Part(compile_part(clone, role, key), key)
@@ -204,9 +228,9 @@ def _compiler(target: Target) -> str:
 
 def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
     dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
-    if role == "entry":
+    if role != "inlined":
         _folders[id(dispatcher)] = folder = cache_directory() / key
-        keep(dispatcher, folder, key)
+        keep(dispatcher, folder, key, Kept if role == "entry" else KeptToCall)
     return dispatcher
 
 

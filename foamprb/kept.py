@@ -35,7 +35,7 @@ class _Cache(FunctionCache):  # type: ignore[misc]
             super().save_overload(sig, data)
 
 
-def keep(dispatcher: Any, folder: Path, key: str) -> None:
+def keep(dispatcher: Any, folder: Path, key: str, kind: type[CompileResultCacheImpl]) -> None:
     """Let a dispatcher keep its code in a folder of its own; ``key`` changes with the code.
 
     A folder that cannot be made costs the compilation anew in each run, nothing else.
@@ -55,7 +55,7 @@ def keep(dispatcher: Any, folder: Path, key: str) -> None:
         def get_disambiguator(self) -> str:
             return ""
 
-    class Impl(CompileResultCacheImpl):  # type: ignore[misc]
+    class Impl(kind):  # type: ignore[misc]
         _locator_classes = (Locator,)
 
     class Cache(_Cache):

@@ -148,9 +148,11 @@ def _compile_ahead(settings: Settings) -> Ahead:
     tense = any(injection.solid.surface_tension != 0.0 for injection in settings.injections)
     flow = SeriesFlow if settings.solution.transient else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
-    ahead = Ahead(Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow)
+    tracker = Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense)
+    ahead = Ahead(tracker, flow)
     if ahead:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+        tracker.compile_stages()
     return ahead
 
 
@@ -394,6 +396,7 @@ def _execute(
     _compile_measures(cloud)
     team.take(cloud)
     if job.ahead:
+        cloud.make_ready()
         job.ahead.wait()
     if not cloud.compiled:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())

@@ -45,6 +45,13 @@ def test_what_was_compiled_ahead_is_what_is_wanted(make, tmp_path, monkeypatch):
     stats = cloud.tracker._track.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
     assert p.x[0, 0] > 0.5
+    # The stages as the first process would compile them are those that the loop is made of.
+    monkeypatch.setattr(compiling, "_parts", {})
+    early.compile_stages()
+    found = [p.dispatcher for p in compiling._parts.values() if p.dispatcher.signatures]
+    slopes = {early.bindings[name].__code__ for name in ("first_slope", "second_slope", "end_slope")}
+    assert {d.py_func.__code__ for d in found} >= slopes
+    assert all(sum(d.stats.cache_hits.values()) == 1 for d in found)
 
 
 def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):

@@ -14,7 +14,7 @@ from numba import TypingError
 import foamprb
 from foamprb import compile as compiling
 from foamprb.body.tensor import det, longest_stretch, principal_frame
-from foamprb.compile import is_compiled, link
+from foamprb.compile import compile_part, is_compiled, link
 
 FIRST, SECOND = 2, 3
 
@@ -24,6 +24,29 @@ from foamprb.body.tensor import det
 from foamprb.compile import is_compiled, link
 f = link(det)
 print(is_compiled(f), f((1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)), is_compiled(f))
+"""
+
+
+MODELS = """
+import sys
+import foamprb.flow
+from foamprb.compile import link
+
+def doubled(x):
+    return x + x
+
+def halved(x):
+    return 0.5 * x
+
+def twice(x):
+    return model(model(x))
+
+def entry(x):
+    return twice(x)
+
+model = doubled
+for name in sys.argv[1:]:
+    print(link(entry, {"model": globals()[name]}, separate=(twice,))(1.0))
 """
 
 
@@ -41,6 +64,14 @@ def doubled(x):
 
 def quadrupled(x):
     return doubled(doubled(x))
+
+
+def octupled(x):
+    return doubled(quadrupled(x))
+
+
+def ratio(x, y):
+    return x + y if x * y > 7 else x / y - y
 
 
 @pytest.fixture
@@ -108,6 +139,44 @@ def test_garbage_is_collected_again_after_a_compilation(kept):
     with pytest.raises(TypingError):
         link(unknown)(2.0)
     assert gc.isenabled()
+
+
+def test_called_functions_are_found_by_other_processes(kept, monkeypatch):
+    compile_part(doubled, {"x": 1.25}, {}, (doubled,))
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(octupled, separate=(doubled,))(1.25) == 10.0
+    (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__code__ is doubled.__code__]
+    assert sum(part.dispatcher.stats.cache_hits.values()) == 1
+    for index in kept.rglob("*doubled*.nbi"):
+        index.write_bytes(index.read_bytes()[:-20])
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(quadrupled, separate=(doubled,))(1.25) == 5.0
+
+
+def test_functions_of_one_name_are_told_apart(tmp_path):
+    """Numba numbers functions as they come, so that one of another process may have the same number."""
+    (tmp_path / "models.py").write_text(MODELS)
+    # What else is in the name depends on the order of a set.
+    environment = {**os.environ, "FOAMPRB_CACHE_DIR": str(tmp_path / "cache"), "PYTHONHASHSEED": "0"}
+    for bindings in (["doubled"], ["halved", "doubled"]):
+        done = subprocess.run(
+            [sys.executable, "models.py", *bindings],
+            env=environment,
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+        )
+        assert done.returncode == 0, done.stderr
+        factors = {"doubled": "4.0", "halved": "0.25"}
+        assert done.stdout.split() == [factors[name] for name in bindings]
+
+
+def test_results_of_operators_have_the_types_of_their_operands(kept):
+    f = link(ratio)
+    for x in (3, 3.25, np.float32(3.5), np.int8(3), True):
+        for y in (2, 2.75, np.float32(2.5), np.int8(2)):
+            assert f(x, y) == ratio(x, y)
+            assert type(f(x, y)) is type(np.asarray(ratio(x, y)).item())
 
 
 def test_separate_functions_stay_functions(kept):

@@ -598,11 +598,5 @@ ADAPTIVE_STAGES = (
     straighten_lane,
     integrals_stage,
     accept_stage,
-    first_inertial,
-    second_inertial,
-    first_inertialess,
-    second_inertialess,
-    end_inertial,
-    end_inertialess,
 )
-"""Parts of the loop that do not depend on the flow, compiled once for all flows."""
+"""Parts of the loop that do not depend on the flow, compiled once for all flows; an integrator has more."""

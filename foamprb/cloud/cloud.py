@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple, Protocol
@@ -30,10 +30,10 @@ from foamprb.cloud.adaptive import (
 from foamprb.cloud.advance import STAGES, track_block, track_share
 from foamprb.cloud.block import LANES, ROWS, Medium, new_scratch
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.motion import RARE, PatchTable, longest_of
+from foamprb.cloud.motion import RARE, PatchTable, longest_of, reach_end, release
 from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import is_compiled, link
+from foamprb.compile import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
@@ -62,17 +62,17 @@ class Loop(NamedTuple):
     bindings: dict[str, Callable[..., Any]]
 
 
-_SECOND_ORDER = (track_adaptive, ADAPTIVE_STAGES, ADAPTIVE_ROWS, True)
+def _second_order(**slopes: Callable[..., Any]) -> Loop:
+    return Loop(track_adaptive, (*ADAPTIVE_STAGES, *slopes.values()), ADAPTIVE_ROWS, True, slopes)
+
 
 LOOPS: dict[str, Loop] = {
     "paper": Loop(track_block, STAGES, ROWS, False, {}),
-    "rosenbrock": Loop(
-        *_SECOND_ORDER,
-        {"first_slope": first_inertial, "second_slope": second_inertial, "end_slope": end_inertial},
+    "rosenbrock": _second_order(
+        first_slope=first_inertial, second_slope=second_inertial, end_slope=end_inertial
     ),
-    "stokes": Loop(
-        *_SECOND_ORDER,
-        {"first_slope": first_inertialess, "second_slope": second_inertialess, "end_slope": end_inertialess},
+    "stokes": _second_order(
+        first_slope=first_inertialess, second_slope=second_inertialess, end_slope=end_inertialess
     ),
 }
 """The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
@@ -148,6 +148,26 @@ class Tracker:
     def compiled(self) -> bool:
         """Whether the loop is compiled already."""
         return is_compiled(self._track)
+
+    def compile_moves(self, flow: Any) -> None:
+        """Compile what comes after the stages in each step, with what the flow's kernels read."""
+        self._compile((release, reach_end), {"flow": flow})
+
+    def compile_stages(self) -> None:
+        """Compile the second half of the stages.
+
+        With it, and with what reads a flow, there is about as much to compile as without it in the loop.
+        """
+        stages = self.loop.stages
+        self._compile(stages[len(stages) // 2 :], {})
+
+    def _compile(self, functions: Iterable[Callable[..., Any]], arguments: dict[str, Any]) -> None:
+        scratch, vector = new_scratch(self.loop.rows), (0.0, 0.0, 0.0)
+        arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
+        arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
+        arguments |= dict.fromkeys(("tolerance", "t_end", "h"), 0.0)
+        for function in functions:
+            compile_part(function, arguments, self.bindings, self.separate)
 
     def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
         """Carry particles from step ``step`` through ``steps`` steps, in place.
@@ -409,6 +429,11 @@ class Cloud:
         """What the flow's kernels read, with walls listed to :attr:`reach`."""
         touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
         return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
+
+    def make_ready(self) -> None:
+        """Do what the first step wants done of the flow, and would do."""
+        self._grow_reach()
+        self.flow_arrays()
 
     def _grow_reach(self) -> None:
         """Let the reach be well beyond the longest particle."""

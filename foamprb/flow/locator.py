@@ -245,7 +245,7 @@ def locate(flow: MeshArrays, x: Vector) -> int:
                 if cell < 0:
                     continue
                 for tet in range(first_tet[cell], first_tet[cell + 1]):
-                    origin, c1, c2, c3, volume = frame(flow, tet)
+                    origin, c1, c2, c3, volume = frame(flow, int(tet))
                     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
                     if volume == 0.0:
                         continue

@@ -54,7 +54,9 @@ _MOST_CROSSINGS = 20_000
 # Crossings without progress, as around an edge or a vertex, after which the start is nudged.
 _MOST_STALLS = 200
 _ATTEMPTS = 4
-_NO_TRIANGLE = -1
+# A point off the middle of a tetrahedron and of its faces.
+_INSIDE = (0.1, 0.2, 0.3, 0.4)
+_NO_TRIANGLE = _NO_TET = -1
 # Entries of the lists of walls nearby: a gigabyte.
 _MOST_NEAR = 250_000_000
 
@@ -87,25 +89,19 @@ def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
 
 def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, Tensor]:
     """Velocity and gradient from a table with a row for each node, in which they begin at column k."""
-    a, b, c, d = nodes
-    w0, w1, w2, w3 = w
-    u = (
-        w0 * f[a, k] + w1 * f[b, k] + w2 * f[c, k] + w3 * f[d, k],
-        w0 * f[a, k + 1] + w1 * f[b, k + 1] + w2 * f[c, k + 1] + w3 * f[d, k + 1],
-        w0 * f[a, k + 2] + w1 * f[b, k + 2] + w2 * f[c, k + 2] + w3 * f[d, k + 2],
-    )
+    u = blend(f, k, nodes, w), blend(f, k + 1, nodes, w), blend(f, k + 2, nodes, w)
     l = (
-        w0 * f[a, k + 3] + w1 * f[b, k + 3] + w2 * f[c, k + 3] + w3 * f[d, k + 3],
-        w0 * f[a, k + 4] + w1 * f[b, k + 4] + w2 * f[c, k + 4] + w3 * f[d, k + 4],
-        w0 * f[a, k + 5] + w1 * f[b, k + 5] + w2 * f[c, k + 5] + w3 * f[d, k + 5],
-        w0 * f[a, k + 6] + w1 * f[b, k + 6] + w2 * f[c, k + 6] + w3 * f[d, k + 6],
-        w0 * f[a, k + 7] + w1 * f[b, k + 7] + w2 * f[c, k + 7] + w3 * f[d, k + 7],
-        w0 * f[a, k + 8] + w1 * f[b, k + 8] + w2 * f[c, k + 8] + w3 * f[d, k + 8],
-        w0 * f[a, k + 9] + w1 * f[b, k + 9] + w2 * f[c, k + 9] + w3 * f[d, k + 9],
-        w0 * f[a, k + 10] + w1 * f[b, k + 10] + w2 * f[c, k + 10] + w3 * f[d, k + 10],
-        w0 * f[a, k + 11] + w1 * f[b, k + 11] + w2 * f[c, k + 11] + w3 * f[d, k + 11],
-    )
+        blend(f, k + 3, nodes, w), blend(f, k + 4, nodes, w), blend(f, k + 5, nodes, w),
+        blend(f, k + 6, nodes, w), blend(f, k + 7, nodes, w), blend(f, k + 8, nodes, w),
+        blend(f, k + 9, nodes, w), blend(f, k + 10, nodes, w), blend(f, k + 11, nodes, w),
+    )  # fmt: skip
     return u, l
+
+
+def blend(f: Floats, k: int, nodes: Corners, w: Weights) -> float:
+    """Column k of a table, interpolated between four of its rows."""
+    a, b, c, d = nodes
+    return w[0] * f[a, k] + w[1] * f[b, k] + w[2] * f[c, k] + w[3] * f[d, k]  # type: ignore[no-any-return]
 
 
 def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -146,9 +142,8 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
     for attempt in range(_ATTEMPTS):
         nudge = 0.0 if attempt == 0 else 1e-10 * 100.0**attempt
         a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
-        mx = 0.1 * nodes[a, 0] + 0.2 * nodes[b, 0] + 0.3 * nodes[c, 0] + 0.4 * nodes[d, 0]
-        my = 0.1 * nodes[a, 1] + 0.2 * nodes[b, 1] + 0.3 * nodes[c, 1] + 0.4 * nodes[d, 1]
-        mz = 0.1 * nodes[a, 2] + 0.2 * nodes[b, 2] + 0.3 * nodes[c, 2] + 0.4 * nodes[d, 2]
+        at = a, b, c, d
+        mx, my, mz = blend(nodes, 0, at, _INSIDE), blend(nodes, 1, at, _INSIDE), blend(nodes, 2, at, _INSIDE)
         start = (x0[0] + nudge * (mx - x0[0]), x0[1] + nudge * (my - x0[1]), x0[2] + nudge * (mz - x0[2]))
         tet, came_from, progress, stalls = host, -1, 0.0, 0
         for _ in range(_MOST_CROSSINGS):
@@ -218,9 +213,9 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     turn = (m[k, 0], m[k, 1], m[k, 2], m[k, 3], m[k, 4], m[k, 5], m[k, 6], m[k, 7], m[k, 8])
     y = dot_vector(turn, x)
     y = (y[0] + m[k, 9], y[1] + m[k, 10], y[2] + m[k, 11])
-    host, depth = -1, -np.inf
+    host, depth = _NO_TET, -np.inf
     for other in range(first, end):
-        tet = flow.triangle_tet[other]
+        tet = int(flow.triangle_tet[other])
         origin, c1, c2, c3, volume = frame(flow, tet)
         if volume != 0.0:
             w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
@@ -235,11 +230,8 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
         s = 1.0 / (w0 + w1 + w2 + w3)
         nodes, tets = flow.nodes, flow.tets
         a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
-        y = (
-            s * (w0 * nodes[a, 0] + w1 * nodes[b, 0] + w2 * nodes[c, 0] + w3 * nodes[d, 0]),
-            s * (w0 * nodes[a, 1] + w1 * nodes[b, 1] + w2 * nodes[c, 1] + w3 * nodes[d, 1]),
-            s * (w0 * nodes[a, 2] + w1 * nodes[b, 2] + w2 * nodes[c, 2] + w3 * nodes[d, 2]),
-        )
+        found, w = (a, b, c, d), (s * w0, s * w1, s * w2, s * w3)
+        y = blend(nodes, 0, found, w), blend(nodes, 1, found, w), blend(nodes, 2, found, w)
     return host, y, turn
 
 
