@@ -94,7 +94,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
     store_fluid,
-    straighten_lane,
+    straighten_stage,
     stretch_stage,
 )
 from foamprb.cloud.block import ROWS as FIRST_ROW
@@ -595,7 +595,7 @@ def track_adaptive(
 ADAPTIVE_STAGES = (
     frame_stage,
     stretch_stage,
-    straighten_lane,
+    straighten_stage,
     integrals_stage,
     accept_stage,
 )

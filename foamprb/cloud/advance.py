@@ -70,7 +70,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
     store_fluid,
-    straighten_lane,
+    straighten_stage,
     stretch_stage,
 )
 from foamprb.cloud.motion import (
@@ -332,7 +332,7 @@ def track_share(
 STAGES = (
     frame_stage,
     stretch_stage,
-    straighten_lane,
+    straighten_stage,
     integrals_stage,
     traction_stage,
     newton_stage,

@@ -182,24 +182,23 @@ def stretch_stage(block: Any) -> None:
 
 def straighten(block: Any, allowed: float) -> None:
     """Refine the frames further that have turned too far for one pass."""
-    found = 0
-    for i in range(LANES):
-        if block[AT_SKEWNESS * LANES + i] > allowed:
-            found += 1
-            straighten_lane(block, i)
-    if found:
+    for _ in range(_MOST_REPEATS):
+        found = 0
+        for i in range(LANES):
+            if block[AT_SKEWNESS * LANES + i] > allowed:
+                found += 1
+        if found == 0:
+            break
+        straighten_stage(block, allowed)
         stretch_stage(block)
 
 
-def straighten_lane(block: Any, i: int) -> None:
-    """Refine the frame of lane i until it is principal to round-off."""
-    F, Q = load9(block, AT_NEW_F, i), load9(block, AT_Q, i)
-    for _ in range(_MOST_REPEATS):
-        Q = refined_frame(F, Q)
-        _, skewness = stretches_in_frame(F, Q)
-        if not skewness > _SKEWNESS:
-            break
-    store9(block, AT_Q, i, Q)
+def straighten_stage(block: Any, allowed: float) -> None:
+    """Refine those frames, and no others, that are more skew than is allowed."""
+    for i in range(LANES):
+        Q = load9(block, AT_Q, i)
+        refined = refined_frame(load9(block, AT_NEW_F, i), Q)
+        store9(block, AT_Q, i, choose(block[AT_SKEWNESS * LANES + i] > allowed, refined, Q))
 
 
 def accept_stage(block: Any, tolerance: float) -> None:

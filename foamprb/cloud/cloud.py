@@ -165,7 +165,7 @@ class Tracker:
         scratch, vector = new_scratch(self.loop.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
-        arguments |= dict.fromkeys(("tolerance", "t_end", "h"), 0.0)
+        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
         for function in functions:
             compile_part(function, arguments, self.bindings, self.separate)
 

@@ -50,7 +50,7 @@ from foamprb.cloud.block import (
     resume_frames,
     store3,
     store9,
-    straighten_lane,
+    straighten_stage,
     stretch_stage,
 )
 from foamprb.cloud.state import Particles, Status
@@ -210,7 +210,7 @@ def find_out(
                 found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
 
 
-_STAGES = (stretch_stage, straighten_lane, integrals_stage, sort_stage, report_stage)
+_STAGES = (stretch_stage, straighten_stage, integrals_stage, sort_stage, report_stage)
 """Compiled each on its own; the particle loop has most of them as well."""
 
 
