@@ -36,8 +36,8 @@ AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102,
 AT_NEW_X, AT_K = 104, 107
 AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
 AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT, AT_RENEWED = 122, 131, 132, 133, 134
-AT_T, AT_T0, AT_SIZE, AT_F0, AT_CLEARANCE = 135, 136, 137, 138, 147
-ROWS = 148
+AT_T, AT_T0, AT_SIZE, AT_F0, AT_CLEARANCE, AT_MIRRORED = 135, 136, 137, 138, 147, 148
+ROWS = 149
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -249,7 +249,9 @@ def integrals_stage(block: Any) -> None:
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
     block = s.block
-    s.status[i], s.reason[i], s.patch[i], s.host[i] = p.status[k], p.reason[k], p.patch[k], p.host[k]
+    s.status[i], s.host[i] = p.status[k], p.host[k]
+    # None of those that are loaded has ended.
+    s.reason[i], s.patch[i] = 0, -1
     block[AT_T * LANES + i] = p.t[k]
     block[AT_T0 * LANES + i] = p.t0[k]
     block[AT_SIZE * LANES + i] = p.h[k]
@@ -281,7 +283,10 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy the state in lane i back to particle k of the cloud."""
     block = s.block
-    p.status[k], p.reason[k], p.patch[k], p.host[k] = s.status[i], s.reason[i], s.patch[i], s.host[i]
+    p.host[k] = s.host[i]
+    # What seldom changes is left alone: each line of memory that is not written to is time won.
+    if p.status[k] != s.status[i]:
+        p.status[k], p.reason[k], p.patch[k] = s.status[i], s.reason[i], s.patch[i]
     p.t[k] = block[AT_T * LANES + i]
     p.h[k] = block[AT_SIZE * LANES + i]
     for c in range(3):
@@ -291,7 +296,9 @@ def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
         p.F[k, c] = block[(AT_F + c) * LANES + i]
         p.A[k, c] = block[(AT_A + c) * LANES + i]
         p.Q[k, c] = block[(AT_FRAME + c) * LANES + i]
-        p.F0[k, c] = block[(AT_F0 + c) * LANES + i]
+    if block[AT_MIRRORED * LANES + i] > 0.0:
+        for c in range(9):
+            p.F0[k, c] = block[(AT_F0 + c) * LANES + i]
 
 
 def idle(block: Any, i: int, dt: float) -> None:

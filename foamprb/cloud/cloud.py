@@ -205,8 +205,8 @@ class Tracker:
 
 _SHARES = 8
 """Of the particles, for each of several threads."""
-AT_ONCE = 10_000_000
-"""Steps of a particle that threads take in a second or so."""
+AT_ONCE = 20_000_000
+"""Steps of a particle that threads take in some seconds; to take up its state and put it down costs a few."""
 
 
 class Crew(Protocol):

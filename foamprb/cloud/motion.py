@@ -21,6 +21,7 @@ from foamprb.cloud.block import (
     AT_F0,
     AT_FRAME,
     AT_M,
+    AT_MIRRORED,
     AT_R,
     AT_RENEWED,
     AT_T,
@@ -137,6 +138,7 @@ def beyond(
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
         store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
         store9(block, AT_F0, i, dot(turn, dot(load9(block, AT_F0, i), turn)))
+        block[AT_MIRRORED * LANES + i] = 1.0
         Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
     else:
         host, y0, turn = cross(flow, triangle, x0)
