@@ -62,10 +62,13 @@ class _Reading:
     def __init__(self, codegen: Any) -> None:
         self._codegen = codegen
 
-    def unserialize_library(self, state: Any) -> _Called:
-        name, _, bitcode = state
+    def unserialize_library(self, state: Any) -> Any:
+        name, kind, code = state
+        if kind != "bitcode":
+            # Made where the options are empty.
+            return self._codegen.unserialize_library(state)
         library = _Called(self._codegen, name)
-        library._final_module = binding.parse_bitcode(bitcode)
+        library._final_module = binding.parse_bitcode(code)
         library._finalize_final_module()
         return library
 

@@ -13,6 +13,7 @@ from numba import TypingError
 
 import foamprb
 from foamprb import compile as compiling
+from foamprb import inlined
 from foamprb.body.tensor import det, longest_stretch, principal_frame
 from foamprb.compile import compile_part, is_compiled, link
 
@@ -141,7 +142,10 @@ def test_garbage_is_collected_again_after_a_compilation(kept):
     assert gc.isenabled()
 
 
-def test_called_functions_are_found_by_other_processes(kept, monkeypatch):
+@pytest.mark.parametrize("options", [inlined.CALLED, {}], ids=["as here", "as with another numba"])
+def test_called_functions_are_found_by_other_processes(kept, monkeypatch, options):
+    plain = {name: value for name, value in compiling._ROLES["separate"].items() if name != "pipeline_class"}
+    monkeypatch.setitem(compiling._ROLES, "separate", plain | options)
     compile_part(doubled, {"x": 1.25}, {}, (doubled,))
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(octupled, separate=(doubled,))(1.25) == 10.0
