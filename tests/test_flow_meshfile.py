@@ -412,3 +412,14 @@ def test_inside_out_cells_are_refused(tmp_path):
     shape.save(tmp_path / "flow.vtu")
     with pytest.raises(InputError, match="1 of 1 cells have no positive volume; the first is cell 0"):
         read_mesh_file(tmp_path / "flow.vtu")
+
+
+@pytest.mark.parametrize("time", ["inf", "nan"])
+def test_a_time_that_is_none_is_refused(tmp_path, time):
+    flowing("tetrahedra").save(tmp_path / "flow_0.vtu")
+    flowing("tetrahedra").save(tmp_path / "flow_1.vtu")
+    sets = (f'<DataSet timestep="{t}" file="flow_{k}.vtu"/>' for k, t in enumerate(("0", time)))
+    head = '<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
+    (tmp_path / "flow.pvd").write_text(f"{head}{''.join(sets)}</Collection></VTKFile>")
+    with pytest.raises(InputError, match=rf"flow.pvd: the time {time} is none"):
+        read_mesh_file(tmp_path / "flow.pvd")

@@ -46,6 +46,29 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
     assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
 
 
+@pytest.mark.parametrize("lost", [b"internalField", b"boundaryField"])
+def test_a_binary_list_that_has_lost_bytes_has_a_message(lost, tmp_path):
+    """VTK would read beyond the end of the file."""
+    write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
+    path = tmp_path / "1e1" / "U"
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(lost)) + 5
+    path.write_bytes(data[:at] + data[at + 7 :])
+    with pytest.raises(InputError, match=r"U: line \d+: a list of \d+ entries in binary expected"):
+        read_case(tmp_path)
+
+
+def test_a_binary_field_without_a_brace_has_a_message(tmp_path):
+    """VTK would crash."""
+    write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
+    path = tmp_path / "1e1" / "U"
+    data = path.read_bytes()
+    at = data.index(b"{", data.index(b"boundaryField"))
+    path.write_bytes(data[:at] + data[at + 1 :])
+    with pytest.raises(InputError, match=r"U: line \d+: '\{' expected"):
+        read_case(tmp_path)
+
+
 @pytest.mark.parametrize("label", [32, 64])
 @pytest.mark.parametrize("scalar", [32, 64])
 @pytest.mark.parametrize("kind", ["mixed", "polyhedra"])

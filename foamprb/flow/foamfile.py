@@ -32,6 +32,7 @@ __all__ = [
     "read_field",
     "read_labels",
     "read_vectors",
+    "require_lists",
     "require_room",
 ]
 
@@ -44,6 +45,8 @@ _COUNT = re.compile(rb"\d+")
 _NUMBERS = re.compile(rb"[^()]*")
 _COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
 _FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
+_NONUNIFORM = re.compile(rb"\bnonuniform\s+List<(?P<inner>%b)>\s*(?=\d)" % b"|".join(_COMPONENTS))
+_NO_DICTIONARY = re.compile(rb"\bboundaryField\b(?!\s*\{)")
 _MOST_ENTRIES = 1 << 31
 
 
@@ -236,6 +239,21 @@ def require_room(path: Path) -> None:
     n = file.count()
     if n > len(file.data):
         raise file.broken(f"a number of entries that the file has room for, not {n},")
+
+
+def require_lists(path: Path) -> None:
+    """Raise InputError if a binary field is broken in ways on which VTK's reader crashes.
+
+    Each list must be as long as it says, and ``boundaryField`` a dictionary.
+    """
+    file = _File(path)
+    if file.binary and (bare := _NO_DICTIONARY.search(file.data, file.at)) is not None:
+        file.at = bare.end()
+        raise file.broken("'{'")
+    while file.binary and (match := _NONUNIFORM.search(file.data, file.at)) is not None:
+        file.at = match.end()
+        inner = match["inner"]
+        file.list(_COMPONENTS[inner], file._label if inner == b"label" else None)
 
 
 def read_labels(path: Path) -> Labels:

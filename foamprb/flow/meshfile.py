@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import math
 import os
 import re
 import sys
@@ -320,7 +321,11 @@ def _times(path: Path) -> list[str]:
     if path.suffix not in VTK_SUFFIXES:
         return []
     require_survival(path)
-    return [f"{time:.12g}" for time in _by_vtk(path, times_of, path)]
+    times = _by_vtk(path, times_of, path)
+    for time in times:
+        if not math.isfinite(time):
+            raise InputError(f"{path}: the time {time:g} is none; the file is damaged.")
+    return [f"{time:.12g}" for time in times]
 
 
 def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:

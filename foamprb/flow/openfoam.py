@@ -31,6 +31,7 @@ from foamprb.flow.foamfile import (
     read_cell_zones,
     read_faces,
     read_labels,
+    require_lists,
     require_room,
 )
 from foamprb.flow.mesh import CELL_KINDS, Floats, Mesh, PatchSurface, build_mesh
@@ -561,6 +562,7 @@ def _field_path(
     kind = header(path).get("class", "(none)")
     if kind != wanted:
         raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
+    require_lists(path)
     return path
 
 
