@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.errors import InputError, RunStopped
     from foamprb.flow import analytic
-    from foamprb.flow.meshfile import read_mesh_file
-    from foamprb.flow.openfoam import read_case
+    from foamprb.flow.read.meshfile import read_mesh_file
+    from foamprb.flow.read.openfoam import read_case
     from foamprb.flow.series import read_series
-    from foamprb.run import execute, prepare
+    from foamprb.run.job import execute, prepare
 
 __version__ = version("foamprb")
 
@@ -37,11 +37,11 @@ _HOMES = {
     "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",
     "context": "foamprb.cloud.measures",
-    "execute": "foamprb.run",
+    "execute": "foamprb.run.job",
     "measure": "foamprb.cloud.measures",
-    "prepare": "foamprb.run",
-    "read_case": "foamprb.flow.openfoam",
-    "read_mesh_file": "foamprb.flow.meshfile",
+    "prepare": "foamprb.run.job",
+    "read_case": "foamprb.flow.read.openfoam",
+    "read_mesh_file": "foamprb.flow.read.meshfile",
     "read_series": "foamprb.flow.series",
     "set_rest_shape": "foamprb.cloud.state",
     "spheres": "foamprb.cloud.state",

@@ -18,10 +18,10 @@ import foamprb
 from foamprb.errors import InputError, RankError, RunStopped, suggestion
 
 if TYPE_CHECKING:
-    from foamprb.flow.source import Source
-    from foamprb.parallel import Root
-    from foamprb.settings import StartFrom
-    from foamprb.team import OnDevice
+    from foamprb.flow.read.source import Source
+    from foamprb.parallel.ranks import Root
+    from foamprb.parallel.team import OnDevice
+    from foamprb.settings.settings import StartFrom
 
 _COMMANDS = ("run", "info", "validate", "compile")
 
@@ -111,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments: argparse.Namespace, team: Root | None) -> int:
-    from foamprb.run import describe, execute, prepare
+    from foamprb.run.job import describe, execute, prepare
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
@@ -149,7 +149,7 @@ def _on_device(arguments: argparse.Namespace, team: Root | None) -> OnDevice | N
         return None
     if team is not None:
         raise InputError("-device cuda does not go together with -parallel: it is for one process.")
-    from foamprb.team import OnDevice
+    from foamprb.parallel.team import OnDevice
 
     return OnDevice()
 
@@ -181,8 +181,8 @@ def _stopped_by_signals() -> Iterator[list[int]]:
 
 
 def _source(arguments: argparse.Namespace) -> Source:
-    from foamprb.flow.meshfile import Division
-    from foamprb.flow.source import Source
+    from foamprb.flow.read.meshfile import Division
+    from foamprb.flow.read.source import Source
 
     angle = arguments.featureAngle
     if angle is not None and not 0.0 < angle < 180.0:
@@ -199,9 +199,9 @@ def _source(arguments: argparse.Namespace) -> Source:
 
 
 def _info(arguments: argparse.Namespace, _: Root | None) -> int:
-    from foamprb.flow.decomposed import describe_decomposed, is_only_decomposed
-    from foamprb.flow.meshfile import describe_file
-    from foamprb.flow.openfoam import describe
+    from foamprb.flow.read.decomposed import describe_decomposed, is_only_decomposed
+    from foamprb.flow.read.meshfile import describe_file
+    from foamprb.flow.read.openfoam import describe
 
     source = _source(arguments)
     if source.file is not None:
@@ -227,7 +227,7 @@ def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
 
 
 def _compile(_: argparse.Namespace, __: Root | None) -> int:
-    from foamprb.everything import compile_all
+    from foamprb.run.everything import compile_all
 
     compile_all()
     return 0
@@ -291,7 +291,7 @@ def _answer(words: Sequence[str], team: Root | None = None) -> int:
 
 def _run_together(words: Sequence[str]) -> int:
     """Do what the words of the command line say with the other processes of ``mpirun``, if there are any."""
-    from foamprb.parallel import Rank, connect, is_first
+    from foamprb.parallel.ranks import Rank, connect, is_first
 
     try:
         rank = connect()

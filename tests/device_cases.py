@@ -11,7 +11,7 @@ import warnings
 
 import numpy as np
 import pytest
-from test_flow_shapes import block, box_patches
+from mesh_shapes import block, box_patches
 
 from foamprb import analytic
 from foamprb.cli import main
@@ -20,10 +20,10 @@ from foamprb.cloud.cloud import Cloud, Models
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, spheres
 from foamprb.errors import RunStopped
-from foamprb.flow.mesh import build_mesh
+from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.walk import MeshFlow
-from foamprb.run import execute, prepare
-from foamprb.team import OnDevice
+from foamprb.parallel.team import OnDevice
+from foamprb.run.job import execute, prepare
 
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from test_flow_shapes import block, box_patches
+from mesh_shapes import block, box_patches
 
-from foamprb.flow.mesh import Mesh, build_mesh
+from foamprb.flow.mesh.mesh import Mesh, build_mesh
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 

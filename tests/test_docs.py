@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
+from paths import ROOT
 
 from foamprb.body.material import MATERIALS
 from foamprb.validation.registry import CASES
 
-ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 MODELS = sorted((ROOT / "docs" / "models").glob("*.md"))
 

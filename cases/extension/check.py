@@ -20,7 +20,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 import foamprb
-from foamprb.run import Job
+from foamprb.run.job import Job
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from foamprb.body.drag import acceleration, slip_acceleration
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.interface import no_stress as interface
 from foamprb.body.material import finger_of_sphere as finger
 from foamprb.body.material import viscous_stress
 from foamprb.body.rosenbrock import (
@@ -29,6 +28,7 @@ from foamprb.body.rosenbrock import (
     solve_inertial,
 )
 from foamprb.body.stokes import Mobility, isochoric, mobility, solve_inertialess, velocity_gradient
+from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import (
     Tensor,
     Vector,

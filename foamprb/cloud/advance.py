@@ -7,7 +7,7 @@ the compiler turns into vector instructions. All lanes are computed alike, whate
 which makes the result independent of both and of the number of threads.
 
 The names ``traction``, ``drag``, ``coefficients``, ``sample``, ``walk``, ``gap``, ``normal`` and ``recover``
-are bound to the models that were chosen when the loop is compiled (:func:`foamprb.compile.link`), and
+are bound to the models that were chosen when the loop is compiled (:func:`foamprb.compile.link.link`), and
 ``track`` to the integrator's loop over steps.
 """
 

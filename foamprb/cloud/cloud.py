@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.drag import DRAGS
-from foamprb.body.interface import laplace_stress
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger as finger_of_ellipsoid
+from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
     ADAPTIVE_ROWS,
@@ -33,7 +33,7 @@ from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.motion import RARE, PatchTable, longest_of, reach_end, release
 from foamprb.cloud.patches import REBOUND, STICK, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import compile_part, is_compiled, link
+from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow

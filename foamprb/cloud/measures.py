@@ -54,7 +54,7 @@ from foamprb.cloud.block import (
     stretch_stage,
 )
 from foamprb.cloud.state import Particles, Status
-from foamprb.compile import link
+from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
 
 Floats = NDArray[np.float64]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from foamprb.body.tensor import Scalar, Vector, select
-from foamprb.entries import Fraction, NonNegative
+from foamprb.dictionary.constraints import Fraction, NonNegative
 
 STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
 

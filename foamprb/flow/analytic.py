@@ -18,7 +18,7 @@ from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
-from foamprb.flow.patch import Patch
+from foamprb.flow.mesh.patch import Patch
 
 _FREE = -1
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foamprb.flow.patch import Patch
+from foamprb.flow.mesh.patch import Patch
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -50,8 +50,9 @@ class Sampled(Protocol):
 class Flow(Sampled, Protocol):
     """A flow: u and ∇u at a point and a time, and what bounds it.
 
-    The ``kernels`` are plain functions that :func:`foamprb.compile.link` compiles into the loop; ``flow`` is
-    the tuple that :meth:`arrays` gives and ``host`` the piece of the flow (a tetrahedron) that holds x:
+    The ``kernels`` are plain functions that :func:`foamprb.compile.link.link` compiles into the loop;
+    ``flow`` is the tuple that :meth:`arrays` gives and ``host`` the piece of the flow (a tetrahedron) that
+    holds x:
 
     * ``sample(flow, host, x, t) -> (u, l, u_t)``: velocity, m/s, ∂u_i/∂x_j row by row, 1/s, and ∂u/∂t at the
       fixed point, m/s² (zero in a steady flow), at time t, s;

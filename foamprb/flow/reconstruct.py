@@ -20,10 +20,10 @@ from scipy import sparse
 from scipy.spatial import KDTree
 
 from foamprb.body import tensor
-from foamprb.compile import link
-from foamprb.flow.coupling import Coupling
-from foamprb.flow.mesh import Floats, Ints, Mesh
-from foamprb.flow.patch import WALLS
+from foamprb.compile.link import link
+from foamprb.flow.mesh.coupling import Coupling
+from foamprb.flow.mesh.mesh import Floats, Ints, Mesh
+from foamprb.flow.mesh.patch import WALLS
 from foamprb.flow.stencils import group, mean_series, sum_differences
 
 __all__ = ["VALUELESS", "Reconstruction", "from_points"]

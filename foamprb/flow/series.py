@@ -20,10 +20,10 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import PatchFaces, Tetrahedra
-from foamprb.flow.foamfile import existing
-from foamprb.flow.locator import MeshArrays, locate, no_mesh
-from foamprb.flow.mesh import Floats, Ints, Mesh
-from foamprb.flow.openfoam import (
+from foamprb.flow.mesh.locator import MeshArrays, locate, no_mesh
+from foamprb.flow.mesh.mesh import Floats, Ints, Mesh
+from foamprb.flow.read.foamfile import existing
+from foamprb.flow.read.openfoam import (
     PRECISION_NOTE,
     VelocityReader,
     available_times,
@@ -425,7 +425,7 @@ def read_series(
     period
         Duration after which the flow repeats itself, s.
     velocity, region, gradient
-        As :func:`foamprb.flow.openfoam.read_case`.
+        As :func:`foamprb.flow.read.openfoam.read_case`.
     prepare
         Called with the name of a time directory before it is read.
 

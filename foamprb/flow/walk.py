@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
-from foamprb.compile import link
+from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import PatchFaces, Tetrahedra
-from foamprb.flow.locator import (
+from foamprb.flow.mesh.locator import (
     TOLERANCE,
     MeshArrays,
     build_tree,
@@ -28,8 +28,8 @@ from foamprb.flow.locator import (
     no_mesh,
     weights,
 )
-from foamprb.flow.mesh import Floats, Ints, Mesh
-from foamprb.flow.patch import WALLS
+from foamprb.flow.mesh.mesh import Floats, Ints, Mesh
+from foamprb.flow.mesh.patch import WALLS
 
 __all__ = [
     "FAILED",

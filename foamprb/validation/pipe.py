@@ -361,7 +361,7 @@ def openfoam(quick: bool) -> Outcome:
     if not (CASE / "constant" / "polyMesh").is_dir():
         note = "skipped: cases/pipe is not beside the package; clone the repository to run it"
         return Outcome([Row("landing distance", None, None, SOFT, note=note)], [], [])
-    from foamprb.flow.openfoam import read_case
+    from foamprb.flow.read.openfoam import read_case
 
     flow = read_case(CASE)
     rows = []

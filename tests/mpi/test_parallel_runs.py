@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from test_run import PIPE, edit
-from test_run_restart import short_case
-from test_run_series import write_transient_case
+from paths import ROOT
+from pipe_case import edit, short_case
+from transient_case import write_transient_case
 
 from foamprb.cli import main
 from foamprb.output.pieces import XMLPPolyDataReader
@@ -38,7 +38,7 @@ FUNCTIONS = """cloudFunctions
 }"""
 ENVIRONMENT = {
     **os.environ,
-    "PYTHONPATH": os.pathsep.join([str(PIPE.parents[1]), *sys.path]),
+    "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
@@ -291,8 +291,8 @@ def test_work_is_shared_anew_when_the_particles_of_one_process_land(tmp_path):
 SHARING = """
 import json, pathlib, sys
 import numpy as np
-from foamprb.parallel import Rank, Root, connect
-from foamprb.run import prepare
+from foamprb.parallel.ranks import Rank, Root, connect
+from foamprb.run.job import prepare
 
 def private():
     # Memory that is this process' alone, kB.

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import subprocess
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 import foamprb
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-EXTENSION = Path(__file__).parents[2] / "cases/extension"
+EXTENSION = ROOT / "cases/extension"
 U_MEAN, R1, R2, CONE = 0.02, 350e-6, 117e-6, 1500e-6
 MESH_ERROR = 0.015
 """Of ∂u/∂x on the axis of the coarse mesh, over its largest value: the trace of its ∇u reaches 1.3 %."""

@@ -1,4 +1,4 @@
-"""Meshes of every kind, made and solved live, through tools/mesh_kinds."""
+"""Meshes of every kind, made and solved live, through tools/benchmarks/mesh_kinds."""
 
 from __future__ import annotations
 
@@ -7,25 +7,23 @@ import importlib.util
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
-from foamprb.flow.openfoam import describe
-from foamprb.flow.source import Source, read_flow
+from foamprb.flow.read.openfoam import describe
+from foamprb.flow.read.source import Source, read_flow
 
 pytestmark = pytest.mark.openfoam
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="session")
 def tool():
     path = list(sys.path)
-    loader = importlib.machinery.SourceFileLoader("mesh_kinds", str(ROOT / "tools/mesh_kinds"))
+    loader = importlib.machinery.SourceFileLoader("mesh_kinds", str(ROOT / "tools/benchmarks/mesh_kinds"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("mesh_kinds", loader))
     sys.modules["mesh_kinds"] = module
     loader.exec_module(module)

@@ -5,17 +5,16 @@ from __future__ import annotations
 import csv
 import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import PIPE
 
 from foamprb import Cloud, Escape, Medium, Models, Status, Stick, read_case, spheres
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-PIPE = Path(__file__).parents[2] / "cases/pipe"
 D = 5e-6
 
 

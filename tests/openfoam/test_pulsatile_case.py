@@ -6,19 +6,19 @@ import re
 import shutil
 import subprocess
 from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
 
 import numpy as np
 import pytest
+from paths import ROOT
 
 import foamprb
 from foamprb.cli import main
-from foamprb.flow.decomposed import read_decomposed_case, read_decomposed_series
+from foamprb.flow.read.decomposed import read_decomposed_case, read_decomposed_series
 from foamprb.output.vtk import read_pvd
 
 pytestmark = pytest.mark.openfoam
 
-CASE = Path(__file__).parents[2] / "cases/pulsatilePipe"
+CASE = ROOT / "cases/pulsatilePipe"
 MEAN_FLOW = 0.012
 """Error of the coarse mesh's mean flow, which carries the particles astray."""
 

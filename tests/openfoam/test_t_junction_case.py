@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
 import t_junction
+from paths import ROOT
 
 import foamprb
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-T_JUNCTION = Path(__file__).parents[2] / "cases/tJunction"
+T_JUNCTION = ROOT / "cases/tJunction"
 FLOW, SHARE = 1e-10, 0.5
 STIFF, SOFT = 0.001, 0.1
 BAND = 2e-6

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 import pytest
-from test_output_vtk import cloud, in_parts
+from clouds import cloud, in_parts
 
 from foamprb.output.vtk import Series, layout, write_pieces, write_snapshot
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import pyvista
 from numpy.typing import NDArray
+from paths import ROOT
 
 from foamprb.cloud.state import Status
 from foamprb.output.vtk import Series, Snapshot
 
-ROOT = Path(__file__).parents[2]
 SCRIPT = ROOT / "tools" / "paraview" / "show_cloud.py"
 PIPE = ROOT / "cases" / "pipe"
 

@@ -17,7 +17,7 @@ import foamprb
 from benchmarks import pipe
 from benchmarks.records import MEGA, Options, Row, interleaved, rows, wall_of
 from foamprb.output.vtk import Parts, write_snapshot
-from foamprb.team import View
+from foamprb.parallel.team import View
 
 COMPRESSORS = ("None", "LZ4", "ZLib")
 

@@ -14,7 +14,7 @@ from benchmarks.tracker import Tracker
 from foamprb.cloud import adaptive, advance, block
 from foamprb.cloud.block import LANES, frame_stage
 from foamprb.cloud.block import frame_stage as medium_stage
-from foamprb.compile import link
+from foamprb.compile.link import link
 from foamprb.flow.walk import LONG, gap, sample, walk
 
 

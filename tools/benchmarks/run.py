@@ -45,7 +45,7 @@ def with_output(case: str) -> dict[str, float]:
 
 def alone(case: str, steps: int) -> dict[str, float]:
     """The same steps in one call, without output."""
-    from foamprb.run import prepare
+    from foamprb.run.job import prepare
 
     cloud = prepare(case).cloud
     start = time.perf_counter()

@@ -1,0 +1,216 @@
+"""How sizes and stiffnesses are spread over a population: OpenFOAM's distribution models, with its entries.
+
+A distribution is its inverse: the value below which a given share of the population lies. Samples are
+the inverse of uniform random numbers, so that limits are exact and nothing is drawn and thrown away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtr, ndtri
+
+from foamprb.dictionary.constraints import Pairs, Positive
+from foamprb.errors import InputError
+
+Floats = NDArray[np.float64]
+
+
+class Distribution(Protocol):
+    """A distribution of one positive or negative quantity, in the quantity's own unit."""
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Smallest and largest value."""
+
+    def quantile(self, share: Floats) -> Floats:
+        """Values below which the shares (n,), from 0 to 1, of the population lie."""
+
+
+@dataclass(frozen=True)
+class FixedValue:
+    """Every particle has the same value."""
+
+    value: float
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The value twice."""
+        return self.value, self.value
+
+    def quantile(self, share: Floats) -> Floats:
+        """The value, as often as there are shares."""
+        return np.full(len(share), self.value)
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Every value between the limits is as likely as any other."""
+
+    minValue: float
+    maxValue: float
+
+    def __post_init__(self) -> None:
+        _check_order(self.minValue, self.maxValue)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """``minValue`` and ``maxValue``."""
+        return self.minValue, self.maxValue
+
+    def quantile(self, share: Floats) -> Floats:
+        """Linear in the share."""
+        return self.minValue + share * (self.maxValue - self.minValue)
+
+
+@dataclass(frozen=True)
+class Normal:
+    """A density proportional to exp(−((x − expectation)/variance)²) between the limits.
+
+    So OpenFOAM up to v2112 reads ``variance``: √2 times the standard deviation of the whole bell, in the
+    quantity's own unit.
+    """
+
+    minValue: float
+    maxValue: float
+    expectation: float
+    variance: Annotated[float, Positive]
+
+    def __post_init__(self) -> None:
+        _check_order(self.minValue, self.maxValue)
+        low, high, _ = self._tail()
+        if not ndtr(high) > ndtr(low):
+            raise InputError("lies so far from its limits that none of it is left between them")
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """``minValue`` and ``maxValue``."""
+        return self.minValue, self.maxValue
+
+    def _tail(self) -> tuple[float, float, float]:
+        """The limits in standard deviations, and −1 if mirrored: the lower tail keeps its digits."""
+        deviation = self.variance / np.sqrt(2.0)
+        low = (self.minValue - self.expectation) / deviation
+        high = (self.maxValue - self.expectation) / deviation
+        return (-high, -low, -1.0) if low > 0.0 else (low, high, 1.0)
+
+    def quantile(self, share: Floats) -> Floats:
+        """Inverse of the normal distribution, on the part between the limits."""
+        low, high, side = self._tail()
+        below = ndtr(low)
+        s = share if side > 0.0 else 1.0 - share
+        z = ndtri(below + s * (ndtr(high) - below))
+        x = self.expectation + side * self.variance / np.sqrt(2.0) * z
+        return np.asarray(np.clip(x, self.minValue, self.maxValue))
+
+
+@dataclass(frozen=True)
+class RosinRammler:
+    """A share 1 − exp(−((x − minValue)/d)ⁿ) of the values is below x, cut off at ``maxValue``.
+
+    So OpenFOAM up to v2112 has it: the distribution begins at ``minValue``.
+    """
+
+    minValue: float
+    maxValue: float
+    d: Annotated[float, Positive]
+    n: Annotated[float, Positive]
+
+    def __post_init__(self) -> None:
+        _check_order(self.minValue, self.maxValue)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """``minValue`` and ``maxValue``."""
+        return self.minValue, self.maxValue
+
+    def quantile(self, share: Floats) -> Floats:
+        """Inverse of the share."""
+        kept = -np.expm1(-(((self.maxValue - self.minValue) / self.d) ** self.n))
+        x = self.minValue + self.d * (-np.log1p(-kept * share)) ** (1.0 / self.n)
+        return np.asarray(np.clip(x, self.minValue, self.maxValue))
+
+
+@dataclass(frozen=True)
+class General:
+    """A density given at rising values, ``( (x w) (x w) … )``, linear between them, of any scale."""
+
+    distribution: Pairs
+
+    def __post_init__(self) -> None:
+        x, w = np.transpose(self.distribution) if self.distribution else np.empty((2, 0))
+        if len(x) < 2 or not (np.diff(x) > 0.0).all():
+            raise InputError("needs two pairs (x w) or more, x rising")
+        if (w < 0.0).any() or not w.any():
+            raise InputError("has a density w that is negative, or zero throughout")
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The first and the last x."""
+        return self.distribution[0][0], self.distribution[-1][0]
+
+    def quantile(self, share: Floats) -> Floats:
+        """Inverse of the integral of the density, a quadratic in each interval."""
+        x, w = np.transpose(self.distribution)
+        h = np.diff(x)
+        area = 0.5 * h * (w[1:] + w[:-1])
+        total = np.concatenate([[0.0], np.cumsum(area)])
+        sought = share * total[-1]
+        # An interval without area holds nothing: of equal sums the last is where it begins to rise.
+        i = np.clip(np.searchsorted(total, sought, side="right") - 1, 0, np.flatnonzero(area)[-1])
+        rest = np.maximum(sought - total[i], 0.0) / h[i]
+        rise = w[i + 1] - w[i]
+        root = np.sqrt(np.maximum(w[i] ** 2 + 2.0 * rise * rest, 0.0))
+        with np.errstate(invalid="ignore"):
+            part = np.where(rest > 0.0, 2.0 * rest / (w[i] + root), 0.0)
+        return np.asarray(x[i] + np.clip(part, 0.0, 1.0) * h[i])
+
+
+DISTRIBUTIONS: dict[str, type[FixedValue | Uniform | Normal | RosinRammler | General]] = {
+    "fixedValue": FixedValue,
+    "general": General,
+    "normal": Normal,
+    "RosinRammler": RosinRammler,
+    "uniform": Uniform,
+}
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """``factor`` times a power, 1 or −1, of a distributed quantity: what follows from it."""
+
+    base: Distribution
+    factor: float
+    power: int = 1
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Of the result; the base is positive."""
+        low, high = (float(scaled(value, self.factor, self.power)) for value in self.base.limits)
+        return min(low, high), max(low, high)
+
+    def quantile(self, share: Floats) -> Floats:
+        """Of the result; a power −1 turns the order around."""
+        below = share if self.power > 0 else 1.0 - share
+        return scaled(self.base.quantile(below), self.factor, self.power)
+
+
+def scaled(value: float | Floats, factor: float, power: int) -> Floats:
+    """``factor`` times a power of each value; infinite where that is beyond all numbers."""
+    with np.errstate(over="ignore"):
+        return np.asarray(factor * np.asarray(value, dtype=float) ** power)
+
+
+def draw(quantity: float | Distribution, n: int, random: np.random.Generator) -> Floats:
+    """N values of a quantity that is the same for all, or distributed."""
+    if isinstance(quantity, float | int):
+        return np.full(n, float(quantity))
+    return quantity.quantile(random.random(n))
+
+
+def _check_order(low: float, high: float) -> None:
+    if not low < high:
+        raise InputError(f"has minValue {low:g}, which is not below maxValue {high:g}")

@@ -1,0 +1,271 @@
+"""Where and when particles appear: OpenFOAM's injection models, with its entries."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.state import Particles, empty
+from foamprb.dictionary.constraints import Angle, Axes, Constant, NonNegative, Positive, Vector3
+from foamprb.errors import InputError
+from foamprb.flow.base import Flow
+
+Floats = NDArray[np.float64]
+log = logging.getLogger("foamprb")
+
+
+class Places(NamedTuple):
+    """Where and when particles appear."""
+
+    x: Floats
+    """(n, 3), m."""
+    hosts: NDArray[np.int32]
+    """(n,), the pieces of the flow that hold them; −1 outside the flow."""
+    t: Floats
+    """(n,), s."""
+    v: Floats | Vector3 | None = None
+    """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
+
+
+@dataclass(frozen=True)
+class ManualInjection:
+    """Particles at the positions that a file lists, all at the time ``SOI``."""
+
+    positionsFile: Path
+    U0: Vector3 | None = None
+    SOI: Annotated[float, NonNegative] = 0.0
+    ignoreOutOfBounds: bool = False
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,  # noqa: ARG002
+        read: Callable[[Path], Floats],
+    ) -> Places:
+        """Positions of the file, those outside the flow left out if the user said so.
+
+        Raises
+        ------
+        InputError
+            If positions lie outside the flow: how many, and the first of them.
+        """
+        x = read(self.positionsFile)
+        hosts = flow.locate(x)
+        outside = hosts < 0
+        if outside.any() and not self.ignoreOutOfBounds:
+            first = ", ".join("({:g} {:g} {:g})".format(*row) for row in x[outside][:3])
+            more = ", ..." if outside.sum() > 3 else ""
+            raise InputError(
+                f"{self.positionsFile}: {outside.sum()} of {len(x)} positions lie outside the mesh: "
+                f"{first}{more}. Move them inside, or set ignoreOutOfBounds true to leave them out."
+            )
+        if outside.any():
+            log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
+                        self.positionsFile, outside.sum(), len(x))  # fmt: skip
+        t = np.full(np.count_nonzero(~outside), self.SOI)
+        return Places(x[~outside], hosts[~outside], t, self.U0)
+
+
+@dataclass(frozen=True)
+class PatchInjection:
+    """Particles spread over a patch, uniform in flux, from ``SOI`` on for ``duration``."""
+
+    patch: str
+    parcelsPerSecond: Annotated[float, Positive]
+    duration: Annotated[float, Positive]
+    U0: Vector3 | None = None
+    SOI: Annotated[float, NonNegative] = 0.0
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,
+        read: Callable[[Path], Floats],  # noqa: ARG002
+    ) -> Places:
+        """Random places on the patch, as many per area as fluid enters there, at even intervals in time.
+
+        Raises
+        ------
+        InputError
+            If no fluid enters through the patch, or nothing is injected.
+        """
+        n = round(self.parcelsPerSecond * self.duration)
+        if n == 0:
+            raise InputError(
+                f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
+                f"duration {self.duration:g} s gives no particle."
+            )
+        faces = flow.patch_faces(self.patch, self.SOI)
+        inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
+        flux = inflow.mean(axis=1) * faces.areas
+        if not flux.sum() > 0.0:
+            raise InputError(f"patchInjection on {self.patch}: no fluid enters through this patch.")
+        chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
+        x = _in_triangles(faces.vertices[chosen], inflow[chosen], random)
+        t = self.SOI + np.arange(n) / self.parcelsPerSecond
+        return Places(x, faces.hosts[chosen], t, self.U0)
+
+
+@dataclass(frozen=True)
+class CellZoneInjection:
+    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``."""
+
+    cellZone: str
+    numberDensity: Annotated[float, Positive]
+    U0: Vector3 | None = None
+    SOI: Annotated[float, NonNegative] = 0.0
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,
+        read: Callable[[Path], Floats],  # noqa: ARG002
+    ) -> Places:
+        """Random places in the zone: as many in each part of it as its volume asks for, give or take two.
+
+        Raises
+        ------
+        InputError
+            If there is no such zone, or its volume asks for no particle.
+        """
+        zone = flow.cell_zone(self.cellZone)
+        # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
+        volumes = np.maximum(zone.volumes, 0.0)
+        total = np.cumsum(volumes)
+        n = round(self.numberDensity * total[-1]) if len(total) else 0
+        if n == 0:
+            volume = total[-1] if len(total) else 0.0
+            raise InputError(
+                f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
+                f"volume {volume:g} m3 of {len(volumes)} tetrahedra gives no particle."
+            )
+        # One random number for each n-th part of the volume, counted along the cells.
+        sought = (np.arange(n) + random.random(n)) / n * total[-1]
+        chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
+        weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
+        x = np.einsum("nv,nvi->ni", weights, zone.vertices[chosen])
+        return Places(x, zone.hosts[chosen], np.full(n, self.SOI), self.U0)
+
+
+@dataclass(frozen=True)
+class ConeInjection:
+    """Sprays: at each position ``parcelsPerInjector`` particles in a cone about an axis, from ``SOI`` on.
+
+    As in OpenFOAM, the angle between velocity and axis is uniform between ``thetaInner`` and ``thetaOuter``,
+    degrees (not uniform over the sphere), and so is the angle about the axis; ``Umag`` is the speed, m/s.
+    """
+
+    positionAxis: Axes
+    duration: Annotated[float, Positive]
+    parcelsPerInjector: Annotated[float, Positive]
+    Umag: Annotated[Constant, NonNegative]
+    thetaInner: Annotated[Constant, Angle]
+    thetaOuter: Annotated[Constant, Angle]
+    SOI: Annotated[float, NonNegative] = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.positionAxis:
+            raise InputError("has an empty list positionAxis")
+        if any(not np.any(axis) for _, axis in self.positionAxis):
+            raise InputError("has an axis (0 0 0) in positionAxis")
+
+    def places(
+        self,
+        flow: Flow,
+        random: np.random.Generator,
+        read: Callable[[Path], Floats],  # noqa: ARG002
+    ) -> Places:
+        """The positions in turn, at even intervals in time, with a random direction each.
+
+        Raises
+        ------
+        InputError
+            If a position lies outside the flow, or nothing is injected.
+        """
+        positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
+        hosts = flow.locate(positions)
+        if (hosts < 0).any():
+            first = "({:g} {:g} {:g})".format(*positions[hosts < 0][0])
+            raise InputError(f"coneInjection: the position {first} lies outside the mesh.")
+        n = round(self.parcelsPerInjector) * len(positions)
+        if n == 0:
+            raise InputError(
+                f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} gives no particle."
+            )
+        which = np.arange(n) % len(positions)
+        theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
+        v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
+        t = self.SOI + self.duration * np.arange(n) / n
+        return Places(positions[which], hosts[which], t, v)
+
+
+def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
+    """Unit vectors (n, 3) at the angles theta from the axes (n, 3), turned about them, rad."""
+    along = axes / np.linalg.norm(axes, axis=1)[:, None]
+    # The coordinate axis farthest from parallel gives a normal.
+    other = np.eye(3)[np.argmin(np.abs(along), axis=1)]
+    first = np.cross(along, other)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(along, first)
+    aside = np.cos(turn)[:, None] * first + np.sin(turn)[:, None] * second
+    directions: Floats = np.cos(theta)[:, None] * along + np.sin(theta)[:, None] * aside
+    return directions
+
+
+def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator) -> Floats:
+    """One random point in each triangle (n, 3, 3), with a linear density given at its vertices (n, 3)."""
+    weights = np.empty(density.shape)
+    open_rows = np.arange(len(density))
+    while len(open_rows):
+        w = random.dirichlet((1.0, 1.0, 1.0), len(open_rows))
+        at = np.einsum("nv,nv->n", w, density[open_rows])
+        accepted = random.random(len(open_rows)) * density[open_rows].max(axis=1) <= at
+        weights[open_rows[accepted]] = w[accepted]
+        open_rows = open_rows[~accepted]
+    points: Floats = np.einsum("nv,nvi->ni", weights, vertices)
+    return points
+
+
+def release(
+    model: Injection, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]
+) -> Particles:
+    """Pending spheres where an injection model puts them; size, density and stiffness are left at zero.
+
+    Parameters
+    ----------
+    model, flow
+        The injection model, and the flow into which it injects.
+    random
+        Source of every random number that is used.
+    read
+        Reads a file of positions, (n, 3), m.
+
+    Raises
+    ------
+    InputError
+        As the model's ``places``.
+    """
+    places = model.places(flow, random, read)
+    n = len(places.t)
+    p = empty(n)
+    p.x[:] = p.x0[:] = places.x
+    p.host[:] = places.hosts
+    p.t0[:] = p.t[:] = places.t
+    p.v[:] = np.nan if places.v is None else places.v
+    return p
+
+
+Injection = ManualInjection | PatchInjection | CellZoneInjection | ConeInjection
+
+INJECTIONS: dict[str, type[Injection]] = {
+    "cellZoneInjection": CellZoneInjection,
+    "coneInjection": ConeInjection,
+    "manualInjection": ManualInjection,
+    "patchInjection": PatchInjection,
+}

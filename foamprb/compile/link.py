@@ -1,0 +1,288 @@
+"""The one place where plain formulas become machine code.
+
+The mathematics of foamprb is written once, as plain functions of floats, tuples and array elements.
+:func:`link` follows the functions that an entry function calls, through their module globals, and compiles
+the whole with numba, for the processor or for a CUDA device; the plain text stays callable as it is, on
+floats or on numpy arrays. A model that the user chooses (a traction, a drag law, a flow) is bound to the name
+by which the entry function calls it, and so is a constant that is not the same for both targets.
+"""
+
+from __future__ import annotations
+
+import gc
+import hashlib
+import inspect
+import os
+from collections.abc import Callable, Collection, Mapping
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from types import CodeType, FunctionType
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import numba
+import numpy as np
+import platformdirs
+from numba.core.event import Event, Listener, register
+
+from foamprb.body.tensor import select
+from foamprb.compile import passes
+from foamprb.compile.cache import keep
+from foamprb.compile.passes import CALLED, ENTRY, INLINED, Kept, KeptToCall
+
+__all__ = ["Target", "cache_directory", "compile_part", "is_compiled", "link"]
+
+Target: TypeAlias = Literal["cpu", "cuda"]
+
+# Contraction and the sign of zero only: results may not depend on how a sum is ordered.
+_FAST_MATH = ("contract", "nsz")
+_OPTIONS: dict[str, Any] = {
+    "error_model": "numpy",
+    "boundscheck": False,
+    "nogil": True,
+    "fastmath": set(_FAST_MATH),
+    # No function allocates or keeps an array; counting references to those it is given would take more time
+    # than all else.
+    "_nrt": False,
+}
+
+
+class _WithoutCollections(Listener):  # type: ignore[misc]
+    """No garbage is collected while numba compiles: to look for it takes a third of the time."""
+
+    depth, enabled = 0, True
+
+    def on_start(self, event: Event) -> None:  # noqa: ARG002
+        if self.depth == 0:
+            self.enabled = gc.isenabled()
+            gc.disable()
+        self.depth += 1
+
+    def on_end(self, event: Event) -> None:  # noqa: ARG002
+        self.depth -= 1
+        if self.depth == 0 and self.enabled:
+            gc.enable()
+
+
+# Compilations of functions are nested, but only one thread at a time compiles.
+register("numba:compile", _WithoutCollections())
+
+
+def cache_directory() -> Path:
+    """Folder of the compiled code: ``$FOAMPRB_CACHE_DIR``, else the user's cache folder."""
+    chosen = os.environ.get("FOAMPRB_CACHE_DIR")
+    return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
+
+
+def link(
+    entry: Callable[..., Any],
+    bindings: Mapping[str, Any] | None = None,
+    separate: Collection[Callable[..., Any]] = (),
+    target: Target = "cpu",
+) -> Any:
+    """Compile ``entry`` with everything it calls.
+
+    Parameters
+    ----------
+    entry
+        A plain function whose callees are module globals (imported by name, not as ``module.name``).
+    bindings
+        Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
+        ``{"traction": roscoe}``.
+    separate
+        Callees that are compiled on their own, and called, so that several entries of a process share them;
+        every other callee is inlined.
+    target
+        ``"cuda"`` makes a kernel of ``entry`` and device functions of its callees; it needs numba-cuda.
+
+    Returns
+    -------
+    A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
+    separate callees are kept on disk in :func:`cache_directory`, under keys made of the code of every
+    function that was linked.
+    """
+    return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
+
+
+def compile_part(
+    function: Callable[..., Any],
+    arguments: Mapping[str, Any],
+    bindings: Mapping[str, Any],
+    separate: Collection[Callable[..., Any]],
+) -> None:
+    """Compile a callee of an entry before that is compiled, here or by another process.
+
+    Parameters
+    ----------
+    arguments
+        An example of each argument, by the names of the parameters; there may be others.
+    bindings, separate
+        As the entry will have them. Only separate callees are kept on disk, for others to find.
+    """
+    role: _Role = "separate" if function in separate else "inlined"
+    part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
+    names = inspect.signature(function).parameters
+    part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
+
+
+def is_compiled(dispatcher: Any) -> bool:
+    """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
+    folder = _folders.get(id(dispatcher))
+    return bool(dispatcher.signatures) or (folder is not None and any(folder.rglob("*.nbc")))
+
+
+class _Linkage(NamedTuple):
+    """What holds for all functions of one linking."""
+
+    bindings: dict[str, Any]
+    separate: frozenset[Callable[..., Any]]
+    target: Target
+
+
+class _Part(NamedTuple):
+    """A compiled function, and a key that changes with its code and with that of all it calls."""
+
+    dispatcher: Any
+    key: str
+
+
+_Role: TypeAlias = Literal["entry", "separate", "inlined"]
+
+# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
+_UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+_ROLES: dict[_Role, dict[str, Any]] = {
+    "entry": {"forceinline": False, "no_cfunc_wrapper": True, **ENTRY},
+    "separate": {"forceinline": False, **_UNWRAPPED, **CALLED},
+    "inlined": {"forceinline": True, **_UNWRAPPED, **INLINED},
+}
+
+
+# How functions are linked is a part of what makes their code.
+_LINKING = hashlib.sha256(Path(passes.__file__).read_bytes()).hexdigest()[:8]
+
+
+def _branch(condition: Any, a: Any, b: Any) -> Any:
+    return a if condition else b
+
+
+_parts: dict[str, _Part] = {}
+_folders: dict[int, Path] = {}
+
+
+def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part:
+    """Compile a function after its callees; a part that has been compiled before is used again."""
+    target = linkage.target
+    if function is select:
+        return _link_select(target)
+    assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
+    scope = dict(function.__globals__)
+    own = f"{_compiler(target)} {role} {function.__module__} {function.__qualname__}"
+    digest = hashlib.sha256(own.encode())
+    digest.update(_fingerprint(function.__code__))
+    for name in sorted(_global_names(function.__code__)):
+        value = linkage.bindings.get(name, scope.get(name))
+        if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
+            part = _link(value, linkage, "separate" if value in linkage.separate else "inlined")
+            scope[name] = part.dispatcher
+            digest.update(f"{name}={part.key};".encode())
+        elif isinstance(value, int | float | tuple):
+            scope[name] = _constant(value, target)
+            digest.update(f"{name}={value!r};".encode())
+    if target == "cuda":
+        scope |= _for_cuda(scope)
+    key = digest.hexdigest()[:24]
+    if key not in _parts:
+        clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
+        # Code is linked by name, and other processes may have put other models behind a name.
+        clone.__qualname__ = f"{function.__qualname__}_{key}"
+        clone.__module__ = function.__module__
+        compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
+        _parts[key] = _Part(compile_part(clone, role, key), key)
+    return _parts[key]
+
+
+def _constant(value: Any, target: Target) -> Any:
+    """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
+    # Sizes of local arrays on a device must be Python's.
+    return np.int64(value) if type(value) is int and target == "cpu" else value
+
+
+def _link_select(target: Target) -> _Part:
+    """The branch that ``select`` is of scalars."""
+    key = f"select {target}"
+    if key not in _parts:
+        cpu = target == "cpu"
+        inlined = numba.njit(inline="always") if cpu else partial(_compile_for_cuda, role="inlined", key=key)
+        _parts[key] = _Part(inlined(_branch), key)
+    return _parts[key]
+
+
+def _compiler(target: Target) -> str:
+    """What makes the code, and how."""
+    if target == "cpu":
+        # A set has another order in every process.
+        options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
+        return f"{numba.__version__} {_FAST_MATH} {options} {_ROLES} {_LINKING}"
+    return f"numba-cuda {version('numba-cuda')}"
+
+
+def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
+    dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
+    if role != "inlined":
+        _folders[id(dispatcher)] = folder = cache_directory() / key
+        keep(dispatcher, folder, key, Kept if role == "entry" else KeptToCall)
+    return dispatcher
+
+
+def _for_cuda(scope: Mapping[str, Any]) -> dict[str, Any]:
+    """What must stand for some globals in device functions."""
+    from numba import cuda
+
+    if cuda.config.ENABLE_CUDASIM:
+        return {}
+    from foamprb.compile.cuda import numpy_on_device
+
+    return {name: numpy_on_device for name, value in scope.items() if value is np}
+
+
+def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> Any:
+    from numba import cuda
+
+    if cuda.config.ENABLE_CUDASIM:
+        # In the simulator a kernel calls plain functions.
+        return cuda.jit(function) if role == "entry" else function
+    if role != "entry":
+        return cuda.jit(device=True, forceinline=role == "inlined")(function)
+    kernel = cuda.jit(function)
+    _enable_cache_for_cuda(kernel, key)
+    return kernel
+
+
+def _global_names(code: CodeType) -> set[str]:
+    inner = (_global_names(constant) for constant in code.co_consts if isinstance(constant, CodeType))
+    return set(code.co_names).union(*inner)
+
+
+def _fingerprint(code: CodeType) -> bytes:
+    """Bytes that change with what the code does, and not with where it stands."""
+    parts = [code.co_code, repr(code.co_names).encode(), repr(code.co_varnames).encode()]
+    for constant in code.co_consts:
+        parts.append(_fingerprint(constant) if isinstance(constant, CodeType) else repr(constant).encode())
+    return b"|".join(parts)
+
+
+def _enable_cache_for_cuda(kernel: Any, key: str) -> None:
+    """Keep the machine code of a kernel under ``key``."""
+    from numba import cuda
+
+    folder = _folders[id(kernel)] = cache_directory() / key
+    previous = cuda.config.CACHE_DIR
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        cuda.config.CACHE_DIR = str(folder)
+        kernel.enable_caching()
+    except (OSError, RuntimeError):
+        # A read-only home costs the compilation anew in each run, nothing else.
+        pass
+    finally:
+        cuda.config.CACHE_DIR = previous

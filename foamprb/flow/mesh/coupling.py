@@ -1,0 +1,177 @@
+"""Cyclic patches and wedges: which face continues which, and the motion that carries one onto the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.mesh.patch import Patch
+
+Floats: TypeAlias = NDArray[np.float64]
+_Index: TypeAlias = NDArray[np.intp]
+
+__all__ = ["Coupling", "couple"]
+
+# Of a face's size: how far the image of a face may lie from its partner.
+_MATCH = 1e-2
+# Below this a rotation is none: coordinates have been single precision.
+_NO_TURN = 1e-5
+
+
+class Coupling(NamedTuple):
+    """Two patches of which the second continues the first: x → turn·x + shift."""
+
+    patch: int
+    other: int
+    faces: _Index
+    """(n,) boundary faces of the first patch."""
+    partners: _Index
+    """(n,) the boundary faces of the second that continue them."""
+    turn: Floats
+    """(3, 3), a rotation."""
+    shift: Floats
+    """(3,), m."""
+
+    def reverse(self) -> Coupling:
+        """The way back."""
+        return Coupling(
+            self.other, self.patch, self.partners, self.faces, self.turn.T, -self.turn.T @ self.shift
+        )
+
+
+def couple(
+    patches: Sequence[Patch], patch_start: _Index, centres: Floats, areas: Floats, source: str
+) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
+    """Match the faces of cyclic patches with those of their neighbours, and of wedges with each other.
+
+    The motion is found from the faces themselves, so that it does not matter how the case describes it.
+    Cyclic patches match face by face in their order, as OpenFOAM's do; of wedges each face looks for its
+    partner. Wedges that do not fit each other are left as they are.
+
+    Parameters
+    ----------
+    patches, patch_start
+        The patches, and the boundary face at which each begins.
+    centres, areas
+        Centres (n_boundary, 3) and outward area vectors (n_boundary, 3) of the boundary faces, m and m².
+    source
+        What the messages call the mesh.
+
+    Returns
+    -------
+    patches, couplings
+        The patches, wedges with their neighbours; the couplings, each with its reverse.
+
+    Raises
+    ------
+    InputError
+        If a cyclic patch names no neighbour, or the two do not fit.
+    """
+    named = list(patches)
+    names = [patch.name for patch in patches]
+    faces = [np.arange(*patch_start[i : i + 2]) for i in range(len(patches))]
+    found: list[Coupling] = []
+    for i, patch in enumerate(patches):
+        if patch.type != "cyclic" or not patch.neighbour:
+            continue
+        if patch.neighbour not in names:
+            raise InputError(
+                f"{source}: neighbourPatch {patch.neighbour} of the cyclic patch {patch.name} is not there. "
+                f"{suggestion(patch.neighbour, names)}"
+            )
+        j = names.index(patch.neighbour)
+        if patches[j].type != "cyclic" or patches[j].neighbour != patch.name or i == j:
+            raise InputError(
+                f"{source}: {patch.name} names {patch.neighbour} as its neighbour, but {patch.neighbour} is "
+                f"of type {patches[j].type} with the neighbour {patches[j].neighbour or '(none)'}."
+            )
+        if i < j:
+            coupling = _cyclic(i, j, faces[i], faces[j], centres, areas)
+            if coupling is None:
+                raise InputError(
+                    f"{source}: the faces of the cyclic patches {patch.name} ({len(faces[i])}) and "
+                    f"{patch.neighbour} ({len(faces[j])}) do not fit onto each other."
+                )
+            found += [coupling, coupling.reverse()]
+    wedges = [i for i, patch in enumerate(patches) if patch.type == "wedge" and len(faces[i])]
+    while wedges:
+        i = wedges.pop(0)
+        for j in wedges:
+            coupling = _wedge(i, j, faces[i], faces[j], centres, areas)
+            if coupling is not None:
+                found += [coupling, coupling.reverse()]
+                named[i] = patches[i]._replace(neighbour=names[j])
+                named[j] = patches[j]._replace(neighbour=names[i])
+                wedges.remove(j)
+                break
+    return tuple(named), tuple(found)
+
+
+def _cyclic(i: int, j: int, a: _Index, b: _Index, centres: Floats, areas: Floats) -> Coupling | None:
+    """The rigid motion of best fit (Kabsch, Acta Cryst. A32, 1976, 922) of centres and normals."""
+    if len(a) != len(b):
+        return None
+    if len(a) == 0:
+        return Coupling(i, j, a, b, np.eye(3), np.zeros(3))
+    x, y = centres[a], centres[b]
+    p, q = x - x.mean(axis=0), y - y.mean(axis=0)
+    m, n = _units(areas[a]), -_units(areas[b])
+    spread = max(float(np.mean(np.sum(p * p, axis=1))), 1e-300)
+    matrix = q.T @ p / spread + n.T @ m
+    strength = np.linalg.svd(matrix, compute_uv=False)
+    if strength[1] < 1e-9 * strength[0]:
+        # One face, or a row of them seen from the end, leaves a rotation open: the smallest one is meant.
+        matrix += 1e-9 * strength[0] * np.eye(3)
+    left, _, right = np.linalg.svd(matrix)
+    sign = np.sign(np.linalg.det(left @ right))
+    turn = left @ np.diag([1.0, 1.0, sign]) @ right
+    if np.abs(turn - np.eye(3)).max() < _NO_TURN:
+        turn = np.eye(3)
+    shift = y.mean(axis=0) - turn @ x.mean(axis=0)
+    coupling = Coupling(i, j, a, b, turn, shift)
+    return coupling if _fits(coupling, centres, areas) else None
+
+
+def _wedge(i: int, j: int, a: _Index, b: _Index, centres: Floats, areas: Floats) -> Coupling | None:
+    """The rotation about the line in which the planes of two wedge patches meet."""
+    if len(a) != len(b):
+        return None
+    m, n = (_units(areas[faces].sum(axis=0)) for faces in (a, b))
+    axis = np.cross(m, -n)
+    sine = float(np.linalg.norm(axis))
+    if sine < _NO_TURN:
+        return None
+    axis /= sine
+    cosine = float(-m @ n)
+    # Rodrigues' formula; the rows e_k × a are the matrix of a × ….
+    turn = cosine * np.eye(3) + sine * np.cross(np.eye(3), axis) + (1.0 - cosine) * np.outer(axis, axis)
+    x, y = centres[a].mean(axis=0), centres[b].mean(axis=0)
+    line = np.linalg.solve(np.stack([m, n, axis]), [m @ x, n @ y, 0.0])
+    shift = line - turn @ line
+    nearest = np.asarray(KDTree(centres[b]).query(centres[a] @ turn.T + shift)[1])
+    if len(np.unique(nearest)) != len(b):
+        return None
+    coupling = Coupling(i, j, a, b[nearest], turn, shift)
+    return coupling if _fits(coupling, centres, areas) else None
+
+
+def _fits(coupling: Coupling, centres: Floats, areas: Floats) -> bool:
+    """Whether every face lands on its partner, with the same area and facing it."""
+    size = np.sqrt(np.linalg.norm(areas[coupling.faces], axis=1))
+    off = centres[coupling.faces] @ coupling.turn.T + coupling.shift - centres[coupling.partners]
+    turned = areas[coupling.faces] @ coupling.turn.T + areas[coupling.partners]
+    return bool(
+        np.all(np.linalg.norm(off, axis=1) <= _MATCH * size)
+        and np.all(np.linalg.norm(turned, axis=1) <= 2.0 * _MATCH * size**2)
+    )
+
+
+def _units(vectors: Floats) -> Floats:
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    units: Floats = vectors / np.where(length > 0.0, length, 1.0)
+    return units

@@ -1,0 +1,416 @@
+"""Compiled loops over the faces and cells of a mesh: lists of points, pairs of faces, geometry, tetrahedra.
+
+A list of faces is given by ``start`` (n + 1,) and ``lists``: the points of face f are ``lists[start[f]]`` to
+``lists[start[f + 1] - 1]``. All indices are int32, lengths in metres. Results go into arrays of the caller's.
+"""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.tensor import Vector
+
+Floats: TypeAlias = NDArray[np.float64]
+Ints: TypeAlias = NDArray[np.int32]
+
+__all__ = [
+    "OPEN",
+    "TWISTED",
+    "add_at",
+    "add_pyramids",
+    "choose_bases",
+    "gather_faces",
+    "list_faces",
+    "measure_faces",
+    "pair_faces",
+    "split_cells",
+]
+
+OPEN = 1
+"""A cell with an edge that does not belong to exactly two of its faces."""
+TWISTED = 2
+"""A cell of which two faces run along a common edge in the same direction."""
+
+
+def list_faces(
+    types: NDArray[np.uint8],
+    corner_start: Ints,
+    corners: Ints,
+    shapes: Ints,
+    poly_start: Ints,
+    poly_faces: Ints,
+    face_start: Ints,
+    face_points: Ints,
+    first: Ints,
+    start: Ints,
+    lists: Ints,
+) -> None:
+    """List the faces of each cell, cell after cell.
+
+    Parameters
+    ----------
+    types, corner_start, corners
+        VTK's type of each cell (n,), and its points.
+    shapes
+        (256, 6, 5) by type and face: its number of vertices, then the local vertices; 0 where there is none.
+    poly_start, poly_faces, face_start, face_points
+        The faces (n + 1,) of cells that are polyhedra, and the points of these faces.
+    first, start, lists
+        For the results: the first face of each cell (n + 1,), and the faces.
+    """
+    face, at = 0, 0
+    for c in range(types.shape[0]):
+        first[c] = face
+        shape = shapes[types[c]]
+        for k in range(6):
+            size = shape[k, 0]
+            if size == 0:
+                break
+            for j in range(size):
+                lists[at + j] = corners[corner_start[c] + shape[k, 1 + j]]
+            start[face] = at
+            face += 1
+            at += size
+        if shape[0, 0] == 0:
+            for k in range(poly_start[c], poly_start[c + 1]):
+                begin, size = face_start[poly_faces[k]], face_start[poly_faces[k] + 1]
+                size -= begin
+                for j in range(size):
+                    lists[at + j] = face_points[begin + j]
+                start[face] = at
+                face += 1
+                at += size
+    first[types.shape[0]] = face
+    start[face] = at
+
+
+def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints) -> int:
+    """Find for each face the other one with the same points, itself where there is none.
+
+    Parameters
+    ----------
+    head, following
+        (n,) for chains of faces with the same sum of point numbers; ``head`` holds −1.
+    mate
+        (n,) for the result.
+
+    Returns
+    -------
+    The first face whose points two others have, −1 if all is well.
+    """
+    n = mate.shape[0]
+    for h in range(n):
+        mate[h] = h
+        total = 0
+        for k in range(start[h], start[h + 1]):
+            total += lists[k]
+        slot = total % n
+        other = head[slot]
+        while other >= 0:
+            if _alike(start, lists, h, other):
+                if mate[other] != other:
+                    return h
+                mate[h], mate[other] = other, h
+                break
+            other = following[other]
+        following[h] = head[slot]
+        head[slot] = h
+    return -1
+
+
+def _alike(start: Ints, lists: Ints, a: int, b: int) -> bool:
+    """Whether two faces have the same points, each as often as the other."""
+    size = start[a + 1] - start[a]
+    if size != start[b + 1] - start[b]:
+        return False
+    for i in range(size):
+        point, here, there = lists[start[a] + i], 0, 0
+        for j in range(size):
+            here += lists[start[a] + j] == point
+            there += lists[start[b] + j] == point
+        if here != there:
+            return False
+    return True
+
+
+def gather_faces(
+    first: Ints,
+    half_start: Ints,
+    half_lists: Ints,
+    mate: Ints,
+    start: Ints,
+    lists: Ints,
+    owner: Ints,
+    neighbour: Ints,
+    of_cell: Ints,
+) -> None:
+    """List each face once, those between two cells first, in the order of the cells.
+
+    Parameters
+    ----------
+    first, half_start, half_lists, mate
+        What :func:`list_faces` and :func:`pair_faces` give.
+    start, lists, owner, neighbour
+        For the faces, their owners, and their neighbours (n_internal,).
+    of_cell
+        For the faces of each cell, in the order in which the cell names them.
+    """
+    face = at = 0
+    for outside in range(2):
+        for c in range(first.shape[0] - 1):
+            for h in range(first[c], first[c + 1]):
+                if mate[h] == h if outside == 1 else mate[h] > h:
+                    start[face] = at
+                    for k in range(half_start[h], half_start[h + 1]):
+                        lists[at] = half_lists[k]
+                        at += 1
+                    owner[face], of_cell[h] = c, face
+                    face += 1
+                elif mate[h] < h and outside == 0:
+                    of_cell[h] = of_cell[mate[h]]
+                    neighbour[of_cell[h]] = c
+    start[face] = at
+
+
+def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:
+    """Face centres and area vectors (n, 3), by triangles about the mean of the vertices."""
+    for f in range(centres.shape[0]):
+        begin, size = start[f], start[f + 1] - start[f]
+        for i in range(3):
+            x = 0.0
+            for k in range(size):
+                x += points[lists[begin + k], i]
+            centres[f, i], areas[f, i] = x / size, 0.0
+        for k in range(size):
+            _, n = _edge(
+                points, lists[begin + k], lists[begin + k + 1 if k + 1 < size else begin], centres, f
+            )
+            for i in range(3):
+                areas[f, i] += 0.5 * n[i]
+        if size == 3:
+            continue
+        weight, x, y, z = 0.0, 0.0, 0.0, 0.0
+        for k in range(size):
+            d, n = _edge(
+                points, lists[begin + k], lists[begin + k + 1 if k + 1 < size else begin], centres, f
+            )
+            w = n[0] * areas[f, 0] + n[1] * areas[f, 1] + n[2] * areas[f, 2]
+            weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
+        # A face folded onto itself has no area to weigh with; its mean is as good a centre as any.
+        if weight != 0.0:
+            centres[f, 0] += x / (3.0 * weight)
+            centres[f, 1] += y / (3.0 * weight)
+            centres[f, 2] += z / (3.0 * weight)
+
+
+def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vector, Vector]:
+    """Sum and cross product of the vectors from an origin to two points."""
+    ax, ay, az = points[p, 0] - origins[o, 0], points[p, 1] - origins[o, 1], points[p, 2] - origins[o, 2]
+    bx, by, bz = points[q, 0] - origins[o, 0], points[q, 1] - origins[o, 1], points[q, 2] - origins[o, 2]
+    return (ax + bx, ay + by, az + bz), (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+
+
+def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
+    """Add the rows of ``values`` (n, m) to those of ``sums`` (n_cells, m) that ``cells`` names."""
+    for i in range(cells.shape[0]):
+        for k in range(sums.shape[1]):
+            sums[cells[i], k] += values[i, k]
+
+
+def add_pyramids(
+    cells: Ints,
+    sign: float,
+    centres: Floats,
+    areas: Floats,
+    middles: Floats,
+    volumes: Floats,
+    moments: Floats,
+) -> None:
+    """Add the pyramids over faces to the volumes (n_cells,) and first moments (n_cells, 3) about the middles.
+
+    ``sign`` is −1 where the faces turn inwards.
+    """
+    for f in range(cells.shape[0]):
+        c = cells[f]
+        volume = 0.0
+        for i in range(3):
+            volume += sign / 3.0 * areas[f, i] * (centres[f, i] - middles[c, i])
+        volumes[c] += volume
+        for i in range(3):
+            moments[c, i] += 0.75 * volume * (centres[f, i] - middles[c, i])
+
+
+def choose_bases(
+    points: Floats, centres: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints
+) -> int:
+    """Rotate every face so that its fan has the best worst tetrahedron seen from both cells.
+
+    The quality of a tetrahedron is its volume over the cube of its root-mean-square edge.
+
+    Returns
+    -------
+    The number of tetrahedra without positive volume.
+    """
+    n_internal = neighbour.shape[0]
+    inverted = 0
+    for f in range(owner.shape[0]):
+        begin, size = start[f], start[f + 1] - start[f]
+        best, chosen, negative = -np.inf, 0, 0
+        for base in range(1 if size == 3 else 2 if size == 4 else size):
+            worst, wrong = np.inf, 0
+            for side in range(2 if f < n_internal else 1):
+                c = owner[f] if side == 0 else neighbour[f]
+                for k in range(1, size - 1):
+                    i, j = (base + k) % size, (base + k + 1) % size
+                    q = _quality(points, centres, c, lists[begin + base], lists[begin + i], lists[begin + j])
+                    q = q if side == 0 else -q
+                    worst = min(worst, q)
+                    wrong += q <= 0.0
+            # Round-off must not decide between equal fans.
+            worst += 1e-9 if base == 0 else 0.0
+            if base == 0 or worst > best:
+                best, chosen, negative = worst, base, wrong
+        inverted += negative
+        for _ in range(chosen):
+            head = lists[begin]
+            for k in range(begin, begin + size - 1):
+                lists[k] = lists[k + 1]
+            lists[begin + size - 1] = head
+    return inverted
+
+
+def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int) -> float:
+    """Six times the volume of a tetrahedron over the cube of the root of the sum of its squared edges."""
+    x, y, z = centres[cell, 0], centres[cell, 1], centres[cell, 2]
+    u = (points[a, 0] - x, points[a, 1] - y, points[a, 2] - z)
+    v = (points[b, 0] - x, points[b, 1] - y, points[b, 2] - z)
+    w = (points[c, 0] - x, points[c, 1] - y, points[c, 2] - z)
+    volume = (
+        u[0] * (v[1] * w[2] - v[2] * w[1])
+        + u[1] * (v[2] * w[0] - v[0] * w[2])
+        + u[2] * (v[0] * w[1] - v[1] * w[0])
+    )
+    edges = 0.0
+    for i in range(3):
+        p, q, r = u[i] - v[i], v[i] - w[i], w[i] - u[i]
+        edges += u[i] * u[i] + v[i] * v[i] + w[i] * w[i] + p * p + q * q + r * r
+    return float(volume / (edges * np.sqrt(edges)))
+
+
+def split_cells(
+    n_points: int,
+    first: Ints,
+    face_of: Ints,
+    start: Ints,
+    lists: Ints,
+    n_internal: int,
+    face_tet: Ints,
+    edges: Ints,
+    cell_start: Ints,
+    tets: Ints,
+    neighbours: Ints,
+    triangle_tet: Ints,
+    state: NDArray[np.uint8],
+) -> None:
+    """Cut cells into tetrahedra, a fan on each face, and join these.
+
+    Parameters
+    ----------
+    n_points
+        Number of mesh points: the centre of cell c is node ``n_points + c``.
+    first, face_of
+        The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``. A face turns outwards
+        from the cell that comes first.
+    start, lists, n_internal
+        The faces, those between two cells first.
+    face_tet
+        (n_faces,), holds −1; for the first tetrahedron of each face on its owner's side.
+    edges
+        (5, m), holds −1, with m a power of two not below the length of all faces of any cell; see
+        :func:`_join`.
+    cell_start, tets, neighbours, triangle_tet
+        For the results, as :class:`foamprb.flow.mesh.mesh.Mesh` has them.
+    state
+        (n_cells,), holds zeros; for cells that are :data:`OPEN` or :data:`TWISTED`.
+    """
+    boundary = start[n_internal] - 2 * n_internal
+    tet = 0
+    for c in range(state.shape[0]):
+        cell_start[c] = tet
+        found = loose = 0
+        for h in range(first[c], first[c + 1]):
+            f = face_of[h]
+            begin, size = start[f], start[f + 1] - start[f]
+            owned = face_tet[f] < 0
+            if owned:
+                face_tet[f] = tet
+            for k in range(size - 2):
+                # From the other side the fan turns the other way about the same base.
+                i, j = (k + 1, k + 2) if owned else (size - 1 - k, size - 2 - k)
+                tets[tet + k, 0], tets[tet + k, 1] = n_points + c, lists[begin]
+                tets[tet + k, 2], tets[tet + k, 3] = lists[begin + i], lists[begin + j]
+                if k > 0:
+                    neighbours[tet + k, 3] = tet + k - 1
+                if k < size - 3:
+                    neighbours[tet + k, 2] = tet + k + 1
+                if f >= n_internal:
+                    triangle = begin - 2 * f - boundary + k
+                    neighbours[tet + k, 0] = -1 - triangle
+                    triangle_tet[triangle] = tet + k
+                elif not owned:
+                    across = face_tet[f] + size - 3 - k
+                    neighbours[tet + k, 0], neighbours[across, 0] = across, tet + k
+            for k in range(size):
+                after = k + 1 if k + 1 < size else 0
+                i, j = (k, after) if owned else (size - k if k > 0 else 0, size - 1 - k)
+                a, b = lists[begin + i], lists[begin + j]
+                # The first edge of a fan is opposite vertex 3 of its first tetrahedron, the last opposite
+                # vertex 2 of its last, every other opposite vertex 1.
+                slot = 3 if k == 0 else 2 if k == size - 1 else 1
+                place = 4 * (tet + min(max(k - 1, 0), size - 3)) + slot
+                more, wrong = _join(a, b, place, edges, found, neighbours)
+                found, loose = found + (more > 0), loose + more
+                state[c] |= wrong
+            tet += size - 2
+        if loose != 0:
+            state[c] |= OPEN
+        for e in range(found):
+            edges[0, (edges[2, e] + edges[3, e]) & (edges.shape[1] - 1)] = -1
+    cell_start[state.shape[0]] = tet
+
+
+def _join(a: int, b: int, place: int, edges: Ints, found: int, neighbours: Ints) -> tuple[int, int]:
+    """Join the tetrahedra at an edge of a cell, if it has been met before; else remember it.
+
+    Parameters
+    ----------
+    a, b, place
+        The edge, and 4 t + k for the face opposite vertex k of tetrahedron t.
+    edges
+        Edges by sum of their points: first of each chain; next in the chain, a, b and place by edge, place −1
+        after both sides have been met.
+    found
+        Number of edges so far.
+
+    Returns
+    -------
+    1 for a new edge, −1 for one that is now complete; what is wrong with the cell.
+    """
+    slot = (a + b) & (edges.shape[1] - 1)
+    e = edges[0, slot]
+    while e >= 0:
+        p, q, other = edges[2, e], edges[3, e], edges[4, e]
+        if (p == b and q == a) or (p == a and q == b):
+            if other < 0:
+                return 0, OPEN
+            neighbours[place >> 2, place & 3] = other >> 2
+            neighbours[other >> 2, other & 3] = place >> 2
+            edges[4, e] = -1
+            return -1, TWISTED if p == a else 0
+        e = edges[1, e]
+    edges[1, found], edges[0, slot] = edges[0, slot], found
+    edges[2, found], edges[3, found], edges[4, found] = a, b, place
+    return 1, 0

@@ -1,0 +1,452 @@
+"""OpenFOAM's own files of lists and fields, ascii or binary, compressed or not, in double precision."""
+
+from __future__ import annotations
+
+import gzip
+import re
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.dictionary.constraints import NonNegative
+from foamprb.dictionary.grammar import Stream, read_dictionary_list, unquoted
+from foamprb.dictionary.schema import read_entries
+from foamprb.errors import InputError
+
+Floats: TypeAlias = NDArray[np.float64]
+Labels: TypeAlias = NDArray[np.int64]
+
+__all__ = [
+    "Field",
+    "PatchInfo",
+    "existing",
+    "header",
+    "read_boundary",
+    "read_bytes",
+    "read_cell_zones",
+    "read_faces",
+    "read_field",
+    "read_labels",
+    "read_vectors",
+    "require_lists",
+    "require_room",
+]
+
+_HEADER_BYTES = 4096
+_COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
+_BLANK = re.compile(rb"(?:\s+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
+_NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
+_COUNT = re.compile(rb"\d+")
+_NUMBERS = re.compile(rb"[^()]*")
+_COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
+_FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
+_NONUNIFORM = re.compile(rb"\bnonuniform\s+List<(?P<inner>%b)>\s*(?=\d)" % b"|".join(_COMPONENTS))
+_NO_DICTIONARY = re.compile(rb"\bboundaryField\b(?!\s*\{)")
+_MOST_ENTRIES = 1 << 31
+
+
+class PatchInfo(NamedTuple):
+    """A patch as ``polyMesh/boundary`` lists it."""
+
+    name: str
+    type: str
+    faces: int
+    start: int
+    """Its first face."""
+    neighbour: str
+    """The patch that a coupled patch leads to."""
+    entries: dict[str, str]
+    """All its entries but for dictionaries."""
+
+
+class Field(NamedTuple):
+    """A ``volVectorField`` of 3 components, or a ``volTensorField`` of 9."""
+
+    cells: Floats
+    """(n_cells, components), or (1, components) if they are all alike."""
+    patches: dict[str, tuple[str, Floats | None]]
+    """Type, and the values if there are any: (n_faces, components), or one row if they are all alike."""
+
+
+class _File:
+    """A file's bytes, and how far they have been read."""
+
+    def __init__(self, path: Path) -> None:
+        found = existing(path)
+        if found is None:
+            raise InputError(f"{path}: no such file.")
+        self.path, self.data = found, read_bytes(found)
+        entries = header(found)
+        self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
+        self._inner = _FIELDS.get(self.kind, b"vector")
+        arch = entries.get("arch", "")
+        order = ">" if arch.startswith("MSB") else "<"
+        self._label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
+        self._scalar = np.dtype(f"{order}f{4 if 'scalar=32' in arch else 8}")
+        end = re.search(rb"FoamFile\s*\{.*?\}", self.data, re.DOTALL)
+        self.at = end.end() if end else 0
+        self.skip()
+
+    def broken(self, what: str) -> InputError:
+        line = self.data.count(b"\n", 0, self.at) + 1
+        return InputError(f"{self.path}: line {line}: {what} expected; the file is broken or cut short.")
+
+    def skip(self) -> None:
+        match = _BLANK.match(self.data, self.at)
+        self.at = match.end() if match else self.at
+
+    def take(self, text: bytes) -> bool:
+        """Whether the text comes next; it is then passed."""
+        found = self.data.startswith(text, self.at)
+        if found:
+            self.at += len(text)
+            self.skip()
+        return found
+
+    def need(self, text: bytes) -> None:
+        if not self.take(text):
+            raise self.broken(f"'{text.decode()}'")
+
+    def word(self) -> bytes:
+        match = _WORD.match(self.data, self.at)
+        if match is None:
+            raise self.broken("a word")
+        self.at = match.end()
+        self.skip()
+        return match[0]
+
+    def count(self) -> int:
+        """A number of entries; what follows it is not touched, as it may be binary."""
+        match = _COUNT.match(self.data, self.at)
+        if match is None:
+            raise self.broken("a number of entries")
+        self.at = match.end()
+        if int(match[0]) > _MOST_ENTRIES:
+            raise self.broken(f"a number of entries up to {_MOST_ENTRIES}")
+        return int(match[0])
+
+    def labels(self) -> Labels:
+        """A list of labels (n,), its number of entries first."""
+        values: Labels = self.list(1, self._label)[:, 0]
+        return values
+
+    def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
+        """A list (n, components), its number of entries first; in binary of a type, by default a scalar."""
+        n = self.count()
+        dtype = self._scalar if binary is None else binary
+        wide = np.float64 if dtype.kind == "f" else np.int64
+        if n == 0:
+            self.skip()
+            if self.take(b"("):
+                self.need(b")")
+            return np.zeros((0, components), dtype=wide)
+        if not self.binary or self._is_uniform():
+            self.skip()
+            if self.take(b"{"):
+                return np.broadcast_to(self._numbers(1, components, b"}", wide), (n, components))
+            self.need(b"(")
+            return self._numbers(n, components, b")", wide)
+        begin = self.data.find(b"(", self.at) + 1
+        end = begin + n * components * dtype.itemsize
+        if begin == 0 or self.data[end : end + 1] != b")":
+            raise self.broken(f"a list of {n} entries in binary")
+        self.at = end + 1
+        self.skip()
+        values = np.frombuffer(self.data, dtype, n * components, begin)
+        return values.reshape(n, components).astype(wide)
+
+    def _is_uniform(self) -> bool:
+        match = _BLANK.match(self.data, self.at)
+        return match is not None and self.data[match.end() : match.end() + 1] == b"{"
+
+    def _numbers(self, n: int, components: int, closing: bytes, wide: type = np.float64) -> NDArray[Any]:
+        """Numbers in ascii up to the closing bracket, which is passed; vectors in brackets of their own."""
+        if components > 1:
+            end = re.compile(rb"\)\s*" + re.escape(closing)).search(self.data, self.at)
+            stop = end.start() if end else self.data.find(closing, self.at)
+            after = end.end() if end else stop + 1
+        else:
+            stop = self.data.find(closing, self.at)
+            after = stop + 1
+        if stop < 0:
+            raise self.broken(f"'{closing.decode()}'")
+        text = _NOTE.sub(b" ", self.data[self.at : stop]).translate(bytes.maketrans(b"()", b"  "))
+        try:
+            values: NDArray[Any] = np.array(text.split(), dtype=wide)
+        except (ValueError, OverflowError):
+            kind = "numbers" if wide is np.float64 else "whole numbers"
+            raise self.broken(f"a list of {kind}") from None
+        if len(values) != n * components:
+            raise self.broken(f"a list of {n} entries, not {len(values) / components:g},")
+        self.at = after
+        self.skip()
+        return values.reshape(n, components)
+
+    def value(self) -> Floats | None:
+        """The field's values after ``uniform`` or ``nonuniform``; None for anything else, which is passed."""
+        found = None
+        wide = _COMPONENTS[self._inner]
+        while not self.take(b";"):
+            if self.take(b"nonuniform"):
+                kind = self.word() if not _COUNT.match(self.data, self.at) else b"List<%b>" % self._inner
+                inner = kind[5:-1]
+                if inner not in _COMPONENTS:
+                    raise self.broken(f"List<{self._inner.decode()}>")
+                read = self.list(_COMPONENTS[inner], self._label if inner == b"label" else None)
+                found = read if inner == self._inner else None
+            elif self.take(b"uniform") and self.take(b"("):
+                found = (
+                    self._numbers(wide, 1, b")").reshape(1, wide) if self._numbers_ahead() == wide else None
+                )
+            elif self.at >= len(self.data):
+                raise self.broken("';'")
+            elif self.data[self.at : self.at + 1] in (b"(", b")", b"{", b"}"):
+                self.take(self.data[self.at : self.at + 1])
+            else:
+                self.word()
+        return found
+
+    def _numbers_ahead(self) -> int:
+        match = _NUMBERS.match(self.data, self.at)
+        return 0 if match is None else len(match[0].split())
+
+    def dictionary(self) -> tuple[dict[str, str], dict[str, Floats | None]]:
+        """Plain entries, and fields, of a dictionary whose opening brace has been passed."""
+        entries: dict[str, str] = {}
+        fields: dict[str, Floats | None] = {}
+        while not self.take(b"}"):
+            key = self.word().decode("utf-8", "replace")
+            if self.take(b"{"):
+                self.dictionary()
+                continue
+            begin = self.at
+            field = self.value()
+            if field is None:
+                entries[key] = self.data[begin : self.at].decode("latin-1").strip().rstrip(";").strip()
+            else:
+                fields[key] = field
+        return entries, fields
+
+
+def require_room(path: Path) -> None:
+    """Raise InputError if a file is too short for the entries that its list is said to have."""
+    file = _File(path)
+    n = file.count()
+    if n > len(file.data):
+        raise file.broken(f"a number of entries that the file has room for, not {n},")
+
+
+def require_lists(path: Path) -> None:
+    """Raise InputError if a binary field is broken in ways on which VTK's reader crashes.
+
+    Each list must be as long as it says, and ``boundaryField`` a dictionary.
+    """
+    file = _File(path)
+    if file.binary and (bare := _NO_DICTIONARY.search(file.data, file.at)) is not None:
+        file.at = bare.end()
+        raise file.broken("'{'")
+    while file.binary and (match := _NONUNIFORM.search(file.data, file.at)) is not None:
+        file.at = match.end()
+        inner = match["inner"]
+        file.list(_COMPONENTS[inner], file._label if inner == b"label" else None)
+
+
+def read_labels(path: Path) -> Labels:
+    """Read a ``labelList``, (n,).
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken.
+    """
+    return _File(path).labels()
+
+
+def read_vectors(path: Path) -> Floats:
+    """Read a ``vectorField``, (n, 3); raise InputError if it is missing or broken."""
+    values: Floats = _File(path).list(3)
+    return values
+
+
+def read_faces(path: Path) -> tuple[Labels, Labels]:
+    """Read a ``faceList`` or a ``faceCompactList``: where each face's points begin, (n + 1,), and the points.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken.
+    """
+    file = _File(path)
+    if file.kind == "faceCompactList":
+        start, points = file.labels(), file.labels()
+        if len(start) == 0 or start[0] != 0 or start[-1] != len(points) or np.any(np.diff(start) < 0):
+            raise InputError(f"{file.path}: the lengths of the faces do not fit their points.")
+        return start, points
+    n = file.count()
+    text = _NOTE.sub(b" ", file.data[file.at :]).translate(bytes.maketrans(b"()", b"  "))
+    try:
+        numbers = np.array(text.split(), dtype=np.int64)
+    except (ValueError, OverflowError):
+        raise file.broken("a list of faces") from None
+    sizes = np.empty(n, dtype=np.int64)
+    at = 0
+    for face in range(n):
+        if at >= len(numbers):
+            raise file.broken(f"a list of {n} faces")
+        sizes[face] = numbers[at]
+        at += 1 + max(int(numbers[at]), 0)
+    if at != len(numbers):
+        raise file.broken(f"a list of {n} faces")
+    start = np.concatenate([[0], np.cumsum(sizes)])
+    kept = np.ones(len(numbers), dtype=bool)
+    kept[start[:-1] + np.arange(n)] = False
+    return start, numbers[kept]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _BoundaryEntry:
+    """What is read of a patch in ``polyMesh/boundary``."""
+
+    type: str
+    nFaces: Annotated[int, NonNegative]
+    startFace: Annotated[int, NonNegative]
+    neighbourPatch: str = ""
+
+
+def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    """Read the patches of ``polyMesh/boundary``.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken, a patch occurs twice, or does not begin where the one before it ends.
+    """
+    found = existing(path)
+    if found is None:
+        raise InputError(f"{path}: no such file.")
+    try:
+        return _patches(found, case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+
+
+def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    patches: list[PatchInfo] = []
+    for dictionary in read_dictionary_list(path, case).items:
+        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
+        name = unquoted(dictionary.key)
+        if any(name == patch.name for patch in patches):
+            raise dictionary.mistake("occurs twice.")
+        if patches and read.startFace != patches[-1].start + patches[-1].faces:
+            expected = patches[-1].start + patches[-1].faces
+            raise dictionary.mistake(
+                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
+            )
+        entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
+        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, entries))
+    return tuple(patches)
+
+
+def read_cell_zones(path: Path) -> dict[str, Labels]:
+    """Read the cells of each zone from ``polyMesh/cellZones``.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken.
+    """
+    file = _File(path)
+    n = file.count()
+    file.skip()
+    file.need(b"(")
+    zones: dict[str, Labels] = {}
+    while not file.take(b")"):
+        name = file.word().decode("utf-8", "replace").strip('"')
+        file.need(b"{")
+        cells: Labels | None = None
+        while not file.take(b"}"):
+            if file.word() == b"cellLabels":
+                # An empty zone in binary is a mere 0.
+                file.take(b"List<label>")
+                cells = file.labels()
+                file.need(b";")
+            else:
+                file.value()
+        if cells is None:
+            raise InputError(f"{file.path}: zone {name} has no cellLabels.")
+        zones[name] = cells
+    if len(zones) != n:
+        raise InputError(f"{file.path}: only {len(zones)} of {n} zones could be read.")
+    return zones
+
+
+def read_field(path: Path, kind: str = "volVectorField") -> Field:
+    """Read a ``volVectorField`` or a ``volTensorField``.
+
+    Raises
+    ------
+    InputError
+        The file is missing, broken, or another field.
+    """
+    file = _File(path)
+    if file.kind != kind:
+        raise InputError(f"{file.path}: the class is {file.kind or '(none)'}, not {kind}.")
+    cells: Floats | None = None
+    patches: dict[str, tuple[str, Floats | None]] | None = None
+    while file.at < len(file.data):
+        key = file.word()
+        if key == b"boundaryField":
+            patches = _patch_fields(file)
+        elif file.take(b"{"):
+            file.dictionary()
+        elif key == b"internalField":
+            cells = file.value()
+        else:
+            file.value()
+    if cells is None or patches is None:
+        raise InputError(
+            f"{file.path}: no internalField of {_FIELDS[kind].decode()}s and boundaryField; the file is cut "
+            "short."
+        )
+    return Field(cells, patches)
+
+
+def _patch_fields(file: _File) -> dict[str, tuple[str, Floats | None]]:
+    file.need(b"{")
+    patches = {}
+    while not file.take(b"}"):
+        name = file.word().decode("utf-8", "replace").strip('"')
+        file.need(b"{")
+        entries, fields = file.dictionary()
+        patches[name] = entries.get("type", ""), fields.get("value")
+    return patches
+
+
+def header(path: Path) -> dict[str, str]:
+    """Entries of the FoamFile header; empty when there is none."""
+    text = read_bytes(path, _HEADER_BYTES).decode("latin-1")
+    match = re.search(r"FoamFile\s*\{(.*?)\}", _COMMENT.sub(" ", text), re.DOTALL)
+    if match is None:
+        return {}
+    entries = re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match[1])
+    return {key: value.strip().strip('"') for key, value in entries}
+
+
+def existing(path: Path) -> Path | None:
+    """The file itself, or its compressed form."""
+    zipped = path.with_name(path.name + ".gz")
+    return path if path.is_file() else zipped if zipped.is_file() else None
+
+
+def read_bytes(path: Path, limit: int = -1) -> bytes:
+    """The file's bytes, or the first of them, decompressed; raise InputError if it cannot be read."""
+    try:
+        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
+            return stream.read(limit)
+    except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"{path}: cannot be read: {error}.") from None

@@ -1,0 +1,90 @@
+"""Where a flow comes from: a case, a region of it, or a mesh file; and which of its fields count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from foamprb.errors import InputError
+from foamprb.flow.read.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
+from foamprb.flow.read.meshfile import Division, read_mesh_file, read_mesh_series
+from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.series import SeriesFlow, read_series
+from foamprb.flow.walk import MeshFlow
+
+__all__ = ["Source", "read_flow", "read_transient_flow"]
+
+
+@dataclass(frozen=True)
+class Source:
+    """What to read beside the case's folder and the time."""
+
+    file: Path | None = None
+    """A mesh file in place of the case's mesh and fields."""
+    region: str = ""
+    """A region of the case's mesh."""
+    velocity: str = "U"
+    """Name of the velocity."""
+    gradient: str = ""
+    """Name of the velocity's gradient, ``grad(U)``; without a name it is reconstructed."""
+    division: Division | None = None
+    """How the boundary of a mesh file without named patches is divided."""
+    decomposed: bool = False
+    """Whether to read the processor folders even if there is a flow beside them."""
+
+
+def read_flow(case: Path, time: float | str = "latestTime", source: Source | None = None) -> MeshFlow:
+    """Read the flow of a case or of a mesh file at a time.
+
+    Raises
+    ------
+    InputError
+        As :func:`~foamprb.flow.read.openfoam.read_case` and
+        :func:`~foamprb.flow.read.meshfile.read_mesh_file`; or the
+        source asks for what its kind does not have.
+    """
+    source = source or Source()
+    if source.file is None:
+        _refuse_division(case, source)
+        decomposed = source.decomposed or is_only_decomposed(case, source.region)
+        read = read_decomposed_case if decomposed else read_case
+        return read(case, time, source.velocity, source.region, source.gradient)
+    _refuse_region(source)
+    return read_mesh_file(
+        source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
+    )
+
+
+def read_transient_flow(
+    case: Path, times: str | None, period: float | None, source: Source
+) -> SeriesFlow | MeshFlow:
+    """Read the flow of a case or of a mesh file at several times, as it is needed.
+
+    Raises
+    ------
+    InputError
+        As :func:`~foamprb.flow.series.read_series` and
+        :func:`~foamprb.flow.read.meshfile.read_mesh_series`; or the
+        source asks for what its kind does not have.
+    """
+    if source.file is not None:
+        _refuse_region(source)
+        return read_mesh_series(
+            source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
+        )
+    _refuse_division(case, source)
+    decomposed = source.decomposed or is_only_decomposed(case, source.region)
+    read = read_decomposed_series if decomposed else read_series
+    return read(case, times, period, source.velocity, source.region, source.gradient)
+
+
+def _refuse_region(source: Source) -> None:
+    if source.region:
+        raise InputError(
+            f"{source.file}: a mesh file has no regions, but region {source.region} is asked for."
+        )
+
+
+def _refuse_division(case: Path, source: Source) -> None:
+    if source.division is not None:
+        raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")

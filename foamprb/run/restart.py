@@ -1,0 +1,180 @@
+"""What a checkpoint holds of a run, and whether a run may go on from it.
+
+A run goes on only with the physics that it began with: the settings, the particles and the flow leave a
+fingerprint in the checkpoint. Free to change are what does not act on a particle: the end time, the write
+interval, the number of threads. Nothing here depends on how the particles are shared out.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import foamprb
+from foamprb.cloud.cloud import Cloud, Still
+from foamprb.cloud.state import VARIABLES, Particles
+from foamprb.cloudfunctions.functions import Functions
+from foamprb.errors import InputError
+from foamprb.output.checkpoint import Checkpoint
+from foamprb.output.vtk import Entry, files_of, read_pvd
+from foamprb.settings.settings import Settings
+
+Sums: TypeAlias = list[list[float]]
+Fingerprint: TypeAlias = dict[str, str | Sums]
+
+# Of the settings: what is no physics, and what the cloud holds in the form in which it acts.
+_LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching")
+_PARTICLES = "particles at the start"
+_CLOUD, _FUNCTIONS = "particles/", "functions/"
+_MOST_NAMED = 6
+_RELATIVE, _OF_LARGEST = 1e-9, 1e-13
+_CHUNK = 1 << 18
+
+
+def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
+    """What decides the paths of a cloud that has not been advanced: by name, a text or sums of an array."""
+    texts: dict[str, Any] = {"solution/deltaT": cloud.dt}
+    for field in fields(settings):
+        if field.name not in _LEFT_OUT:
+            texts |= _leaves(field.name, getattr(settings, field.name))
+    texts |= _leaves("models", cloud.models)
+    for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
+        texts |= {f"patch {patch.name}": interaction}
+    marks: Fingerprint = {name: str(value) for name, value in texts.items()}
+    for what, arrays in ((_PARTICLES, cloud.particles._asdict()), ("flow", cloud.flow.traits())):
+        marks |= {f"{what}/{name}": _sums(array) for name, array in arrays.items()}
+    return marks
+
+
+def save(
+    cloud: Cloud | Still, functions: Mapping[str, NDArray[Any]], entries: Sequence[Entry], marks: Fingerprint
+) -> Checkpoint:
+    """The state of a run: its cloud, what its functions remember, its series, and its fingerprint."""
+    header = {
+        "foamprb": foamprb.__version__,
+        "step": cloud.step,
+        "recovered": cloud.recovered,
+        "reach": cloud.reach,
+        "series": _stems(entries),
+        "fingerprint": marks,
+    }
+    arrays = {f"{_CLOUD}{name}": array for name, array in cloud.particles._asdict().items()}
+    arrays |= {f"{_FUNCTIONS}{name}": array for name, array in functions.items()}
+    return Checkpoint(cloud.time, header, arrays)
+
+
+def restore(
+    cloud: Cloud, functions: Functions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
+) -> None:
+    """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
+
+    Parameters
+    ----------
+    marks
+        Fingerprint of the cloud.
+    pvd
+        The list of the results that the run goes on with.
+
+    Raises
+    ------
+    InputError
+        If the run began with other physics, or its results are not those of the checkpoint.
+    """
+    header = checkpoint.header
+    where = f"{pvd.parent}: cannot go on from t = {checkpoint.time:.12g} s"
+    changed = _differences(header["fingerprint"], marks)
+    if changed:
+        more = f", and {len(changed) - _MOST_NAMED} more" if len(changed) > _MOST_NAMED else ""
+        raise InputError(
+            f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. Undo "
+            "the change, or begin anew: -overwrite, or startFrom startTime."
+        )
+    listed = read_pvd(pvd) if pvd.exists() else ()
+    earlier = [entry for entry in listed if entry.time <= checkpoint.time]
+    files = [file for entry in earlier for file in files_of(pvd.parent / entry.file)]
+    missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
+    if _stems(earlier) != header["series"] or missing:
+        fault = f"{missing[0]} is missing" if missing else f"{pvd.name} lists other times"
+        raise InputError(
+            f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or begin "
+            "anew: -overwrite, or startFrom startTime."
+        )
+    arrays = _part(checkpoint, _CLOUD)
+    n = cloud.particles.size
+    layout = {name: ((n, *variable.shape), np.dtype(variable.dtype)) for name, variable in VARIABLES.items()}
+    if {name: (array.shape, array.dtype) for name, array in arrays.items()} != layout:
+        raise InputError(
+            f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
+            f"foamprb {foamprb.__version__}. Begin anew: -overwrite, or startFrom startTime."
+        )
+    functions.restore(_part(checkpoint, _FUNCTIONS))
+    cloud.particles = Particles(**arrays)
+    cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
+
+
+def _stems(entries: Sequence[Entry]) -> list[list[float | str]]:
+    """Times and files without their suffixes, which depend on how many processes wrote them."""
+    return [[entry.time, Path(entry.file).stem] for entry in entries]
+
+
+def _part(checkpoint: Checkpoint, prefix: str) -> dict[str, NDArray[Any]]:
+    arrays = checkpoint.arrays.items()
+    return {name.removeprefix(prefix): array for name, array in arrays if name.startswith(prefix)}
+
+
+def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Flatten records and lists of records; of a file, its name: where the case lies does not matter."""
+    if is_dataclass(value):
+        for field in fields(value):
+            yield from _leaves(f"{name}/{field.name}", getattr(value, field.name))
+    elif isinstance(value, tuple) and any(is_dataclass(item) for item in value):
+        for i, item in enumerate(value):
+            yield from _leaves(f"{name}/{getattr(item, 'name', i)}", item)
+    else:
+        yield name, value.name if isinstance(value, Path) else value
+
+
+def _sums(array: ArrayLike) -> Sums:
+    """Of whole numbers a checksum; of others sums per column, which round-off hardly changes.
+
+    The last bits of a flow may depend on the processor on which it was reconstructed.
+    """
+    values = np.asarray(array)
+    if values.dtype.kind != "f":
+        return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
+    columns = values.reshape(len(values), -1) if values.ndim > 1 else values.reshape(-1, 1)
+    random = np.random.default_rng(0)
+    total = np.zeros((2, columns.shape[1]))
+    for start in range(0, len(columns), _CHUNK):
+        chunk = np.nan_to_num(columns[start : start + _CHUNK], posinf=0.0, neginf=0.0)
+        total += np.abs(chunk).sum(axis=0), random.random(len(chunk)) @ chunk
+    return [[float(columns.size)], *(total / max(len(columns), 1)).tolist()]
+
+
+def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:
+    changed = []
+    for name in dict.fromkeys((*old, *new)):
+        before, now = old.get(name, "absent"), new.get(name, "absent")
+        if isinstance(before, str) and isinstance(now, str):
+            if before != now:
+                changed.append(f"{name} was {before}, is {now}")
+        elif isinstance(before, str) or isinstance(now, str) or not _agree(before, now):
+            changed.append(f"{name} has changed")
+    # Other settings mean other particles: that they differ needs no word then.
+    return [text for text in changed if not text.startswith(_PARTICLES)] or changed
+
+
+def _agree(old: Sums, new: Sums) -> bool:
+    if old[0] != new[0] or [len(row) for row in old] != [len(row) for row in new]:
+        return False
+    before, now = np.array(old[1:]), np.array(new[1:])
+    if not before.size:
+        return True
+    allowed = _RELATIVE * before[0] + _OF_LARGEST * before[0].max()
+    return bool(np.all(np.abs(now - before) <= allowed))

@@ -1,0 +1,83 @@
+"""Solids that a user adds in Python files which the settings name: ``libs ("rubber.py");``."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import sys
+import traceback
+from collections.abc import Iterable
+from pathlib import Path
+
+from numba.core.errors import NumbaError
+
+from foamprb.body.material import MATERIALS
+from foamprb.compile.link import link
+from foamprb.errors import InputError
+
+_loaded: dict[Path, tuple[str, tuple[str, ...]]] = {}
+
+
+def loaded_libs() -> tuple[Path, ...]:
+    """The files whose solids are known."""
+    return tuple(path for path, (digest, _) in _loaded.items() if digest)
+
+
+def load_libs(files: Iterable[Path]) -> None:
+    """Run Python files, which add solids by :func:`foamprb.add_material`, and compile what they added.
+
+    A file that has been run and has not changed since is not run again; of one that has changed, the solids
+    that it added before are forgotten.
+
+    Raises
+    ------
+    InputError
+        If a file fails, adds a solid that is not sound, or one that cannot be compiled: where and why.
+    """
+    for file in files:
+        path = file.resolve()
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        before, names = _loaded.get(path, ("", ()))
+        if before == digest:
+            continue
+        for name in names:
+            MATERIALS.pop(name, None)
+        known = set(MATERIALS)
+        try:
+            _run(path, digest)
+        finally:
+            _loaded[path] = ("", tuple(set(MATERIALS) - known))
+        for name in _loaded[path][1]:
+            _compile(file, name)
+        _loaded[path] = (digest, _loaded[path][1])
+
+
+def _run(path: Path, digest: str) -> None:
+    name = f"foamprb_libs_{path.stem}_{digest[:12]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{path} is not a Python file (.py).")
+    module = importlib.util.module_from_spec(spec)
+    # Compiled code that is read back from disk asks for the module by its name.
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        frames = traceback.extract_tb(error.__traceback__)
+        lines = [frame.lineno for frame in frames if frame.filename == str(path)]
+        line = error.lineno if isinstance(error, SyntaxError) else (lines[-1] if lines else None)
+        where = f"{path}, line {line}" if line else str(path)
+        raise InputError(f"{where}: {type(error).__name__}: {error}.") from error
+
+
+def _compile(file: Path, name: str) -> None:
+    material = MATERIALS[name]
+    k = 1.0 if material.parameter is None else material.parameter.lower + 1.0
+    try:
+        link(material.derivatives)(3.0, 3.0, 1.0, 1.0, 1.0, k)
+    except NumbaError as error:
+        first = next((line.strip() for line in str(error).splitlines() if line.strip()), "")
+        raise InputError(
+            f"{file}: the solid {name} cannot be compiled: {first} "
+            "Use arithmetic and numpy functions of numbers."
+        ) from error

@@ -1,0 +1,176 @@
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import flat, mild_stretches, rotations, square, tensors
+
+from foamprb.body import rosenbrock, stokes, surface_tension
+from foamprb.body.ellipsoid import integrals
+from foamprb.body.material import (
+    MATERIALS,
+    finger,
+    metric_at_rest,
+    piola,
+    stored_energy,
+    viscous_stress,
+)
+from foamprb.body.tensor import dev
+from foamprb.body.traction import roscoe
+
+MU, LAME = 2.0, 30.0
+AT_REST = (0.0,) * 9
+PAIRS = ((1, 2, 0), (0, 2, 1), (0, 1, 2))
+
+
+def kirchhoff(F):
+    return square(piola(MATERIALS["neoHooke"], flat(F), MU, LAME)) @ F.T
+
+
+@given(rotations, mild_stretches, rotations)
+def test_kirchhoff_stress_is_the_piola_stress_pushed_forward(Q1, stretch, Q2):
+    F = Q1 @ np.diag(stretch) @ Q2
+    found = square(rosenbrock.kirchhoff(flat(F @ F.T), np.linalg.det(F), MU, LAME, 0.0))
+    np.testing.assert_allclose(found, kirchhoff(F), atol=1e-11)
+
+
+def elasticity(stretch, tension=0.0):
+    squares = tuple(x * x for x in stretch)
+    return rosenbrock.elasticity(squares, np.prod(stretch), MU, LAME, 0.0, tension)
+
+
+@given(rotations, mild_stretches, rotations, mild_stretches, tensors)
+def test_kirchhoff_stress_is_the_energys_derivative_for_every_shape_at_rest(Q1, stretch, Q2, rest, X):
+    """dw₀(F F₀⁻¹) = τ : X along dF = X F, with b_e = F M Fᵀ and det F₀ = 1."""
+    material = MATERIALS["neoHooke"]
+    F = Q1 @ np.diag(stretch)
+    F0 = Q2 @ np.diag(np.array(rest) / np.prod(rest) ** (1 / 3)) @ Q2.T
+    b_e = finger(flat(F), metric_at_rest(flat(F0)))
+    tau = square(rosenbrock.kirchhoff(b_e, np.linalg.det(F), MU, LAME, 0.0))
+    h = 1e-5
+    w = [
+        stored_energy(material, flat((np.eye(3) + k * h * square(X)) @ F @ np.linalg.inv(F0)), MU, LAME)
+        for k in (-1, 1)
+    ]
+    slope = (w[1] - w[0]) / (2 * h)
+    np.testing.assert_allclose(slope, np.sum(tau * square(X)), atol=1e-6 * (1 + np.abs(tau).max()))
+
+
+@given(mild_stretches)
+def test_surface_tension_stress_is_the_derivative_of_the_surface(stretch):
+    """(1/vol₀) ∂(γ S)/∂ln λ_a − 2γ/R, against S by quadrature over the sphere (Cauchy: dS = J |F⁻ᵀ N| dA)."""
+    u, weights = np.polynomial.legendre.leggauss(60)
+    phi = np.arange(120) * np.pi / 60
+    s = np.sqrt(1 - u**2)
+    n = np.stack([s[:, None] * np.cos(phi), s[:, None] * np.sin(phi), u[:, None] + 0 * phi])
+
+    def surface(x):
+        stretched = np.linalg.norm(n / np.reshape(x, (3, 1, 1)), axis=0)
+        return np.prod(x) * np.sum(weights[:, None] * stretched) * np.pi / 60
+
+    x, h = np.array(stretch), 1e-5
+    np.testing.assert_allclose(surface_tension.surface_area(stretch), surface(x), rtol=1e-11)
+    found = surface_tension.laplace_stress(stretch, 0.7)
+    for a in range(3):
+        step = np.exp(h * np.eye(3)[a])
+        slope = (surface(x * step) - surface(x / step)) / (2 * h)
+        expected = 0.7 * slope / (4 / 3 * np.pi) - 2 * 0.7
+        np.testing.assert_allclose(found[a], expected, atol=1e-8)
+
+
+def test_surface_tension_of_a_sphere_is_laplaces_pressure():
+    """Without what is taken as part of the rest, τ = 2γ/R I."""
+    x, y, z = surface_tension.laplace_stress((1.0, 1.0, 1.0), 3.0)
+    np.testing.assert_allclose((x, y, z), 0.0, atol=1e-14)
+    # d(γS)/dV = 2γ/R: a sphere of radius λR holds 2γ/(λR), which does work on the volume λ³.
+    swollen = surface_tension.laplace_stress((1.1, 1.1, 1.1), 3.0)
+    np.testing.assert_allclose(np.array(swollen) + 6.0, 2 * 3.0 / 1.1 * 1.1**3, rtol=1e-13)
+
+
+def test_surface_tension_stiffens_a_sphere_as_its_elasticity_says():
+    e, h = elasticity((1.0, 1.0, 1.0), 3.0), 1e-4
+    bare = elasticity((1.0, 1.0, 1.0))
+    for a in range(3):
+        step = np.exp(h * (np.eye(3)[a] - 1 / 3))
+        change = np.array(surface_tension.laplace_stress(tuple(step), 3.0)) / h
+        np.testing.assert_allclose(square(e.slopes)[:, a] - square(bare.slopes)[:, a], change, atol=2e-3)
+    np.testing.assert_allclose(np.array(e.shear) - np.array(bare.shear), 0.8 * 3.0, rtol=1e-12)
+
+
+@given(mild_stretches, tensors)
+def test_elasticity_is_the_derivative_of_the_kirchhoff_stress(stretch, X):
+    e, F, X = elasticity(stretch), np.diag(stretch), square(X)
+    h = 1e-5
+    change = (kirchhoff(F + h * X @ F) - kirchhoff(F - h * X @ F)) / (2 * h)
+    np.testing.assert_allclose(square(e.slopes) @ np.diag(X), np.diag(change), atol=3e-3)
+    for i, j, k in PAIRS:
+        expected = e.shear[k] * (X[i, j] * stretch[j] ** 2 + X[j, i] * stretch[i] ** 2)
+        np.testing.assert_allclose(change[i, j], expected, atol=1e-7)
+
+
+@given(mild_stretches, tensors, st.floats(0.0, 20.0))
+def test_traction_coefficients_are_those_of_roscoes_traction(axes, Y, eta):
+    g, Y = integrals(axes), square(Y)
+    s = square(roscoe(axes, g, AT_REST, flat(Y))) - square(viscous_stress(flat(Y), eta))
+    np.testing.assert_allclose(
+        square(rosenbrock.traction_slopes(axes, g, eta)) @ np.diag(Y), np.diag(s), atol=1e-10
+    )
+    k = 8.0 / np.prod(axes)
+    for i, j, other in PAIRS:
+        c = rosenbrock.shear_coefficients(axes[i], axes[j], g.alpha[i], g.alpha[j], g.ring[other], k, eta)
+        np.testing.assert_allclose(c[0] * Y[i, j] + c[1] * Y[j, i], s[i, j], atol=1e-11)
+        np.testing.assert_allclose(c[2] * Y[i, j] + c[3] * Y[j, i], s[j, i], atol=1e-11)
+
+
+@given(mild_stretches, tensors, st.floats(1e-3, 10.0), st.floats(0.1, 100.0), st.floats(0.0, 5.0))
+def test_solve_inertial_solves_its_equation(stretch, r, gh, c, eta):
+    g = integrals(stretch)
+    n = rosenbrock.inertial_stiffness(stretch, g, elasticity(stretch), c, 0.7, eta)
+    Y = rosenbrock.solve_inertial(n, gh, r)
+    own = square(viscous_stress(Y, eta))
+    traction = c * np.prod(stretch) * (0.7 * square(roscoe(stretch, g, AT_REST, Y)) - own)
+    left = square(Y) * np.array(n.b) - gh * traction + gh**2 * square(rosenbrock.elastic_response(n, Y))
+    np.testing.assert_allclose(left, square(r), atol=1e-8 * (1 + np.abs(traction).max() * gh))
+
+
+@given(mild_stretches, tensors, tensors, st.floats(0.0, 20.0))
+def test_inertialess_body_is_in_balance_and_keeps_its_volume(axes, stress, l_f, eta):
+    """σ̃(l_s; l_f) − 2 η_s d_s = σ up to a pressure, no torque, Σ d_s,aa = 0."""
+    g = integrals(axes)
+    sigma = square(stress) + square(stress).T
+    L = flat(square(dev(l_f)))
+    l_s = stokes.velocity_gradient(axes, g, stokes.mobility(axes, g, eta), flat(sigma), L)
+    np.testing.assert_allclose(np.trace(square(l_s)), 0.0, atol=1e-12)
+    left = square(roscoe(axes, g, L, l_s)) - square(viscous_stress(l_s, eta)) - sigma
+    np.testing.assert_allclose(left - np.trace(left) / 3 * np.eye(3), 0.0, atol=1e-10)
+
+
+@given(tensors, tensors)
+def test_inertialess_sphere_has_its_closed_form(stress, l_f):
+    """d_s = 5/3 d_f − σ'/(3 μ_f), w_s = w_f."""
+    sphere = (1.0, 1.0, 1.0)
+    g = integrals(sphere)
+    sigma, L = square(stress) + square(stress).T, square(dev(l_f))
+    l_s = square(stokes.velocity_gradient(sphere, g, stokes.mobility(sphere, g, 0.0), flat(sigma), flat(L)))
+    expected = 5 / 3 * (L + L.T) / 2 - square(dev(flat(sigma))) / 3 + (L - L.T) / 2
+    np.testing.assert_allclose(l_s, expected, atol=1e-12)
+
+
+@given(mild_stretches, tensors, st.floats(1e-3, 1e4), st.floats(0.0, 20.0))
+def test_solve_inertialess_solves_its_equation(stretch, r, gh, eta):
+    """Y − γh (l_s(σ + δτ(Y)/μ_f) − l_s(σ)) = r, l_s being affine in the stress."""
+    g, mu_f = integrals(stretch), 0.7
+    m, e = stokes.mobility(stretch, g, eta), elasticity(stretch)
+    Y = square(stokes.solve_inertialess(m, e, gh, mu_f, r))
+    change = np.diag(square(e.slopes) @ np.diag(Y))
+    for i, j, k in PAIRS:
+        change[i, j] = change[j, i] = e.shear[k] * (Y[i, j] * stretch[j] ** 2 + Y[j, i] * stretch[i] ** 2)
+    response = square(stokes.velocity_gradient(stretch, g, m, flat(change / mu_f), AT_REST))
+    size = 1 + gh * np.abs(response).max()
+    np.testing.assert_allclose(Y - gh * response, square(r), atol=1e-9 * size)
+
+
+@given(st.floats(0.8, 1.2))
+def test_isochoric_restores_the_volume(J):
+    F = flat(np.diag([J, 1.0, 1.0]))
+    np.testing.assert_allclose(np.linalg.det(square(stokes.isochoric(F, J))), 1.0, rtol=1e-14)

@@ -1,0 +1,149 @@
+"""Particles that go on beyond cyclic patches, wedges and symmetry planes, against the whole domain."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches, cyclic_row, period, wedge, wedge_patches
+
+from foamprb import Cloud, Medium, Models, Rebound, Status, analytic, spheres
+from foamprb.cloud.patches import Cyclic, Mirror
+from foamprb.compile.link import link
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.walk import MeshFlow, gap
+
+AIR = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0))
+F0 = np.array([[1.1, 0.2, 0.1], [0.0, 0.9, 0.3], [0.05, 0.0, 1.0]])
+F0 /= np.cbrt(np.linalg.det(F0))
+REST = np.diag([1.25, 0.8, 1.0]) @ np.array([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]])
+
+
+def moving(x, v, rho=1000.0):
+    p = spheres(x, d=2e-3, rho=rho, mu=1e-3)
+    p.v[:] = v
+    p.F[:] = F0.ravel()
+    p.F0[:] = REST.ravel()
+    return p
+
+
+def linear(mesh, l, u0=(0.0, 0.0, 0.0)):
+    l = np.asarray(l, dtype=float)
+    return MeshFlow(mesh, mesh.nodes @ l.T + u0, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
+
+
+def tracked(particles, flow, interactions, steps):
+    cloud = Cloud(particles, flow, AIR, interactions, 1e-3, Models(), threads=1)
+    cloud.advance(steps)
+    return cloud
+
+
+def actions(flow):
+    return [
+        Cyclic() if p.neighbour else Mirror() if p.type.startswith("symm") else Rebound()
+        for p in flow.patches
+    ]
+
+
+@pytest.mark.parametrize("angle", [0.0, 60.0])
+def test_one_period_holds_the_whole_path(angle, random):
+    turn, shift = period(angle)
+    l = np.zeros((3, 3)) if angle == 0.0 else 3.0 * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]])
+    u0 = np.array([4.0, 0.0, 0.0] if angle == 0.0 else [0.0, 0.0, 0.0])
+    flow = linear(cyclic_row(angle, 1), l, u0)
+    x = np.column_stack([random.uniform(0.1, 0.4, (20, 2)), random.uniform(0.3, 0.7, 20)])
+    if angle:
+        x[:, :2] = [1.0, 0.8] + 0.1 * (x[:, :2] - 0.25)
+    v = x @ l.T + u0
+    cloud = tracked(moving(x, v, 5.0), flow, actions(flow), 500)
+    free = tracked(moving(x, v, 5.0), analytic.linear(l, u0), [], 500)
+    p, q = cloud.particles, free.particles
+    assert np.all(p.status == Status.ACTIVE)
+    assert cloud.recovered == 0
+    y, rotation = q.x.copy(), np.broadcast_to(np.eye(3), (20, 3, 3)).copy()
+    for _ in range(5):
+        beyond = y[:, 0] > 1.0 if angle == 0.0 else ~_in_sector(y, angle)
+        y[beyond] = (y[beyond] - shift) @ turn
+        rotation[beyond] = turn.T @ rotation[beyond]
+    assert np.any(rotation != np.eye(3)) or angle == 0.0
+    assert p.x == pytest.approx(y, abs=1e-9)
+    assert p.v == pytest.approx(np.einsum("nij,nj->ni", rotation, q.v), abs=1e-8)
+    for name in ("F", "A"):
+        ours, theirs = (getattr(c, name).reshape(-1, 3, 3) for c in (p, q))
+        assert ours == pytest.approx(rotation @ theirs, abs=1e-7)
+
+
+def _in_sector(x, angle):
+    at = np.degrees(np.arctan2(x[:, 1], x[:, 0]))
+    return (at >= 0.0) & (at <= angle)
+
+
+def test_beyond_a_symmetry_plane_the_mirror_image_goes_on():
+    shape = block(4, 0.2)
+    patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]
+    l = np.diag([-0.1, -0.1, 0.2])
+    flow = linear(build_mesh(shape, patches), l)
+    x, v = np.array([[0.5, 0.5, 0.1]]), np.array([[0.1, 0.02, -1.0]])
+    cloud = tracked(moving(x, v), flow, actions(flow), 300)
+    free = tracked(moving(x, v), analytic.linear(l), [], 300)
+    p, q, mirror = cloud.particles, free.particles, np.diag([1.0, 1.0, -1.0])
+    assert q.x[0, 2] < -0.05
+    assert p.x == pytest.approx(q.x @ mirror, abs=1e-12)
+    assert p.v == pytest.approx(q.v @ mirror, abs=1e-12)
+    for name in ("F", "A"):
+        ours, theirs = (getattr(c, name).reshape(3, 3) for c in (p, q))
+        assert ours == pytest.approx(mirror @ theirs @ mirror, abs=1e-9)
+
+
+def test_a_wedge_is_left_on_one_side_and_entered_on_the_other():
+    """Past the axis at a twentieth of the radius: radius and height are those of a straight path."""
+    shape = wedge(8)
+    flow = linear(build_mesh(shape, wedge_patches(shape)), np.zeros((3, 3)))
+    x, v = np.array([[0.5, 0.0, 0.4]]), np.array([[-1.0, 0.1, 0.2]])
+    p = moving(x, v)
+    p.rho[:] = 1e13
+    cloud = Cloud(p, flow, AIR, actions(flow), 1e-2, Models(), threads=1)
+    radii = []
+    for step in range(90):
+        cloud.advance(1)
+        there = x[0] + 1e-2 * (step + 1) * v[0]
+        assert p.status[0] == Status.ACTIVE
+        assert np.hypot(*p.x[0, :2]) == pytest.approx(np.hypot(*there[:2]), abs=1e-9)
+        assert p.x[0, 2] == pytest.approx(there[2], abs=1e-9)
+        radii.append(np.hypot(*p.x[0, :2]))
+    assert min(radii) == pytest.approx(0.0497, abs=1e-3)
+    assert cloud.recovered == 0
+    assert np.linalg.det(p.F[0].reshape(3, 3)) == pytest.approx(1.0, abs=1e-6)
+
+
+def clearances(flow, hosts, x, F, R, gaps):
+    for i in range(x.shape[0]):
+        f = (F[i, 0], F[i, 1], F[i, 2], F[i, 3], F[i, 4], F[i, 5], F[i, 6], F[i, 7], F[i, 8])
+        gaps[i], _, _ = gap(flow, hosts[i], (x[i, 0], x[i, 1], x[i, 2]), f, R)
+
+
+@pytest.mark.parametrize("angle", [0.0, 60.0])
+def test_walls_beyond_a_cyclic_patch_are_touched(angle, random):
+    turn, shift = period(angle)
+    R, n = 0.05, 200
+    along, z = random.choice([0.01, 0.03, 0.97, 0.99], n), random.uniform(0.005, 0.05, n)
+    F = random.uniform(-1.0, 1.0, (n, 3, 3))
+    F = F / np.cbrt(np.linalg.det(F))[:, None, None]
+    F *= 2.0 / np.maximum(np.linalg.norm(F, axis=(1, 2)), 2.0)[:, None, None]
+    F = F[np.linalg.det(F) > 0.0]
+    x = np.column_stack([along, random.uniform(0.3, 0.7, n), z])[: len(F)]
+    if angle:
+        t = np.radians(angle) * x[:, 0]
+        x[:, :2] = (1.0 + x[:, 1:2]) * np.column_stack([np.cos(t), np.sin(t)])
+    found = []
+    for flow, at, shapes in (
+        (linear(cyclic_row(angle, 1), np.zeros((3, 3))), x, F),
+        (linear(cyclic_row(angle, 3), np.zeros((3, 3))), x @ turn.T + shift, turn @ F),
+    ):
+        gaps = np.empty(len(x))
+        link(clearances)(
+            flow.arrays(0.2), flow.locate(at), np.ascontiguousarray(at), shapes.reshape(-1, 9), R, gaps
+        )
+        found.append(gaps)
+    near = found[1] < 0.0
+    assert np.count_nonzero(near) > 20
+    assert found[0][near] == pytest.approx(found[1][near], abs=1e-12)

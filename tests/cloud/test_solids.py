@@ -1,0 +1,263 @@
+"""Shapes at rest, viscosity and surface tension of the body, in the whole loop."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+from strategies import flat, square
+
+from foamprb import Cloud, InputError, Medium, Models, Rebound, analytic, context, measure, spheres
+from foamprb.body import stokes
+from foamprb.body.ellipsoid import integrals
+from foamprb.body.material import MATERIALS, piola
+from foamprb.body.surface_tension import laplace_stress
+from foamprb.body.tensor import principal_frame
+from foamprb.cloud.state import set_rest_shape
+from foamprb.validation import references
+
+MU_F, R = 1e-3, 1e-6
+REST = (0.0, 0.0, 0.0)
+IDENTITY = np.eye(3)
+
+
+def cloud(
+    flow, Ca, dt, integrator, *, number=1e-6, ratios=(1.0, 1.0, 1.0), axes=IDENTITY, nu=0.499999, **solid
+):
+    """Bodies in a flow of unit rates, with a shape Stokes number; the tolerance of a step is 1e-6."""
+    Ca = np.atleast_1d(Ca)
+    rho = number * 15 * MU_F / R**2
+    p = spheres(np.zeros((len(Ca), 3)), d=2 * R, rho=rho, mu=MU_F / Ca, poissons_ratio=nu, **solid)
+    set_rest_shape(p, ratios, axes)
+    models = Models(integrator=integrator, tolerance=1e-6)
+    return Cloud(p, flow, Medium(MU_F, rho, REST), (), dt, models, threads=1)
+
+
+def advance_to(c, t):
+    c.advance(round(t / c.dt) - c.step)
+
+
+def inertialess(t, gradient, Ca, F0=IDENTITY, eta=0.0, tension=0.0):
+    """F(t) of a body that starts at rest; eta and γ/R over μ_f."""
+    return inertialess_from(F0, F0, t, gradient, Ca, eta, tension).ravel()
+
+
+def inertialess_from(F, F0, t, gradient, Ca, eta=0.0, tension=0.0):
+    """F after a time t by an independent integrator."""
+
+    def rate(_, y):
+        F = y.reshape(3, 3)
+        Q, axes = principal_frame(flat(F))
+        Q, g = square(Q), integrals(axes)
+        F_e = F @ np.linalg.inv(F0)
+        tau = square(piola(MATERIALS["neoHooke"], flat(F_e), 1.0, 0.0)) @ F_e.T
+        sigma = Q @ tau @ Q.T / Ca + np.diag(laplace_stress(axes, tension))
+        m = stokes.mobility(axes, g, eta)
+        l_s = stokes.velocity_gradient(axes, g, m, flat(sigma), flat(Q @ gradient @ Q.T))
+        return (Q.T @ square(l_s) @ Q @ F).ravel()
+
+    found = solve_ivp(rate, (0.0, t), F.ravel(), method="LSODA", rtol=1e-10, atol=1e-12)
+    return found.y[:, -1].reshape(3, 3)
+
+
+SHEAR = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+ODD = np.array([[0.3, 1.0, -0.2], [0.1, -0.5, 0.4], [0.0, 0.3, 0.2]])
+
+
+@pytest.mark.parametrize("axes", [np.eye(3), Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix()])
+def test_stiff_ellipsoid_turns_as_a_rigid_one(axes):
+    """Jeffery's dp/dt = W·p + β(D·p − p p·D·p) for the axis of a spheroid, β = (r² − 1)/(r² + 1)."""
+    r, t = 3.0, 7.0
+    beta = (r * r - 1) / (r * r + 1)
+    D, W = (SHEAR + SHEAR.T) / 2, (SHEAR - SHEAR.T) / 2
+
+    def rate(_, p):
+        return W @ p + beta * (D @ p - p * (p @ D @ p))
+
+    p = solve_ivp(rate, (0.0, t), axes[0], rtol=1e-11, atol=1e-13).y[:, -1]
+    c = cloud(analytic.shear(1.0), 1e-5, 0.05, "stokes", ratios=(r, 1.0, 1.0), axes=axes)
+    advance_to(c, t)
+    Q, stretches = principal_frame(tuple(c.particles.F[0]))
+    found = square(Q)[int(np.argmax(stretches))]
+    np.testing.assert_allclose(abs(found @ p), 1.0, atol=1e-7)
+    # As soft as Ca = 1e-5, the semi-axes keep to that.
+    np.testing.assert_allclose(np.sort(stretches), np.array([1.0, 1.0, r]) / r ** (1 / 3), rtol=5e-5)
+
+
+@pytest.mark.parametrize("integrator", ["paper", "rosenbrock", "stokes"])
+def test_soft_ellipsoid_follows_its_equations(integrator):
+    axes = Rotation.from_rotvec([0.4, 0.2, -0.7]).as_matrix()
+    number = {"paper": 2e-3, "rosenbrock": 2e-5, "stokes": 1e-6}[integrator]
+    allowed = {"paper": 4e-3, "rosenbrock": 2e-4, "stokes": 2e-5}[integrator]
+    L = ODD - np.trace(ODD) / 3 * np.eye(3)
+    c = cloud(
+        analytic.linear(L), 0.3, 0.2 * number if integrator == "paper" else 0.05, integrator,
+        number=number, ratios=(2.0, 1.2, 0.7), axes=axes,
+    )  # fmt: skip
+    F0 = square(c.particles.F0[0])
+    advance_to(c, 1.5)
+    np.testing.assert_allclose(c.particles.F[0], inertialess(1.5, L, 0.3, F0), atol=allowed)
+
+
+def test_paper_scheme_converges_to_the_soft_ellipsoid_without_inertia():
+    """Halving inertia and Δt halves the distance to the inertialess solution."""
+    own = None
+    missed = []
+    for number in (4e-3, 2e-3):
+        c = cloud(analytic.shear(1.0), 0.2, 0.2 * number, "paper", number=number, ratios=(2.0, 1.0, 1.0))
+        own = inertialess(2.0, SHEAR, 0.2, square(c.particles.F0[0])) if own is None else own
+        advance_to(c, 2.0)
+        missed.append(np.linalg.norm(c.particles.F[0] - own))
+    np.testing.assert_allclose(missed[1] / missed[0], 0.5, atol=0.04)
+
+
+def test_body_at_rest_stays_in_its_shape():
+    for integrator in ("paper", "rosenbrock", "stokes"):
+        c = cloud(
+            analytic.linear(np.zeros((3, 3))), 0.3, 1e-3, integrator, number=1e-2, nu=0.45,
+            ratios=(3.0, 2.0, 1.0), axes=Rotation.from_rotvec([0.3, 0.5, 0.1]).as_matrix(),
+        )  # fmt: skip
+        c.advance(50)
+        np.testing.assert_allclose(c.particles.F, c.particles.F0, atol=1e-12)
+
+
+def test_a_sphere_of_another_radius_is_the_same_body():
+    """Ratios (1, 1, 1) in any frame leave a sphere a sphere, whose loop is then the sphere's."""
+    axes = Rotation.from_rotvec([0.3, 0.5, 0.1]).as_matrix()
+    found = []
+    for ratios in ((1.0, 1.0, 1.0), (2.0, 2.0, 2.0)):
+        c = cloud(analytic.shear(1.0), 0.3, 0.05, "stokes", ratios=ratios, axes=axes)
+        advance_to(c, 2.0)
+        found.append(c.particles.F[0])
+    np.testing.assert_allclose(found[0], found[1], atol=1e-13)
+
+
+@pytest.mark.parametrize("integrator", ["paper", "rosenbrock", "stokes"])
+@pytest.mark.parametrize("ratio", [0.5, 5.0])
+def test_viscous_solid_in_shear_is_roscoes(integrator, ratio):
+    """The steady viscoelastic ellipsoid of Roscoe (1967), whose η₁/η₀ is ``ratio``."""
+    Ca = 0.25
+    expected = references.roscoe_at(Ca, ratio)
+    if integrator == "paper":
+        shapes = []
+        for number in (4e-3, 2e-3):
+            c = cloud(analytic.shear(1.0), Ca, 0.1 * number, integrator, number=number, eta=ratio * MU_F)
+            advance_to(c, 25.0 if ratio < 1 else 40.0)
+            shapes.append(shape(c))
+        found = 2 * shapes[1] - shapes[0]
+    else:
+        c = cloud(analytic.shear(1.0), Ca, 0.05, integrator, eta=ratio * MU_F)
+        advance_to(c, 60.0)
+        found = shape(c)
+    np.testing.assert_allclose(found[:3], expected[:3], atol=1e-4)
+    np.testing.assert_allclose(found[3], expected[3], atol=0.01)
+
+
+def shape(c):
+    F = c.particles.F.reshape(-1, 3, 3)[0]
+    return np.array(references.shear_shape(F, c.particles.A.reshape(-1, 3, 3)[0] @ np.linalg.inv(F)))
+
+
+@pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
+def test_drop_with_surface_tension_follows_its_equations(integrator):
+    number = 2e-5 if integrator == "rosenbrock" else 1e-6
+    c = cloud(analytic.shear(1.0), 50.0, 0.05, integrator, number=number, gamma=3.0 * MU_F * R)
+    advance_to(c, 2.0)
+    expected = inertialess(2.0, SHEAR, 50.0, tension=3.0)
+    np.testing.assert_allclose(c.particles.F[0], expected, atol=3e-4 if integrator == "rosenbrock" else 2e-5)
+
+
+def test_drop_returns_to_a_sphere_at_the_rate_of_its_tension():
+    """d_s = −σ'/(3 μ_f) with σ' = 8γ/(5R) times the small strain, which falls as exp(−8γt/(15 μ_f R))."""
+    c = cloud(analytic.linear(np.zeros((3, 3))), 1e6, 0.02, "stokes", gamma=MU_F * R)
+    p = c.particles
+    p.F[:] = np.diag(np.exp([1e-4, -0.5e-4, -0.5e-4])).ravel()
+    advance_to(c, 2.0)
+    np.testing.assert_allclose(np.log(p.F[0, 0]), 1e-4 * np.exp(-8 / 15 * 2.0), rtol=3e-4)
+
+
+def test_surface_tension_is_not_for_the_papers_scheme():
+    with pytest.raises(InputError, match="surfaceTension"):
+        cloud(analytic.shear(1.0), 0.1, 1e-3, "paper", gamma=1e-3)
+
+
+def test_body_without_density_difference_follows_the_fluid_with_the_pressure_gradient():
+    """In a vortex a neutral particle stays on its circle if and only if the pressure gradient acts."""
+    omega = 50.0
+    turn = omega * np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    d, rho = 2e-4, 1000.0
+    radius = {}
+    for force in (0.0, 1.0):
+        for integrator in ("paper", "rosenbrock"):
+            p = spheres([[1e-2, 0.0, 0.0]], d=d, rho=rho, mu=1e3)
+            p.v[:] = [0.0, omega * 1e-2, 0.0]
+            medium = Medium(1e-3, rho, REST, force)
+            dt = 5e-6 if integrator == "paper" else 1e-3
+            c = Cloud(p, analytic.linear(turn), medium, (), dt, Models(integrator=integrator), threads=1)
+            advance_to(c, 0.2)
+            radius[force, integrator] = np.hypot(*p.x[0, :2]) / 1e-2
+    for integrator in ("paper", "rosenbrock"):
+        assert radius[0.0, integrator] > 1.1
+        np.testing.assert_allclose(radius[1.0, integrator], 1.0, atol=2e-3)
+
+
+@pytest.mark.parametrize("integrator", ["paper", "rosenbrock"])
+def test_virtual_mass_slows_the_start_and_not_the_end(integrator):
+    """(m + ½ m_f) dv/dt = (m − m_f) g − 6πμRv of a sphere."""
+    d, rho, rho_f, mu, g, t = 1e-4, 1500.0, 1000.0, 1e-3, 9.81, 5e-4
+    medium = Medium(mu, rho_f, (0.0, -g, 0.0), virtual_mass=0.5)
+    p = spheres([[0.0, 0.0, 0.0]], d=d, rho=rho, mu=1e3)
+    dt = 2e-6 if integrator == "paper" else 1e-4
+    models = Models(integrator=integrator, tolerance=1e-7)
+    c = Cloud(p, analytic.linear(np.zeros((3, 3))), medium, (), dt, models, threads=1)
+    advance_to(c, t)
+    tau = d * d * (rho + 0.5 * rho_f) / (18 * mu)
+    expected = -(d**2) * (rho - rho_f) * g / (18 * mu) * (1 - np.exp(-t / tau))
+    np.testing.assert_allclose(p.v[0, 1], expected, rtol=2e-3 if integrator == "paper" else 1e-4)
+
+
+def test_ellipsoid_touches_where_its_own_shape_reaches():
+    """A long body lands on the wall of the pipe when its end does."""
+    a = np.array([2.0, 1.0, 1.0]) / 2 ** (1 / 3) * 1e-5
+    flow = analytic.pipe(1e-3, 1e-9)
+    p = spheres([[1e-3, -0.9e-3, 0.0]], d=2e-5, rho=2000.0, mu=1e3)
+    up = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    set_rest_shape(p, (2.0, 1.0, 1.0), up)
+    walls = [Rebound(e=0.0, mu=0.0)] * 3
+    medium = Medium(1e-3, 1000.0, (0.0, -9.81, 0.0))
+    c = Cloud(p, flow, medium, walls, 1e-2, Models(integrator="stokes"), threads=1)
+    advance_to(c, 2.0)
+    np.testing.assert_allclose(1e-3 + p.x[0, 1], a[0], rtol=2e-2)
+
+
+@pytest.mark.parametrize("ratios", [(1.0, 1.0, 1.0), (3.0, 1.0, 1.0)])
+def test_stresslet_is_what_the_body_adds_to_dissipation(ratios):
+    """S : d_f is the added dissipation; a rigid sphere's is Einstein's, 5 μ_f d_f V."""
+    L = ODD - np.trace(ODD) / 3 * np.eye(3)
+    axes = Rotation.from_rotvec([0.4, 0.2, -0.7]).as_matrix()
+    c = cloud(analytic.linear(L), 1e-6, 1e-3, "stokes", ratios=ratios, axes=axes)
+    c.advance(20)
+    S = measure(context(c.particles, c.flow, c.medium.mu, c.time))["stresslet"][0]
+    S = np.array([[S[0], S[3], S[5]], [S[3], S[1], S[4]], [S[5], S[4], S[2]]])
+    V, d = 4 / 3 * np.pi * R**3, (L + L.T) / 2
+    np.testing.assert_allclose(np.trace(S) / np.abs(S).max(), 0.0, atol=1e-14)
+    if ratios[0] == 1.0:
+        np.testing.assert_allclose(S / (V * MU_F), 5 * d, atol=1e-4)
+    else:
+        # A body that holds its shape adds more than the sphere of its volume (Hill & Power 1956).
+        assert np.sum(S * d) > 5 * MU_F * V * np.sum(d * d)
+
+
+def test_inertialess_state_is_in_balance_at_the_end():
+    """A and v are those of the state that is left, not of one that the last step has predicted."""
+    L = ODD - np.trace(ODD) / 3 * np.eye(3)
+    c = cloud(analytic.linear(L), 0.2, 0.1, "stokes", ratios=(2.0, 1.0, 1.0))
+    c.advance(7)
+    p = c.particles
+    F, F0 = square(p.F[0]), square(p.F0[0])
+    h = 1e-5
+    ahead = inertialess_from(F, F0, h, L, 0.2)
+    back = inertialess_from(F, F0, -h, L, 0.2)
+    np.testing.assert_allclose(square(p.A[0]), (ahead - back) / (2 * h), atol=1e-6)
+    np.testing.assert_allclose(p.v[0], L @ p.x[0], atol=1e-20)

@@ -1,0 +1,208 @@
+"""Formulas become machine code once, and the code is found again by whoever has the same formulas."""
+
+import gc
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numba import TypingError
+
+import foamprb
+from foamprb.body.tensor import det, longest_stretch, principal_frame
+from foamprb.compile import link as compiling
+from foamprb.compile import passes
+from foamprb.compile.link import compile_part, is_compiled, link
+
+FIRST, SECOND = 2, 3
+
+PROGRAM = """
+import foamprb.flow
+from foamprb.body.tensor import det
+from foamprb.compile.link import is_compiled, link
+f = link(det)
+print(is_compiled(f), f((1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)), is_compiled(f))
+"""
+
+
+MODELS = """
+import sys
+import foamprb.flow
+from foamprb.compile.link import link
+
+def doubled(x):
+    return x + x
+
+def halved(x):
+    return 0.5 * x
+
+def twice(x):
+    return model(model(x))
+
+def entry(x):
+    return twice(x)
+
+model = doubled
+for name in sys.argv[1:]:
+    print(link(entry, {"model": globals()[name]}, separate=(twice,))(1.0))
+"""
+
+
+def element(values, row):
+    return values[row]
+
+
+def sum_of_two(values):
+    return element(values, FIRST) + element(values, SECOND)
+
+
+def doubled(x):
+    return x + x
+
+
+def quadrupled(x):
+    return doubled(doubled(x))
+
+
+def octupled(x):
+    return doubled(quadrupled(x))
+
+
+def ratio(x, y):
+    return x + y if x * y > 7 else x / y - y
+
+
+@pytest.fixture
+def kept(tmp_path, monkeypatch):
+    """A folder for compiled code, with nothing compiled in this process."""
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(compiling, "_parts", {})
+    return tmp_path / "cache"
+
+
+def run(source, cache):
+    environment = {**os.environ, "PYTHONPATH": str(source), "FOAMPRB_CACHE_DIR": str(cache)}
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM], env=environment, capture_output=True, text=True, cwd=cache.parent
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_code_is_found_by_another_installation_of_the_same_source(tmp_path):
+    package = Path(foamprb.__file__).parent
+    copy = tmp_path / "elsewhere"
+    shutil.copytree(package, copy / package.name, ignore=shutil.ignore_patterns("__pycache__"))
+    assert run(package.parent, tmp_path / "cache") == ["False", "6.0", "True"]
+    assert run(copy, tmp_path / "cache") == ["True", "6.0", "True"]
+
+
+def test_code_that_cannot_be_read_is_compiled_anew(kept, monkeypatch):
+    F = (1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)
+    assert link(det)(F) == 6.0
+    (index,) = kept.rglob("*.nbi")
+    index.write_bytes(index.read_bytes()[:-20])
+    monkeypatch.setattr(compiling, "_parts", {})
+    again = link(det)
+    assert again(F) == 6.0
+    assert not again.stats.cache_hits
+
+
+def test_code_runs_where_it_cannot_be_kept(kept):
+    kept.write_text("a file where the folder would be")
+    f = link(doubled)
+    assert f(2.0) == 4.0
+    assert is_compiled(f)
+
+
+def test_constants_are_no_reason_to_compile_a_function_again(kept):
+    assert link(sum_of_two)(np.arange(5.0)) == 5.0
+    (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__name__ == "element"]
+    assert len(part.dispatcher.signatures) == 1
+
+
+@pytest.mark.parametrize("separate", [(), (doubled,)], ids=["inlined", "called"])
+def test_called_and_inlined_functions_give_the_same(kept, separate, monkeypatch):
+    assert link(quadrupled, separate=separate)(1.25) == 5.0
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(quadrupled, separate=separate)(1.25) == 5.0
+
+
+def test_garbage_is_collected_again_after_a_compilation(kept):
+    def unknown(x):
+        return x.nothing_of_the_kind
+
+    assert link(doubled)(2.0) == 4.0
+    assert gc.isenabled()
+    with pytest.raises(TypingError):
+        link(unknown)(2.0)
+    assert gc.isenabled()
+
+
+@pytest.mark.parametrize("options", [passes.CALLED, {}], ids=["as here", "as with another numba"])
+def test_called_functions_are_found_by_other_processes(kept, monkeypatch, options):
+    plain = {name: value for name, value in compiling._ROLES["separate"].items() if name != "pipeline_class"}
+    monkeypatch.setitem(compiling._ROLES, "separate", plain | options)
+    compile_part(doubled, {"x": 1.25}, {}, (doubled,))
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(octupled, separate=(doubled,))(1.25) == 10.0
+    (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__code__ is doubled.__code__]
+    assert sum(part.dispatcher.stats.cache_hits.values()) == 1
+    for index in kept.rglob("*doubled*.nbi"):
+        index.write_bytes(index.read_bytes()[:-20])
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(quadrupled, separate=(doubled,))(1.25) == 5.0
+
+
+def test_functions_of_one_name_are_told_apart(tmp_path):
+    """Numba numbers functions as they come, so that one of another process may have the same number."""
+    (tmp_path / "models.py").write_text(MODELS)
+    # What else is in the name depends on the order of a set.
+    environment = {**os.environ, "FOAMPRB_CACHE_DIR": str(tmp_path / "cache"), "PYTHONHASHSEED": "0"}
+    for bindings in (["doubled"], ["halved", "doubled"]):
+        done = subprocess.run(
+            [sys.executable, "models.py", *bindings],
+            env=environment,
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+        )
+        assert done.returncode == 0, done.stderr
+        factors = {"doubled": "4.0", "halved": "0.25"}
+        assert done.stdout.split() == [factors[name] for name in bindings]
+
+
+def test_results_of_operators_have_the_types_of_their_operands(kept):
+    f = link(ratio)
+    for x in (3, 3.25, np.float32(3.5), np.int8(3), True):
+        for y in (2, 2.75, np.float32(2.5), np.int8(2)):
+            assert f(x, y) == ratio(x, y)
+            assert type(f(x, y)) is type(np.asarray(ratio(x, y)).item())
+
+
+def test_separate_functions_stay_functions(kept):
+    """The loop calls them: inlined where it does they would swell it."""
+    f = link(quadrupled, separate=(doubled,))
+    f(1.25)
+    (assembly,) = f.inspect_asm().values()
+    calls = [line for line in assembly.splitlines() if "call" in line and "doubled" in line]
+    calls += [line for line in assembly.splitlines() if "movabs" in line and "doubled" in line]
+    assert calls
+
+
+def test_bound_of_the_stretches():
+    """No stretch is longer, and of spheres and prolate spheroids the longest is it."""
+    random = np.random.default_rng(0)
+    F = np.eye(3) + 0.4 * random.standard_normal((200, 3, 3))
+    F = F[np.linalg.det(F) > 0.1]
+    longest = np.max(principal_frame(tuple(F.reshape(-1, 9).T))[1], axis=0)
+    bound = longest_stretch(tuple(F.reshape(-1, 9).T))
+    assert (bound >= longest * (1.0 - 1e-12)).all()
+    assert (bound <= longest * np.sqrt(2.0)).all()
+    turn, _ = np.linalg.qr(random.standard_normal((3, 3)))
+    prolate = turn @ np.diag([2.5, 0.7, 0.7])
+    assert longest_stretch(tuple(prolate.ravel())) == pytest.approx(2.5, rel=1e-12)
+    assert longest_stretch(tuple(1.5 * turn.ravel())) == pytest.approx(1.5, rel=1e-7)

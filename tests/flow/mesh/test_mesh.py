@@ -1,0 +1,254 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import pyvista
+from hypothesis import given
+from hypothesis import strategies as st
+from mesh_shapes import (
+    HEXAHEDRON_FACES,
+    KINDS,
+    block,
+    box_patches,
+    corners,
+    grid,
+    pipe,
+    pipe_patches,
+    polyhedra,
+)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import Patch, PatchSurface, build_mesh
+from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.walk import MeshFlow
+
+
+def volumes(mesh):
+    a, b, c, d = (mesh.nodes[mesh.tets[:, k]] for k in range(4))
+    return np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a)) / 6.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_tetrahedra_fill_the_mesh(kind):
+    mesh = build_mesh(block(4, 0.3, kind))
+    assert mesh.inverted == 0
+    assert volumes(mesh).min() > 0.0
+    assert np.sum(volumes(mesh)) == pytest.approx(1.0, rel=1e-13)
+    assert np.sum(mesh.volumes) == pytest.approx(1.0, rel=1e-13)
+    assert np.array_equal(
+        np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_start)), mesh.tets[:, 0] - mesh.n_points
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_tetrahedra_fill_each_cell_with_plane_faces(kind):
+    mesh = build_mesh(block(4, 0.0, kind))
+    assert np.allclose(np.add.reduceat(volumes(mesh), mesh.cell_start[:-1]), mesh.volumes, rtol=1e-12)
+
+
+@given(st.sampled_from(KINDS), st.floats(0.0, 0.6), st.integers(0, 1000))
+def test_neighbours_share_a_face_and_know_each_other(kind, perturbation, seed):
+    mesh = build_mesh(block(2, perturbation, kind, seed))
+    tet, slot = np.nonzero(mesh.neighbours >= 0)
+    other = mesh.neighbours[tet, slot]
+    back = mesh.neighbours[other] == tet[:, None]
+    assert np.all(back.sum(axis=1) == 1)
+    opposite = np.argmax(back, axis=1)
+
+    def face(tets, slots):
+        rows = mesh.tets[tets].astype(int)
+        rows[np.arange(len(rows)), slots] = -1
+        return np.sort(rows, axis=1)
+
+    assert np.array_equal(face(tet, slot), face(other, opposite))
+    assert np.sum(volumes(mesh)) == pytest.approx(1.0)
+
+
+def test_boundary_triangles_cover_the_boundary_and_know_their_tetrahedron():
+    mesh = build_mesh(block(3, 0.3, "mixed"))
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    assert np.sum(np.linalg.norm(np.cross(b - a, c - a), axis=1)) / 2.0 == pytest.approx(6.0)
+    tet, slot = np.nonzero(mesh.neighbours < 0)
+    assert np.array_equal(np.sort(-1 - mesh.neighbours[tet, slot]), np.arange(len(mesh.triangles)))
+    assert np.array_equal(mesh.triangle_tet[-1 - mesh.neighbours[tet, slot]], tet)
+    inside = mesh.centres[mesh.tets[mesh.triangle_tet, 0] - mesh.n_points]
+    assert np.all(np.einsum("ti,ti->t", inside - a, mesh.triangle_normals) > 0.0)
+
+
+def test_a_warped_face_is_cut_for_the_better_tetrahedra():
+    points = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+    points[7] = (0.4, 0.4, 0.45)
+    mesh = build_mesh(grid(points, [(12, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))]))
+    top = [set(face) for face in mesh.triangles.tolist() if set(face) <= {4, 5, 6, 7}]
+    assert {4, 7} <= top[0] & top[1]
+    assert mesh.inverted == 0
+
+
+def test_inverted_tetrahedra_are_counted():
+    mesh = build_mesh(block(3, 2.5))
+    assert mesh.inverted == np.count_nonzero(volumes(mesh) <= 0.0) > 0
+
+
+def test_the_faces_of_a_cell_around_another_turn_outwards():
+    """A cell like a U, its middle outside it, and the cell that fills the U."""
+    outline = np.array([(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)], dtype=float)
+    points = np.concatenate([np.column_stack([outline, np.full(8, z)]) for z in (0.0, 1.0)])
+
+    def prism(corners):
+        walls = [[a, b, b + 8, a + 8] for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]
+        return [corners, [k + 8 for k in corners], *walls]
+
+    mesh = build_mesh(polyhedra(points, [prism(list(range(8))), prism([5, 4, 3, 6])]))
+    assert mesh.volumes == pytest.approx([7.0, 2.0])
+    assert mesh.n_internal == 3
+    assert np.sum(volumes(mesh)) == pytest.approx(9.0)
+    outward = mesh.boundary_centres - np.array([1.5, 1.5, 0.5])
+    assert np.all(np.einsum("fi,fi->f", outward, mesh.boundary_areas) > 0.0)
+
+
+def test_faces_of_six_vertices():
+    angle = np.arange(6) * np.pi / 3.0
+    ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(6)])
+    points = np.concatenate([ring, ring + np.array([0, 0, 1]), ring + np.array([0, 0, 2])])
+    faces = [[[*range(6)], [*range(6, 12)], *([k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6] for k in range(6))]]
+    mesh = build_mesh(polyhedra(points, [faces[0], [[p + 6 for p in face] for face in faces[0]]]))
+    assert len(mesh.tets) == 2 * (4 + 4 + 6 * 2)
+    assert mesh.volumes == pytest.approx(1.5 * np.sqrt(3.0) * np.ones(2))
+    assert mesh.centres == pytest.approx(np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 1.5]]))
+
+
+def test_patches_keep_name_type_and_order():
+    shape = pipe(4)
+    patches = pipe_patches(shape)
+    mesh = build_mesh(shape, patches)
+    assert mesh.patches == (Patch("inlet", "patch"), Patch("outlet", "patch"), Patch("wall", "wall"))
+    assert np.array_equal(mesh.patch_start, [0, 48, 96, 160])
+    for index, patch in enumerate(patches):
+        own = mesh.boundary_centres[mesh.patch_start[index] : mesh.patch_start[index + 1]]
+        assert own == pytest.approx(patch.surface.cell_centers().points, abs=0.03)
+    assert np.all(mesh.boundary_areas[:48, 0] < 0.0)
+
+
+def test_single_precision_points_are_matched():
+    shape = pipe(4, length=0.1, radius=2.1e-3)
+    shape.points = shape.points.astype(np.float32)
+    mesh = build_mesh(shape, pipe_patches(shape, length=0.1))
+    assert mesh.points.dtype == np.float64
+    assert np.array_equal(mesh.points, shape.points.astype(float))
+
+
+def test_two_patches_on_the_same_points_are_told_apart():
+    """A baffle: the cells on its two sides do not share points."""
+    points, hexes = corners(1, 0.0)
+    two = np.concatenate([points, points + np.array([1.0, 0.0, 0.0])])
+    shape = grid(two, [(12, np.concatenate([hexes, hexes + 8]))])
+    faces = {"left": [1, 3, 7, 5], "right": [8, 12, 14, 10]}
+    surface = shape.extract_surface(algorithm="dataset_surface", pass_pointid=False, pass_cellid=False)
+    outer = np.flatnonzero(np.abs(surface.cell_centers().points[:, 0] - 1.0) > 1e-9)
+    patches = [("outer", "wall", surface.extract_cells(outer).extract_surface(algorithm="dataset_surface"))]
+    patches += [(name, "patch", pyvista.PolyData(two, [4, *face])) for name, face in faces.items()]
+    mesh = build_mesh(shape, [type(pipe_patches(pipe(2))[0])(*patch) for patch in patches])
+    normals = mesh.triangle_normals[:, 0]
+    assert np.all(normals[mesh.triangle_patch == 1] == -1.0)
+    assert np.all(normals[mesh.triangle_patch == 2] == 1.0)
+
+
+@pytest.mark.parametrize(("whole", "copies"), [(True, 25), (False, 10)])
+def test_a_baffle_parts_the_cells_on_its_two_sides(whole, copies, random):
+    """Two patches on the same interior faces, across the whole box or half of it."""
+    shape = block(4, 0.0)
+    points = np.asarray(shape.points)
+    hexes = shape.cells.reshape(-1, 9)[:, 1:]
+    middle = points[hexes].mean(axis=1)
+    at = np.flatnonzero((np.abs(middle[:, 0] - 0.375) < 1e-9) & (whole | (middle[:, 1] < 0.5)))
+    front = hexes[at][:, [1, 2, 6, 5]]
+    sides = {"west": front, "east": front[:, ::-1]}
+    patches = [
+        PatchSurface(name, "wall", pyvista.PolyData(points, np.column_stack([np.full(len(f), 4), f]).ravel()))
+        for name, f in sides.items()
+    ]
+    mesh = build_mesh(shape, [*box_patches(shape), *patches])
+    assert np.diff(mesh.patch_start)[3:].tolist() == [len(at), len(at)]
+    assert mesh.n_points == 125 + copies
+    assert mesh.inverted == 0
+    normals = mesh.triangle_normals[:, 0]
+    assert np.all(normals[mesh.triangle_patch == 3] == -1.0)
+    assert np.all(normals[mesh.triangle_patch == 4] == 1.0)
+    if not whole:
+        return
+    # A flow on one side alone; the wall between is at rest.
+    cells, faces = np.zeros((mesh.n_cells, 3)), np.zeros((len(mesh.boundary_centres), 3))
+    west = mesh.centres[:, 0] < 0.5
+    cells[west, 1] = 0.5 - mesh.centres[west, 0]
+    outer = mesh.patch_start[3]
+    faces[:outer, 1] = np.maximum(0.5 - mesh.boundary_centres[:outer, 0], 0.0)
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, faces))
+    x = np.column_stack([random.choice([0.45, 0.55], 100), 0.25 * random.random(100), random.random(100)])
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    assert u[:, 1] == pytest.approx(np.where(x[:, 0] < 0.5, 0.05, 0.0), abs=1e-12)
+    assert l[:, 1, 0] == pytest.approx(np.where(x[:, 0] < 0.5, -1.0, 0.0), abs=1e-11)
+
+
+def test_boundary_faces_without_patch_are_refused():
+    shape = block(2)
+    with pytest.raises(
+        InputError, match=r"4 of 24 boundary faces belong to no patch; the patches are floor, sides"
+    ):
+        build_mesh(shape, [patch for patch in box_patches(shape) if patch.name != "lid"])
+
+
+def test_boundary_faces_with_two_patches_are_refused():
+    shape = block(2)
+    patches = box_patches(shape)
+    with pytest.raises(InputError, match="4 boundary faces belong to more than one"):
+        build_mesh(shape, [*patches, patches[0]])
+
+
+def test_a_patch_beside_the_mesh_is_refused():
+    shape = block(2)
+    patches = box_patches(shape)
+    patches[0].surface.points += 0.25
+    with pytest.raises(InputError, match="4 of the 4 faces of patch floor are not on the boundary"):
+        build_mesh(shape, patches)
+
+
+def test_a_face_of_three_cells_is_refused():
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match="three or more cells"):
+        build_mesh(grid(points, [(12, np.concatenate([hexes, hexes, hexes]))]))
+
+
+def test_an_open_cell_is_refused():
+    points, hexes = corners(1, 0.0)
+    faces = [hexes[0][[0, 4, 7, 3]], hexes[0][[1, 2, 6, 5]], hexes[0][[0, 1, 5, 4]], hexes[0][[3, 7, 6, 2]]]
+    with pytest.raises(InputError, match="1 cells are not closed"):
+        build_mesh(polyhedra(points, [[*faces, hexes[0][[0, 3, 2, 1]]]]))
+
+
+def test_a_cell_with_too_few_points_is_refused():
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match="cell 0 has 6 points, but its type is hexahedron"):
+        build_mesh(grid(points, [(12, hexes[:, :6])]))
+
+
+def test_polyhedra_with_points_beyond_the_mesh_are_refused():
+    points, hexes = corners(1, 0.0)
+    faces = [hexes[0][list(face)] for face in HEXAHEDRON_FACES]
+    with pytest.raises(InputError, match="a cell names point 7, but there are 7 points"):
+        build_mesh(polyhedra(points[:7], [faces]))
+
+
+def test_polyhedra_whose_faces_are_not_there_are_refused():
+    points, hexes = corners(1, 0.0)
+    shape = polyhedra(points, [[hexes[0][list(face)] for face in HEXAHEDRON_FACES]])
+    vtk_to_numpy(shape.GetPolyhedronFaceLocations().GetConnectivityArray())[-1] = 6
+    with pytest.raises(InputError, match="the faces of the polyhedra do not fit its cells"):
+        build_mesh(shape)
+
+
+@pytest.mark.parametrize(("kind", "size"), [(11, 8), (9, 4)])
+def test_other_kinds_of_cell_are_refused(kind, size):
+    points, hexes = corners(1, 0.0)
+    with pytest.raises(InputError, match=f"cells of VTK type {kind}; allowed are tetrahedron"):
+        build_mesh(grid(points, [(kind, hexes[:, :size])]))

@@ -1,0 +1,420 @@
+"""Processor folders put together again, against the case that they were cut from."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from foam_writer import decompose, header, rows, write_case
+
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.flow.read.decomposed import (
+    Rebuilt,
+    is_only_decomposed,
+    processors,
+    read_decomposed_case,
+    read_decomposed_series,
+)
+from foamprb.flow.read.foamfile import read_boundary, read_faces, read_field, read_labels, read_vectors
+from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.series import read_series
+
+TIMES = ("0", "0.5", "1e1")
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    case = tmp_path_factory.mktemp("decomposed") / "case"
+    mesh = write_case(case, "mixed")
+    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells), TIMES)
+    return case
+
+
+@pytest.fixture
+def case(written, tmp_path):
+    shutil.copytree(written, tmp_path / "case")
+    return tmp_path / "case"
+
+
+def alone(case):
+    """Leave nothing but the processor folders."""
+    shutil.rmtree(case / "constant")
+    for time in TIMES:
+        shutil.rmtree(case / time)
+    return case
+
+
+def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
+    whole, parts = read_case(written, 0.5), read_decomposed_case(written, 0.5)
+    assert parts.patches == whole.patches
+    for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
+        np.testing.assert_array_equal(a, b, err_msg=name)
+    assert parts.notes == ("The flow was put together from 3 processor folders.", *whole.notes)
+
+
+def test_a_part_may_be_empty(tmp_path):
+    """As those of regions that do not reach to every processor."""
+    mesh = write_case(tmp_path / "case", "polyhedra", times=("0",))
+    parts = np.zeros(mesh.n_cells, dtype=int)
+    parts[mesh.n_cells // 2 :] = 2
+    decompose(tmp_path / "case", mesh, parts, ("0",))
+    assert len(read_labels(tmp_path / "case/processor1/constant/polyMesh/owner")) == 0
+    a, b = read_case(tmp_path / "case"), read_decomposed_case(tmp_path / "case")
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+
+
+def test_a_series_of_times_too(written, random):
+    whole, parts = read_series(written), read_decomposed_series(written)
+    x = random.random((20, 3))
+    for t in (0.0, 0.2, 0.5, 7.0):
+        for a, b in zip(*(flow.sample(x, flow.locate(x), t) for flow in (whole, parts)), strict=True):
+            np.testing.assert_array_equal(a, b)
+
+
+def into_region(case):
+    """Make the mesh of a case and its parts that of a region."""
+    for folder in (case, *case.glob("processor*")):
+        for part in (folder / "constant", *(folder / time for time in TIMES)):
+            (part / "air").mkdir()
+            for path in [p for p in part.iterdir() if p.name != "air"]:
+                path.rename(part / "air" / path.name)
+    return case
+
+
+def add_gradient(case):
+    """Give every cell of a case and its parts a gradient of its own, at each time another."""
+    values = np.random.default_rng(2).random((read_case(case).mesh.n_cells, 9))
+    parts = [(case, np.arange(len(values)))]
+    for path in case.glob("processor*"):
+        parts.append((path, read_labels(path / "constant/polyMesh/cellProcAddressing")))
+    for folder, cells in parts:
+        names = re.findall(r"(\w+)\s*\{ type", (folder / "constant/polyMesh/boundary").read_text())
+        patches = "".join(
+            f"{name} {{ type {'processor' if name.startswith('proc') else 'calculated'};"
+            " value uniform (0 0 0 0 0 0 0 0 0); }\n"
+            for name in ["floor", "lid", "sides", *(n for n in names if n.startswith("proc"))]
+        )
+        for factor, time in enumerate(TIMES):
+            (folder / time / "grad(U)").write_text(
+                header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+                f"internalField nonuniform List<tensor> {len(cells)}\n(\n{rows(factor * values[cells])}\n);\n"
+                f"boundaryField\n{{\n{patches}}}\n"
+            )
+    return case
+
+
+def test_regions_and_given_gradients_are_put_together_too(case, random):
+    into_region(add_gradient(case))
+    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_decomposed_case))
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+    whole, parts = (
+        read(case, region="air", gradient="grad(U)") for read in (read_series, read_decomposed_series)
+    )
+    x = random.random((20, 3))
+    for t in (0.0, 0.2, 7.0):
+        found, expected = (flow.sample(x, flow.locate(x), t) for flow in (parts, whole))
+        np.testing.assert_array_equal(found[0], expected[0])
+        np.testing.assert_array_equal(found[1], expected[1])
+    assert np.abs(expected[1]).max() > 0.1
+
+
+def test_regions_of_parts_alone(case, capsys):
+    alone(into_region(case))
+    assert is_only_decomposed(case, "air")
+    with pytest.raises(InputError, match=r"divided into regions; choose one with -region\. Allowed: air"):
+        read_decomposed_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_decomposed_case(case, region="aire")
+    assert main(["info", "-case", str(case), "-region", "air"]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"^Region +air$", out, re.MULTILINE)
+    assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
+    with pytest.raises(InputError, match=r"processor0/0\.5/air/grad\(U\): no such file"):
+        read_decomposed_case(case, 0.5, region="air", gradient="grad(U)")
+
+
+def test_compressed_files_are_read_alike(case):
+    for path in [*case.glob("processor*/*/U"), *case.glob("processor*/constant/polyMesh/*")]:
+        with gzip.open(f"{path}.gz", "wb") as file:
+            file.write(path.read_bytes())
+        path.unlink()
+    a, b = read_case(case), read_decomposed_case(case)
+    np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
+
+
+def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    whole = Rebuilt(written)
+    folder = whole.folder
+    assert (folder / "constant/polyMesh/points").is_file()
+    del whole
+    assert not folder.exists()
+    flow = read_decomposed_case(written)
+    (folder,) = tmp_path.iterdir()
+    del flow
+    assert not folder.exists()
+
+
+def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    of_others = [tmp_path / "foamprb-benchmark-1", tmp_path / "foamprb-scratch-mine"]
+    for folder in of_others:
+        folder.mkdir()
+        (folder / "results.csv").write_text("of a day's work")
+    script = (
+        "import os, signal, sys\nfrom pathlib import Path\nfrom foamprb.flow.read.decomposed import Rebuilt\n"
+        "whole = Rebuilt(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
+        "os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    command = [sys.executable, "-c", script, str(written)]
+    other = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
+    )
+    with other:
+        left = Path(other.stdout.readline().strip())
+        first = Rebuilt(written)
+        assert left.is_dir()
+        other.communicate("x")
+    assert other.returncode == -signal.SIGKILL
+    assert left.is_dir()
+    second = Rebuilt(written)
+    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder, *of_others])
+    assert all((folder / "results.csv").exists() for folder in of_others)
+
+
+def test_parts_alone_are_found_and_described(case, capsys):
+    assert not is_only_decomposed(case)
+    alone(case)
+    assert is_only_decomposed(case)
+    assert main(["info", "-case", str(case)]) == 0
+    out = capsys.readouterr().out
+    assert re.search(rf"^Case +{case}$", out, re.MULTILINE)
+    assert re.search(r"^ +lid +\d+ faces +patch$", out, re.MULTILINE)
+    assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
+
+
+def test_zones_of_cells_are_put_together(case):
+    for part in range(3):
+        n = len(read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing"))
+        zone = f"first {{ type cellZone; cellLabels List<label> 2 (0 {n - 1}); }}"
+        none = "none { type cellZone; cellLabels List<label> 0 (); }"
+        (case / f"processor{part}/constant/polyMesh/cellZones").write_text(
+            header("regIOobject", "cellZones") + f"2 ( {zone} {none} )"
+        )
+    flow = read_decomposed_case(case)
+    found = np.unique(flow.cell_of(flow.cell_zone("first").hosts))
+    expected = [read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing")[[0, -1]]
+                for part in range(3)]  # fmt: skip
+    np.testing.assert_array_equal(found, np.unique(expected))
+    assert len(flow.cell_zone("none").hosts) == 0
+
+
+def lose(path):
+    return lambda case: (case / path).unlink()
+
+
+def replace(path, pattern, text):
+    def change(case):
+        file = case / path
+        old = file.read_text()
+        new = re.sub(pattern, text, old, count=1)
+        assert new != old
+        file.write_text(new)
+
+    return change
+
+
+POLY = "processor1/constant/polyMesh"
+FIELD = "processor1/1e1/U"
+
+
+def collate(case):
+    for path in case.glob("processor*"):
+        shutil.rmtree(path)
+    (case / "processors3").mkdir()
+
+
+MISTAKES = {
+    "a processor misses a time": (
+        lambda case: shutil.rmtree(case / "processor2/0.5"),
+        r"processor2: no time 0.5, which processor0 has",
+    ),
+    "a processor has a time too many": (
+        lambda case: shutil.copytree(case / "processor1/0.5", case / "processor1/0.7"),
+        r"processor0: no time 0.7, which processor1 has",
+    ),
+    "a processor is missing": (
+        lambda case: shutil.rmtree(case / "processor1"),
+        r"processor1: no such folder, but there is processor2",
+    ),
+    "no addressing": (
+        lose(f"{POLY}/cellProcAddressing"), r"cellProcAddressing: no such file. Without decomposePar's",
+    ),
+    "no velocity": (lose(FIELD), r"processor1/1e1/U: no such file"),
+    "no points": (lose(f"{POLY}/points"), r"processor1/constant/polyMesh/points: no such file"),
+    "cut short": (
+        replace(FIELD, r"(?s)\)\s*;\s*// of the part.*", ""),
+        r"processor1/1e1/U: line \d+: .* expected; the file is broken or cut short",
+    ),
+    "half of the field": (
+        replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
+    ),
+    "no whole number": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n0.5\n"), r"owner: line \d+: a list of whole numbers",
+    ),
+    "a number beyond all": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
+    ),
+    "a point beyond all": (
+        replace(f"{POLY}/faces", r"\n4\(\d+", "\n4(99999999999999999999"), r"faces: line \d+: a list of f",
+    ),
+    "a length below zero": (
+        replace(f"{POLY}/faces", r"\n4\(", "\n-4("), r"faces: line \d+: a list of \d+ faces",
+    ),
+    "infinite": (
+        replace(f"{POLY}/owner", r"\n0\n", "\ninf\n"), r"a list of whole numbers",
+    ),
+    "a count beyond all": (
+        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
+    ),
+    "a number that is none": (
+        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of whole numbers",
+    ),
+    "another count": (
+        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n9"),
+        r"polyMesh/owner: line \d+: a list of 9 entries, not \d+, expected",
+    ),
+    "an index too large": (
+        replace(f"{POLY}/owner", r"\n0\n", "\n999\n"), r"owner: an index outside 0 to \d+",
+    ),
+    "parts of another case": (
+        replace(f"{POLY}/cellProcAddressing", r"\(\n\d+", "(\n999"), r"do not make a whole mesh",
+    ),
+    "a cell twice": (
+        replace(f"{POLY}/cellProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "a point of another's": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"),
+        r"do not make a whole mesh",
+    ),
+    "a point that differs": (
+        replace(f"{POLY}/points", r"\(\n\(\S+", "(\n(0.125"), r"do not make a whole mesh",
+    ),
+    "a face twice": (
+        replace(f"{POLY}/faceProcAddressing", r"\(\n\d+\n(\d+)", r"(\n\1\n\1"), r"do not make a whole mesh",
+    ),
+    "an address beyond all": (
+        replace(f"{POLY}/pointProcAddressing", r"\(\n\d+", "(\n2147483647"), r"do not make a whole mesh",
+    ),
+    "a mesh that moves": (
+        lambda case: (case / "processor0/0.5/polyMesh").mkdir(),
+        r"processor0/0.5/polyMesh: the mesh changes in time",
+    ),
+    "the wrong field": (
+        replace(FIELD, "volVectorField", "volScalarField"), r"the class is volScalarField",
+    ),
+    "a patch without values": (
+        replace(FIELD, r"lid \{", "lidd {"), r"processor1/1e1/U: no boundaryField for the patch lid",
+    ),
+    "collated": (collate, r"processors3: the collated format is not read"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_named(mistake, case):
+    break_it, message = MISTAKES[mistake]
+    break_it(case)
+    with pytest.raises(InputError, match=message) as caught:
+        read_decomposed_case(case)
+    assert "foamprb-" not in str(caught.value)
+
+
+def test_messages_of_the_reader_name_the_case(case):
+    with pytest.raises(InputError, match=re.escape(f"{case}: no time 7; the times are 0, 0.5, 1e1.")):
+        read_decomposed_case(case, 7)
+
+
+def test_processors_are_in_the_order_of_their_numbers(tmp_path):
+    for number in range(11):
+        (tmp_path / f"processor{number}").mkdir()
+    assert [path.name for path in processors(tmp_path)] == [f"processor{number}" for number in range(11)]
+
+
+@pytest.mark.parametrize("binary", [False, True])
+def test_lists_are_read_in_all_their_forms(tmp_path, binary):
+    kind = "binary" if binary else "ascii"
+    points = np.array([[0.1, -2e-7, 3.0], [4.0, 5.0, 6.0]])
+
+    def write(name, cls, *parts, arch="LSB;label=32;scalar=64"):
+        head = f'FoamFile {{ version 2.0; format {kind}; class {cls}; arch "{arch}"; }}\n'
+        (tmp_path / name).write_bytes(head.encode() + b"".join(parts))
+        return tmp_path / name
+
+    def block(values, dtype):
+        return f"{len(values)}\n(".encode() + np.asarray(values).astype(dtype).tobytes() + b")\n"
+
+    if binary:
+        assert np.array_equal(read_vectors(write("p", "vectorField", block(points, "<f8"))), points)
+        swapped = write("p", "vectorField", block(points, ">f8"), arch="MSB;label=32;scalar=64")
+        assert np.array_equal(read_vectors(swapped), points)
+        single = write("p", "vectorField", block(points, "<f4"), arch="LSB;label=64;scalar=32")
+        assert np.array_equal(read_vectors(single), points.astype("f4"))
+        long = write("o", "labelList", block([3, -1], "<i8"), arch="LSB;label=64;scalar=64")
+        assert read_labels(long).tolist() == [3, -1]
+        faces = write("f", "faceCompactList", block([0, 3, 7], "<i4"), block([0, 1, 2, 3, 2, 1, 0], "<i4"))
+        short = write("s", "vectorField", block(points, "<f8")[:-10])
+        with pytest.raises(InputError, match="a list of 2 entries in binary expected"):
+            read_vectors(short)
+    else:
+        assert np.array_equal(
+            read_vectors(write("p", "vectorField", b"2 ( (.1 -2e-7 3) // a\n(4 5 6) )")), points
+        )
+        assert read_labels(write("o", "labelList", b"4{7}")).tolist() == [7, 7, 7, 7]
+        assert read_labels(write("o", "labelList", b"3(3 -1 2)")).tolist() == [3, -1, 2]
+        faces = write("f", "faceList", b"2 ( 3(0 1 2) /* quad */ 4(3 2 1 0) )")
+    assert read_labels(write("o", "labelList", b"0()\n")).tolist() == []
+    start, of_faces = read_faces(faces)
+    assert (start.tolist(), of_faces.tolist()) == ([0, 3, 7], [0, 1, 2, 3, 2, 1, 0])
+
+
+def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
+    file = tmp_path / "U"
+    vectors = np.arange(6.0).reshape(2, 3)
+    list_of_two = b"nonuniform List<vector> 2\n(" + vectors.tobytes() + b")"
+    file.write_bytes(
+        b'FoamFile { version 2.0; format binary; class volVectorField; arch "LSB;label=32;scalar=64"; }\n'
+        b"dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (1 2 3);\nboundaryField\n{\n"
+        b"inlet { type flowRateInletVelocity; flowRate table ((0 1) (1 2)); value " + list_of_two + b"; }\n"
+        b"outlet { type inletOutlet; inletValue uniform (0 0 0); phi phi; value uniform (7 8 9); }\n"
+        b"mixed { type mixed; refGradient " + list_of_two + b"; valueFraction nonuniform List<scalar> 1\n("
+        + np.ones(1).tobytes() + b"); value nonuniform List<vector> 0; }\n"
+        b'"(a|b)" { type noSlip; }\n}\n'
+    )  # fmt: skip
+    field = read_field(file)
+    assert field.cells.tolist() == [[1, 2, 3]]
+    assert {name: kind for name, (kind, _) in field.patches.items()} == {
+        "inlet": "flowRateInletVelocity", "outlet": "inletOutlet", "mixed": "mixed", "(a|b)": "noSlip",
+    }  # fmt: skip
+    assert field.patches["inlet"][1].tolist() == vectors.tolist()
+    assert field.patches["outlet"][1].tolist() == [[7, 8, 9]]
+    assert len(field.patches["mixed"][1]) == 0
+    assert field.patches["(a|b)"][1] is None
+
+
+def test_patches_keep_all_their_entries(written):
+    patch = read_boundary(written / "processor0/constant/polyMesh/boundary", written)[0]
+    assert patch.entries["inGroups"].split() == ["1", "(", "some", ")"]

@@ -1,0 +1,425 @@
+from __future__ import annotations
+
+import json
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+from mesh_shapes import block, box_patches, corners, grid
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import Patch, build_mesh
+from foamprb.flow.read import trial
+from foamprb.flow.read.meshfile import Division, describe_file, read_mesh_file, read_mesh_series
+from foamprb.flow.walk import MeshFlow
+
+GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
+
+
+def flowing(kind="hexahedra", factor=1.0):
+    shape = block(4 if kind == "polyhedra" else 3, 0.2, kind)
+    shape.cell_data["U"] = factor * build_mesh(shape).centres @ GRADIENT.T
+    return shape
+
+
+def write_series(folder, first=1.0):
+    """Two times of a flow as foamToVTK leaves them."""
+    for name, factor in (("case_1", first), ("case_2", 2.0)):
+        shape = flowing(factor=factor)
+        patches = {}
+        for patch in box_patches(shape):
+            moving = factor * patch.surface.cell_centers().points @ GRADIENT.T
+            patch.surface.cell_data["U"] = moving * (patch.name != "sides")
+            patches[patch.name] = patch.surface
+        pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(
+            folder / f"{name}.vtm"
+        )
+    path = folder / "case.vtm.series"
+    times = [{"name": "case_1.vtm", "time": 0.5}, {"name": "case_2.vtm", "time": 10}]
+    path.write_text(json.dumps({"file-series-version": "1.0", "files": times}))
+    return path
+
+
+def test_flat_cells_are_left_out_and_told(tmp_path):
+    """Triangles on a side, as some meshers leave them among the cells."""
+    shape = flowing("tetrahedra")
+    side = shape.extract_surface(algorithm=None)
+    both = shape.merge(side.cast_to_unstructured_grid())
+    both.cell_data["U"] = np.zeros((both.n_cells, 3))
+    both.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu")
+    assert flow.mesh.n_cells == shape.n_cells
+    assert any(
+        f"{side.n_cells} points, lines and surfaces among the cells are left out" in n for n in flow.notes
+    )
+
+
+def test_a_series_of_foam_to_vtk(tmp_path):
+    path = write_series(tmp_path)
+    assert read_mesh_file(path).patches == (
+        Patch("floor", "patch"), Patch("lid", "patch"), Patch("sides", "wall")
+    )  # fmt: skip
+    x = np.array([[0.4, 0.5, 0.6]])
+    flow = read_mesh_file(tmp_path / "case_1.vtm")
+    first, _ = flow.sample(x, flow.locate(x), 0.0)
+    for time, factor in (("latestTime", 2.0), (0.5, 1.0), ("10", 2.0)):
+        flow = read_mesh_file(path, time=time)
+        u, _ = flow.sample(x, flow.locate(x), 0.0)
+        # The sides are at rest, which the middle feels.
+        assert u == pytest.approx(factor * first, rel=1e-6)
+    with pytest.raises(InputError, match=r"no time 3; the times are 0\.5, 10"):
+        read_mesh_file(path, time=3)
+
+
+TIMES = (0.5, 1.0, 10.0)
+
+
+def at(time):
+    return flowing(factor=time)
+
+
+def write_vtkhdf(path, shapes):
+    """Several times in one file."""
+    key = vtkStreamingDemandDrivenPipeline
+
+    class Source(VTKPythonAlgorithmBase):
+        def __init__(self):
+            super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+
+        def RequestInformation(self, _request, _inputs, outputs):
+            for time in TIMES:
+                outputs.GetInformationObject(0).Append(key.TIME_STEPS(), time)
+            for time in (TIMES[0], TIMES[-1]):
+                outputs.GetInformationObject(0).Append(key.TIME_RANGE(), time)
+            return 1
+
+        def RequestData(self, _request, _inputs, outputs):
+            about = outputs.GetInformationObject(0)
+            time = about.Get(key.UPDATE_TIME_STEP()) if about.Has(key.UPDATE_TIME_STEP()) else TIMES[0]
+            about.Get(vtkDataObject.DATA_OBJECT()).ShallowCopy(shapes[TIMES.index(time)])
+            return 1
+
+    writer, source = vtkHDFWriter(), Source()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetFileName(str(path))
+    writer.SetWriteAllTimeSteps(True)
+    writer.Write()
+
+
+def write_times(folder, suffix, shapes):
+    """A file of several times."""
+    path = folder / f"flow{suffix}"
+    if suffix == ".vtkhdf":
+        write_vtkhdf(path, shapes)
+        return path
+    for k, shape in enumerate(shapes):
+        shape.save(folder / f"flow{k}.vtu")
+    names = [(f"flow{k}.vtu", time) for k, time in enumerate(TIMES)]
+    if suffix == ".pvd":
+        entries = "".join(f'<DataSet timestep="{time}" file="{name}"/>' for name, time in names)
+        path.write_text(
+            '<?xml version="1.0"?><VTKFile type="Collection" version="0.1">'
+            f"<Collection>{entries}</Collection></VTKFile>"
+        )
+    else:
+        path.write_text(json.dumps({"files": [{"name": name, "time": time} for name, time in names]}))
+    return path
+
+
+@pytest.mark.parametrize("where", ["cell_data", "point_data"])
+@pytest.mark.parametrize("suffix", [".vtu.series", ".pvd", ".vtkhdf"])
+def test_a_file_of_several_times_is_a_transient_flow(suffix, where, tmp_path, random):
+    shapes = [at(time) for time in TIMES]
+    if where == "point_data":
+        for time, shape in zip(TIMES, shapes, strict=True):
+            shape.clear_data()
+            shape.point_data["U"] = time * shape.points @ GRADIENT.T
+    path = write_times(tmp_path, suffix, shapes)
+    flow = read_mesh_series(path)
+    assert flow.times == TIMES
+    x = random.random((50, 3))
+    for t in (0.5, 0.6, 1.0, 7.0, 10.0):
+        u, l = flow.sample(x, flow.locate(x), t)
+        assert u == pytest.approx(t * x @ GRADIENT.T, abs=1e-6 * t)
+        assert l == pytest.approx(np.broadcast_to(t * GRADIENT, l.shape), abs=1e-5 * t)
+    chosen = read_mesh_series(path, "1:")
+    assert chosen.times == (1.0, 10.0)
+    assert read_mesh_series(path, "1:", 10.0).period == 10.0
+    single = read_mesh_series(path, "1")
+    assert isinstance(single, MeshFlow)
+    for steady, t in ((single, 1.0), (read_mesh_file(path), 10.0), (read_mesh_file(path, time=0.5), 0.5)):
+        assert steady.sample(x, steady.locate(x), 0.0)[0] == pytest.approx(t * x @ GRADIENT.T, abs=1e-6 * t)
+    with pytest.raises(InputError, match=r"no time in 2:9; the times go from 0\.5 to 10"):
+        read_mesh_series(path, "2:9")
+    assert "    0.5, 1, 10" in describe_file(path)
+
+
+def test_a_patch_that_moves_later_is_no_wall(tmp_path):
+    path = write_series(tmp_path, first=0.0)
+    assert read_mesh_file(path, time=0.5).patches[1] == Patch("lid", "wall")
+    flow = read_mesh_series(path)
+    assert [patch.type for patch in flow.patches] == ["patch", "patch", "wall"]
+    x = np.array([[0.4, 0.5, 0.6]])
+    whole = read_mesh_file(path)
+    last, _ = whole.sample(x, whole.locate(x), 0.0)
+    for t, share in ((0.5, 0.0), (5.25, 0.5), (10.0, 1.0)):
+        assert flow.sample(x, flow.locate(x), t)[0] == pytest.approx(share * last, abs=1e-12)
+
+
+def test_a_gradient_is_taken_at_every_time(tmp_path, random):
+    gradients = random.random((3, 27, 3, 3))
+    shapes = [at(time) for time in TIMES]
+    for shape, l in zip(shapes, gradients, strict=True):
+        shape.cell_data["grad(U)"] = l.transpose(0, 2, 1).reshape(-1, 9)
+    flow = read_mesh_series(write_times(tmp_path, ".pvd", shapes), gradient="grad(U)")
+    x = flow.mesh.centres
+    assert flow.sample(x, flow.locate(x), 0.75)[1] == pytest.approx(gradients[:2].mean(axis=0), abs=1e-12)
+
+
+def other_points(shape):
+    shape.points[13] += 0.01
+
+
+def other_array(shape):
+    shape.clear_data()
+
+
+def short(shape):
+    shape.cell_data["U"] = np.ones(27)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (other_points, r"the mesh of time 10 is not that of time 0\.5; only meshes at rest"),
+        (other_array, "no array U at one of its times"),
+        (short, r"array U has shape \(27,\)"),
+    ],
+)
+def test_a_time_that_does_not_fit_is_refused_when_it_is_read(change, message, tmp_path):
+    shapes = [at(time) for time in TIMES]
+    change(shapes[2])
+    flow = read_mesh_series(write_times(tmp_path, ".pvd", shapes))
+    flow.load(0.5, 0.6)
+    with pytest.raises(InputError, match=message):
+        flow.load(1.5, 1.6)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "not a list of files"),
+        ("[]", "not a list of files"),
+        ('{"files": []}', "the list of files is empty"),
+        ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu is not there"),
+        ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series is not there"),
+        ('{"files": [{"time": 1}]}', "not a list of files"),
+    ],
+)
+def test_broken_series(text, message, tmp_path):
+    (tmp_path / "case.vtm.series").write_text(text)
+    with pytest.raises(InputError, match=message):
+        read_mesh_file(tmp_path / "case.vtm.series")
+
+
+def test_patches_end_at_edges(tmp_path):
+    flowing().save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=30.0))
+    assert [patch.type for patch in flow.patches] == ["wall"] * 6
+    assert np.diff(flow.mesh.patch_start).tolist() == [9] * 6
+    for index in range(6):
+        normals = flow.mesh.triangle_normals[flow.mesh.triangle_patch == index]
+        assert np.all(normals == normals[0])
+    whole = read_mesh_file(tmp_path / "flow.vtu", division=Division(feature_angle=100.0))
+    assert [patch.name for patch in whole.patches] == ["boundary0"]
+
+
+def test_patches_by_an_array_on_surface_cells(tmp_path):
+    points, hexes = corners(2, 0.1)
+    low = hexes[points[hexes].mean(axis=1)[:, 2] < 0.5][:, :4]
+    high = hexes[points[hexes].mean(axis=1)[:, 2] > 0.5][:, 4:]
+    shape = grid(points, [(12, hexes), (9, low), (9, high)])
+    shape.cell_data["U"] = np.ones((16, 3))
+    shape.cell_data["CellEntityIds"] = np.repeat([7, 1, 2], [8, 4, 4])
+    shape.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityIds"))
+    assert {patch.name for patch in flow.patches} == {"boundary", "boundary1", "boundary2"}
+    assert np.all(flow.patch_faces("boundary1", 0.0).vertices[..., 2] == 0.0)
+    assert np.all(flow.patch_faces("boundary2", 0.0).vertices[..., 2] == 1.0)
+    assert len(flow.patch_faces("boundary", 0.0).areas) == 32
+    with pytest.raises(InputError, match=r"no cell array CellEntityId\. Did you mean 'CellEntityIds'"):
+        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityId"))
+    with pytest.raises(InputError, match="cell array U is not one of whole numbers"):
+        read_mesh_file(tmp_path / "flow.vtu", division=Division(array="U"))
+
+
+def test_physical_groups_of_gmsh_name_the_patches(tmp_path):
+    points, hexes = corners(1, 0.0)
+    mesh = meshio.Mesh(
+        points,
+        [("hexahedron", hexes), ("quad", np.concatenate([hexes[:, :4], hexes[:, 4:]]))],
+        point_data={"U": np.ones((8, 3))},
+        cell_data={
+            name: [np.array([9]), np.array([1, 2])] for name in ("gmsh:physical", "gmsh:geometrical")
+        },
+        field_data={"air": np.array([9, 3]), "inlet": np.array([1, 2]), "outlet": np.array([2, 2])},
+    )  # fmt: skip
+    mesh.write(tmp_path / "flow.msh", file_format="gmsh22")
+    flow = read_mesh_file(tmp_path / "flow.msh", division=Division(array="gmsh:physical"))
+    assert {patch.name for patch in flow.patches} == {"boundary", "inlet", "outlet"}
+
+
+def test_a_given_gradient_is_taken(tmp_path, random):
+    shape = flowing("prisms")
+    gradients = random.random((shape.n_cells, 3, 3))
+    shape.cell_data["grad(U)"] = gradients.transpose(0, 2, 1).reshape(-1, 9)
+    shape.save(tmp_path / "flow.vtu")
+    flow = read_mesh_file(tmp_path / "flow.vtu", gradient="grad(U)")
+    centres = flow.mesh.centres
+    assert flow.sample(centres, flow.locate(centres), 0.0)[1] == pytest.approx(gradients, abs=1e-12)
+    with pytest.raises(InputError, match=r"no cell array grad\(V\)"):
+        read_mesh_file(tmp_path / "flow.vtu", gradient="grad(V)")
+    with pytest.raises(InputError, match="a gradient has 9 components"):
+        read_mesh_file(tmp_path / "flow.vtu", gradient="U")
+
+
+@pytest.mark.parametrize("suffix", [".vtkhdf", ".vtu"])
+@pytest.mark.parametrize("kind", ["hexahedra", "polyhedra", "mixed"])
+def test_kinds_of_cells_in_vtk_files(suffix, kind, tmp_path, random):
+    if suffix == ".vtkhdf" and kind == "polyhedra":
+        pytest.skip("VTK does not write polyhedra to this format")
+    flowing(kind).save(tmp_path / f"flow{suffix}")
+    flow = read_mesh_file(tmp_path / f"flow{suffix}")
+    x = random.random((100, 3))
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    assert u == pytest.approx(x @ GRADIENT.T, abs=1e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+
+
+def test_a_cell_that_names_a_wrong_point_is_told_by_the_boundary(tmp_path):
+    points, hexes = corners(2, 0.2)
+    for wrong in (False, True):
+        if wrong:
+            hexes[3, 1] = 1
+        shape = grid(points, [(12, hexes)])
+        shape.cell_data["U"] = np.ones((8, 3))
+        shape.save(tmp_path / "flow.vtu")
+        for division in (None, Division(feature_angle=30.0)):
+            flow = read_mesh_file(tmp_path / "flow.vtu", division=division)
+            assert flow.mesh.inverted == 0
+            assert ("more than two boundary faces meet" in flow.notes[0]) == wrong
+
+
+def test_pieces_of_a_parallel_file_are_joined(tmp_path):
+    shape = flowing()
+    left = shape.cell_centers().points[:, 0] < 0.34
+    for k, part in enumerate((left, ~left)):
+        shape.extract_cells(np.flatnonzero(part)).save(tmp_path / f"flow_{k}.vtu")
+    arrays = '<PDataArray type="Float64" Name="U" NumberOfComponents="3"/>'
+    (tmp_path / "flow.pvtu").write_text(
+        '<?xml version="1.0"?><VTKFile type="PUnstructuredGrid" version="1.0" header_type="UInt32">'
+        f'<PUnstructuredGrid GhostLevel="0"><PCellData>{arrays}</PCellData><PPoints>'
+        '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
+        '<Piece Source="flow_0.vtu"/><Piece Source="flow_1.vtu"/></PUnstructuredGrid></VTKFile>'
+    )
+    flow = read_mesh_file(tmp_path / "flow.pvtu")
+    assert flow.mesh.n_points == 64
+    assert len(flow.mesh.boundary_centres) == 54
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 0.9, 0.97])
+@pytest.mark.parametrize("binary", [True, False])
+def test_a_legacy_file_cut_short_is_refused(share, binary, tmp_path, capfd):
+    points, hexes = corners(3, 0.1)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.random.default_rng(0).random((27, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=binary)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: int(share * len(whole))])
+    with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize(("kind", "name"), [(9, "cell of VTK type 9"), (10, "tetrahedron")])
+def test_a_cell_of_another_type_than_its_points_is_refused(kind, name, tmp_path):
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=False)
+    text = path.read_text()
+    path.write_text(text.replace("CELL_TYPES 8\n12", f"CELL_TYPES 8\n{kind}"))
+    with pytest.raises(InputError, match=f"a {name} has not 4 points"):
+        read_mesh_file(path)
+
+
+@pytest.mark.parametrize("start", [1 << 40, 14336, 5])
+def test_starts_of_cells_that_do_not_fit_are_refused(start, tmp_path):
+    """The second offset in a legacy file, of 64 bits."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtk"
+    shape.save(path, binary=True)
+    data = path.read_bytes()
+    at = data.index(b"\n", data.index(b"OFFSETS")) + 1 + 8
+    assert int.from_bytes(data[at : at + 8], "big") == 8
+    path.write_bytes(data[:at] + start.to_bytes(8, "big") + data[at + 8 :])
+    with pytest.raises(InputError, match=r"flow\.vtk"):
+        read_mesh_file(path)
+
+
+def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
+    """The points are said to lie in no compressed block instead of one."""
+    points, hexes = corners(2, 0.2)
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((8, 3))
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    text = path.read_text()
+    assert "AQAAAACAAACIAgAA" in text
+    path.write_text(text.replace("AQAAAACAAACIAgAA", "AAAAAACAAACIAgAA"))
+    with pytest.raises(InputError, match=r"flow\.vtu: VTK"):
+        read_mesh_file(path)
+
+
+def test_a_file_that_vtk_never_ends_with_is_refused(tmp_path, monkeypatch):
+    """It counts up to a number of components that is none."""
+    monkeypatch.setattr(trial, "_LEAST_TIME", 1)
+    path = tmp_path / "flow.vtu"
+    flowing().save(path)
+    text = path.read_text()
+    assert 'Name="U" NumberOfComponents="3"' in text
+    path.write_text(
+        text.replace('Name="U" NumberOfComponents="3"', f'Name="U" NumberOfComponents="{20 * "9"}"')
+    )
+    with pytest.raises(InputError, match="VTK has not come to an end within 1 s of processor time"):
+        read_mesh_file(path)
+
+
+def test_inside_out_cells_are_refused(tmp_path):
+    points, hexes = corners(1, 0.0)
+    points[:, 2] *= -0.0
+    shape = grid(points, [(12, hexes)])
+    shape.cell_data["U"] = np.ones((1, 3))
+    shape.save(tmp_path / "flow.vtu")
+    with pytest.raises(InputError, match="1 of 1 cells have no positive volume; the first is cell 0"):
+        read_mesh_file(tmp_path / "flow.vtu")
+
+
+@pytest.mark.parametrize("time", ["inf", "nan"])
+def test_a_time_that_is_none_is_refused(tmp_path, time):
+    flowing("tetrahedra").save(tmp_path / "flow_0.vtu")
+    flowing("tetrahedra").save(tmp_path / "flow_1.vtu")
+    sets = (f'<DataSet timestep="{t}" file="flow_{k}.vtu"/>' for k, t in enumerate(("0", time)))
+    head = '<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
+    (tmp_path / "flow.pvd").write_text(f"{head}{''.join(sets)}</Collection></VTKFile>")
+    with pytest.raises(InputError, match=rf"flow.pvd: the time {time} is none"):
+        read_mesh_file(tmp_path / "flow.pvd")

@@ -1,0 +1,455 @@
+from __future__ import annotations
+
+import gzip
+import re
+import shutil
+
+import numpy as np
+import pytest
+import pyvista
+from foam_writer import GRADIENT, Format, header, write_case
+from mesh_shapes import block, box_patches, corners, grid, pipe
+from paths import PIPE
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import Patch, build_mesh
+from foamprb.flow.read.meshfile import read_mesh_file
+from foamprb.flow.read.openfoam import available_times, describe, read_case, read_fields, select_time
+
+POLY = "constant/polyMesh/"
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_case(tmp_path / "case")
+    return tmp_path / "case"
+
+
+def edit(path, pattern, replacement, count=1):
+    text = path.read_text()
+    changed = re.sub(pattern, replacement, text, count=count)
+    assert changed != text
+    path.write_text(changed)
+
+
+@pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed"])
+def test_a_case_is_read_as_it_was_written(kind, tmp_path):
+    written = write_case(tmp_path, kind)
+    mesh, cells, boundary, name = read_fields(tmp_path)
+    assert name == "1e1"
+    assert mesh.patches == (Patch("floor", "wall"), Patch("lid", "patch"), Patch("sides", "wall"))
+    assert np.array_equal(mesh.patch_start, written.patch_start)
+    assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
+    assert mesh.boundary_centres == pytest.approx(written.boundary_centres, abs=1e-6)
+    assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
+    assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
+
+
+@pytest.mark.parametrize("lost", [b"internalField", b"boundaryField"])
+def test_a_binary_list_that_has_lost_bytes_has_a_message(lost, tmp_path):
+    """VTK would read beyond the end of the file."""
+    write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
+    path = tmp_path / "1e1" / "U"
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(lost)) + 5
+    path.write_bytes(data[:at] + data[at + 7 :])
+    with pytest.raises(InputError, match=r"U: line \d+: a list of \d+ entries in binary expected"):
+        read_case(tmp_path)
+
+
+def test_a_binary_field_without_a_brace_has_a_message(tmp_path):
+    """VTK would crash."""
+    write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
+    path = tmp_path / "1e1" / "U"
+    data = path.read_bytes()
+    at = data.index(b"{", data.index(b"boundaryField"))
+    path.write_bytes(data[:at] + data[at + 1 :])
+    with pytest.raises(InputError, match=r"U: line \d+: '\{' expected"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("scalar", [32, 64])
+@pytest.mark.parametrize("kind", ["mixed", "polyhedra"])
+@pytest.mark.parametrize("compressed", [False, True])
+def test_binary_cases(label, scalar, kind, compressed, tmp_path):
+    written = write_case(tmp_path, kind, form=Format(True, label, scalar, compressed))
+    mesh, cells, boundary, _ = read_fields(tmp_path)
+    assert mesh.centres == pytest.approx(written.centres, abs=1e-6)
+    assert np.array_equal(mesh.patch_start, written.patch_start)
+    assert cells == pytest.approx(mesh.centres @ GRADIENT.T, abs=1e-5)
+    assert boundary == pytest.approx(mesh.boundary_centres @ GRADIENT.T, abs=1e-5)
+
+
+def test_the_flow_of_a_case(case, random):
+    flow = read_case(case, 0.5)
+    points = random.random((200, 3))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
+    assert u == pytest.approx(points @ GRADIENT.T, abs=2e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=2e-4)
+    assert "single precision" in flow.notes[0]
+    assert "initial guess" in read_case(case, "0").notes[1]
+
+
+def test_compressed_files_are_read(case):
+    before = read_fields(case)[1]
+    for path in [*(case / "constant" / "polyMesh").iterdir(), case / "1e1" / "U"]:
+        (path.parent / (path.name + ".gz")).write_bytes(gzip.compress(path.read_bytes()))
+        path.unlink()
+    assert np.array_equal(read_fields(case)[1], before)
+    assert describe(case).patches[0][:3] == ("floor", "wall", 4)
+
+
+def test_times_keep_their_names(case):
+    assert available_times(case) == ("0", "0.5", "1e1")
+    assert [select_time(case, time) for time in ("latestTime", 10.0, "0.50", 0)] == ["1e1", "1e1", "0.5", "0"]
+
+
+def test_description(case):
+    info = describe(case)
+    assert [time.name for time in info.times] == ["0", "0.5", "1e1"]
+    assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
+    assert [p[:3] for p in info.patches] == [("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16)]
+    assert [p.start - info.patches[0].start for p in info.patches] == [0, 4, 8]
+    assert (info.points, info.cells) == (27, {"hexahedron": 8})
+    assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
+
+
+def test_regions(case):
+    whole = read_fields(case)
+    folders = [case / "constant", *(case / time for time in available_times(case))]
+    for folder in folders:
+        (folder / "air").mkdir()
+        for path in [p for p in folder.iterdir() if p.name != "air"]:
+            path.rename(folder / "air" / path.name)
+    shutil.copytree(case / "constant" / "air", case / "constant" / "iron")
+    mesh, cells, boundary, name = read_fields(case, region="air")
+    assert name == "1e1"
+    assert np.array_equal(mesh.tets, whole[0].tets)
+    assert np.array_equal(cells, whole[1])
+    assert np.array_equal(boundary, whole[2])
+    info = describe(case, "air")
+    assert (info.region, info.regions, info.points) == ("air", ("air", "iron"), 27)
+    assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
+    assert "Region  air" in info.lines()
+    with pytest.raises(
+        InputError, match=r"divided into regions; choose one with -region\. Allowed: air, iron"
+    ):
+        read_case(case)
+    with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
+        read_case(case, region="aire")
+    with pytest.raises(InputError, match=r"iron: no field U; the fields are \(none\)"):
+        read_case(case, region="iron")
+
+
+def test_a_case_of_one_mesh_has_no_regions(case):
+    with pytest.raises(InputError, match="no region air; the case is not divided into regions"):
+        read_case(case, region="air")
+
+
+def test_a_gradient_can_be_given(case, random):
+    gradients = random.random((8, 3, 3))
+    body = "\n".join("(" + " ".join(f"{x:.9g}" for x in g.T.ravel()) + ")" for g in gradients)
+    (case / "1e1" / "grad(U)").write_text(
+        header("volTensorField", "grad(U)") + "dimensions [0 0 -1 0 0 0 0];\n"
+        f"internalField nonuniform List<tensor> 8\n(\n{body}\n);\n"
+        "boundaryField { floor { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "sides { type calculated; value uniform (0 0 0 0 0 0 0 0 0); }\n"
+        "lid { type calculated; value uniform (0 0 0 0 0 0 0 0 0); } }\n"
+    )
+    flow = read_case(case, gradient="grad(U)")
+    centres = flow.mesh.centres
+    u, l = flow.sample(centres, flow.locate(centres), 0.0)
+    assert l == pytest.approx(gradients, abs=1e-6)
+    assert u == pytest.approx(centres @ GRADIENT.T, abs=1e-5)
+    with pytest.raises(InputError, match="U: the class is volVectorField, but the gradient of a velocity is"):
+        read_case(case, gradient="U")
+    with pytest.raises(InputError, match=r"no field grad\(V\)"):
+        read_case(case, gradient="grad(V)")
+
+
+def test_cyclic_patches_of_a_case(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / "1e1" / "U", "floor { type fixedValue", "floor { type cyclic")
+    edit(tmp_path / "1e1" / "U", "lid { type fixedValue", "lid { type cyclic")
+    flow = read_case(tmp_path)
+    assert flow.patches[:2] == (Patch("floor", "cyclic", "lid"), Patch("lid", "cyclic", "floor"))
+    assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
+    assert np.array_equal(flow.mesh.couplings[0].turn, np.eye(3))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "replacement", "message"),
+    [
+        ("neighbourPatch lid", "neighbourPatch lib", r"lib of the cyclic patch floor is not there\. Did you"),
+        ("neighbourPatch lid", "neighbourPatch floor", "floor names floor as its neighbour"),
+        ("type cyclic; neighbourPatch lid", "type wall", "lid names floor .* floor is of type wall"),
+    ],
+)
+def test_cyclic_patches_that_do_not_fit(pattern, replacement, message, tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    edit(tmp_path / POLY / "boundary", "type wall; inGroups", "type cyclic; neighbourPatch lid; inGroups")
+    edit(tmp_path / POLY / "boundary", "type patch; inGroups", "type cyclic; neighbourPatch floor; inGroups")
+    edit(tmp_path / POLY / "boundary", pattern, replacement)
+    with pytest.raises(InputError, match=message):
+        read_case(tmp_path)
+
+
+def cut(name, share=0.5):
+    def breakage(case):
+        path = case / name
+        path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+
+    return breakage
+
+
+def cut_compressed(case):
+    path = case / "1e1" / "U"
+    packed = gzip.compress(path.read_bytes())
+    (case / "1e1" / "U.gz").write_bytes(packed[: len(packed) // 2])
+    path.unlink()
+
+
+def rewrite(name, pattern, replacement):
+    return lambda case: edit(case / name, pattern, replacement)
+
+
+def remove(name):
+    def breakage(case):
+        path = case / name
+        if path.is_dir():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
+
+    return breakage
+
+
+def only_processors(case):
+    (case / "processor0" / "constant").mkdir(parents=True)
+    shutil.rmtree(case / "constant" / "polyMesh")
+
+
+BREAKAGES = {
+    "no case": (lambda case: shutil.rmtree(case), "no such folder"),
+    "no mesh": (remove(POLY[:-1]), "polyMesh: no mesh here; is .* an OpenFOAM case"),
+    "decomposed": (only_processors, "only the processor folders hold a mesh; run reconstructParMesh"),
+    "no U": (remove("1e1/U"), r"1e1: no field U; the fields are p\."),
+    "U cut short": (cut("1e1/U"), "1e1/U"),
+    "U cut in the boundary": (cut("1e1/U", 0.9), "1e1/U"),
+    "U.gz cut short": (cut_compressed, "1e1/U.gz"),
+    "U empty": (cut("1e1/U", 0.0), r"1e1/U: the class is \(none\)"),
+    "U of another mesh": (rewrite("1e1/U", r"<vector> 8\n\(\n\(", "<vector> 9\n(\n(0 0 0)\n("), "U"),
+    "U not finite": (
+        rewrite("1e1/U", r"<vector> 8\n\(\n\(\S+", "<vector> 8\n(\n(nan"),
+        "Error reading line .*1e1/U",
+    ),
+    "U a scalar": (rewrite("1e1/U", "volVectorField", "volScalarField"), "the class is volScalarField"),
+    "U without a patch": (rewrite("1e1/U", "lid", "lit"), "no values could be read for patch lid"),
+    "owner out of range": (
+        rewrite(POLY + "owner", r"\n7\n", "\n9999\n"),
+        "owner: face 19 belongs to cell 9999, but there are 8 cells",
+    ),
+    "owner cut short": (cut(POLY + "owner"), "owner"),
+    "neighbour cut short": (cut(POLY + "neighbour"), "neighbour"),
+    "neighbour out of range": (
+        rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
+        "belongs to cell 77, but there are 8",
+    ),
+    "a face of some billion points": (
+        rewrite(POLY + "faces", r"\n4\(", "\n2147483647("),
+        "faces: line 7: 2147483647 is neither a point nor a number of them",
+    ),
+    "some billion points": (
+        rewrite(POLY + "points", r"\n27\n", "\n2147483646\n"),
+        r"points: line 5: a number of entries that the file has room for, not 2147483646, expected",
+    ),
+    "faces cut short": (cut(POLY + "faces"), "faces"),
+    "points cut short": (cut(POLY + "points"), "points"),
+    "no points": (remove(POLY + "points"), "points"),
+    "no owner": (remove(POLY + "owner"), "owner: no such file"),
+    "boundary cut short": (cut(POLY + "boundary", 0.7), "boundary"),
+    "no boundary": (remove(POLY + "boundary"), "boundary: no such file"),
+    "boundary lacks a patch": (
+        rewrite(POLY + "boundary", r"3\n\(\n\s*floor.*\n.*\n", "2\n(\n"),
+        "4 of 24 boundary faces",
+    ),
+    "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "do not match"),
+    "gap between patches": (rewrite(POLY + "boundary", "nFaces 4", "nFaces 3"), "lid starts at face"),
+    "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
+    "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
+    "patch size no number": (
+        rewrite(POLY + "boundary", "nFaces 16", "nFaces x"),
+        "sides/nFaces is 'x'",
+    ),
+    "too few patches": (rewrite(POLY + "boundary", r"\n3\n", "\n4\n"), "'4' is not the number of entries"),
+    "boundary is no list": (rewrite(POLY + "boundary", r"\n3\n", "\nthree\n"), "where a number and a list"),
+    "words behind the boundary": (rewrite(POLY + "boundary", r"\)\n$", ")\nmore\n"), "behind the list"),
+}
+
+
+@pytest.mark.parametrize("name", BREAKAGES)
+def test_a_broken_case_gives_its_one_message(name, case, capfd):
+    breakage, message = BREAKAGES[name]
+    breakage(case)
+    with pytest.raises(InputError, match=message) as caught:
+        read_case(case)
+    assert str(case) in str(caught.value)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_damaged_owner_is_found_without_the_note(tmp_path):
+    write_case(tmp_path, note=False)
+    edit(tmp_path / "constant" / "polyMesh" / "owner", r"\n7\n", "\n999\n")
+    with pytest.raises(InputError, match="owner: face 19 belongs to cell 999, but there are 36"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+def test_lengths_of_faces_that_do_not_fit_are_refused_before_vtk_sees_them(label, tmp_path):
+    write_case(tmp_path, form=Format(True, label))
+    path = tmp_path / POLY / "faces"
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1 + 10 * label // 8
+    path.write_bytes(data[: at + 2] + b"\x40" + data[at + 3 :])
+    with pytest.raises(InputError, match="faces: the lengths of the faces do not fit their points"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("label", [32, 64])
+@pytest.mark.parametrize("name", ["owner", "neighbour"])
+def test_a_label_of_some_billions_costs_no_memory(name, label, tmp_path):
+    write_case(tmp_path, form=Format(True, label), note=False)
+    path = tmp_path / POLY / name
+    data = path.read_bytes()
+    at = data.index(b"(", data.index(b"}")) + 1
+    path.write_bytes(data[: at + 3] + b"\x70" + data[at + 4 :])
+    with pytest.raises(InputError, match=f"{name}: face 0 belongs to cell 1879048"):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("value", ["1e35", "1e300"])
+def test_numbers_beyond_any_length_are_refused(value, case):
+    edit(case / POLY / "points", r"\n\(0 0 0\)", f"\n({value} 0 0)")
+    with pytest.raises(InputError, match="1 of 27 points are not finite numbers below 1e"):
+        read_case(case)
+
+
+@pytest.mark.parametrize(
+    ("time", "message"),
+    [
+        ("3", r"no time 3; the times are 0, 0\.5, 1e1\."),
+        ("last", "'last' is neither a number nor latestTime"),
+    ],
+)
+def test_a_missing_time_lists_those_that_exist(case, time, message):
+    with pytest.raises(InputError, match=message):
+        read_case(case, time)
+
+
+def test_a_case_without_times(case):
+    for time in available_times(case):
+        shutil.rmtree(case / time)
+    with pytest.raises(InputError, match="no time directories; has the solver been run"):
+        read_case(case)
+    assert describe(case).times == ()
+
+
+def test_the_pipe(random):
+    flow = read_case(PIPE)
+    radius, mean = 2.1e-3, 0.484995
+    assert {patch.type for patch in flow.patches if patch.name == "wall"} == {"wall"}
+    r, angle = radius * np.sqrt(random.random(5000)), 2.0 * np.pi * random.random(5000)
+    x = random.uniform(0.02, 0.09, 5000)
+    points = np.column_stack([x, r * np.cos(angle), r * np.sin(angle)])
+    hosts = flow.locate(points)
+    inside = hosts >= 0
+    assert np.count_nonzero(~inside) < 100
+    u, l = flow.sample(points[inside], hosts[inside], 0.0)
+    off = np.abs(u[:, 0] - 2.0 * mean * (1.0 - (r[inside] / radius) ** 2))
+    assert np.sqrt(np.mean(off**2)) < 0.005 * mean
+    shear = np.hypot(l[:, 0, 1], l[:, 0, 2]) - 4.0 * mean * r[inside] / radius**2
+    assert np.sqrt(np.mean(shear**2)) < 0.01 * 4.0 * mean / radius
+
+
+@pytest.mark.parametrize("suffix", [".vtu", ".vtk", ".vtm", ".msh", ".pvd"])
+@pytest.mark.parametrize("where", ["cell_data", "point_data"])
+def test_mesh_files(suffix, where, tmp_path, random):
+    shape = block(3, 0.2, "tetrahedra")
+    places = shape.points if where == "point_data" else build_mesh(shape).centres
+    getattr(shape, where)["U"] = places @ GRADIENT.T
+    path = tmp_path / f"flow{suffix}"
+    if suffix == ".vtm":
+        patches = {}
+        for patch in box_patches(shape):
+            places = patch.surface.points if where == "point_data" else patch.surface.cell_centers().points
+            getattr(patch.surface, where)["U"] = places @ GRADIENT.T
+            patches[patch.name] = patch.surface
+        pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(path)
+    elif suffix == ".pvd":
+        shape.save(tmp_path / "flow_1.vtu")
+        path.write_text(
+            '<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
+            '<DataSet timestep="1" file="flow_1.vtu"/></Collection></VTKFile>'
+        )
+    elif suffix == ".msh":
+        pyvista.save_meshio(path, shape, file_format="gmsh")
+    else:
+        shape.save(path)
+    flow = read_mesh_file(path)
+    names = [patch.name for patch in box_patches(shape)]
+    several = tuple(Patch(name, "patch") for name in names)
+    assert flow.patches == (several if suffix == ".vtm" else (Patch("boundary", "wall"),))
+    points = random.random((100, 3))
+    u, l = flow.sample(points, flow.locate(points), 0.0)
+    assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
+    assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
+
+
+def test_surfaces_in_a_mesh_file_are_left_out(tmp_path):
+    points, hexes = corners(2, 0.0)
+    shape = grid(points, [(12, hexes), (9, hexes[:, :4])])
+    shape.cell_data["U"] = np.tile([1.0, 2.0, 3.0], (16, 1))
+    shape.save(tmp_path / "flow.vtu")
+    assert read_mesh_file(tmp_path / "flow.vtu").mesh.n_cells == 8
+
+
+def test_other_names_of_the_velocity(tmp_path):
+    shape = block(2)
+    shape.cell_data["velocity"] = np.ones((8, 3))
+    shape.cell_data["p"] = np.ones(8)
+    path = tmp_path / "flow.vtu"
+    shape.save(path)
+    assert read_mesh_file(path, "velocity").mesh.n_cells == 8
+    with pytest.raises(InputError, match=r"no array U\. Allowed: p, velocity\."):
+        read_mesh_file(path)
+    with pytest.raises(InputError, match=r"array p has shape \(8,\)"):
+        read_mesh_file(path, "p")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("none.vtu", None, "no such file"),
+        ("bad.vtu", b"<VTKFile", "VTK"),
+        ("bad.vtk", b"nonsense", "VTK|unstructured"),
+        ("bad.msh", b"nonsense", "meshio cannot read it"),
+        ("bad.xyz", b"nonsense", "meshio cannot read it"),
+    ],
+)
+def test_unreadable_mesh_files(name, content, message, tmp_path, capfd):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match=message):
+        read_mesh_file(tmp_path / name)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_surface_is_no_mesh(tmp_path):
+    pipe(2).extract_surface(algorithm="dataset_surface").cast_to_unstructured_grid().save(
+        tmp_path / "surface.vtu"
+    )
+    with pytest.raises(InputError, match="no cells of the allowed kinds"):
+        read_mesh_file(tmp_path / "surface.vtu")

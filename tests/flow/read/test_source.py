@@ -1,0 +1,82 @@
+"""Where a flow comes from, through the command line."""
+
+from __future__ import annotations
+
+import shutil
+
+import numpy as np
+import pytest
+from foam_writer import write_case
+from mesh_shapes import block
+from paths import PIPE
+
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.flow.read.meshfile import Division
+from foamprb.flow.read.source import Source, read_flow
+
+
+@pytest.fixture
+def flow_file(tmp_path):
+    shape = block(3, 0.2)
+    shape.cell_data["velocity"] = np.ones((27, 3))
+    shape.save(tmp_path / "flow.vtu")
+    return tmp_path / "flow.vtu"
+
+
+def test_info_of_a_mesh_file(flow_file, capsys):
+    assert main(["info", "-flow", str(flow_file), "-featureAngle", "30"]) == 0
+    said = capsys.readouterr().out
+    assert "hexahedron                   27" in said
+    assert "boundary5                     9 faces  wall" in said
+    assert "velocity             at cells, (3,)" in said
+
+
+def test_the_settings_of_one_folder_on_the_mesh_file_of_another(flow_file, tmp_path, capsys):
+    case = tmp_path / "case"
+    shutil.copytree(PIPE / "constant", case / "constant", ignore=shutil.ignore_patterns("polyMesh"))
+    settings = case / "constant/softCloudProperties"
+    text = settings.read_text()
+    begin, end = text.index("        patches"), text.index("        touching")
+    text = text[:begin] + "patches ( boundary { type rebound; } );\n" + text[end:]
+    begin, end = text.index("        // 300 particles"), text.index("    patchInteractionModel")
+    settings.write_text(text[:begin] + "    }\n\n" + text[end:])
+    (case / "constant/softCloudPositions").write_text("((0.5 0.5 0.5))")
+    arguments = ["-case", str(case), "-flow", str(flow_file), "-velocity", "velocity", "-dry-run"]
+    assert main(["run", *arguments]) == 0
+    said = capsys.readouterr().out
+    assert f"Reading flow of case {flow_file}" in said
+    assert "Dry run: 5 particles" in said
+    assert main(["run", *arguments, "-region", "air"]) == 1
+    assert "a mesh file has no regions, but region air is asked for" in capsys.readouterr().err
+
+
+def test_the_settings_of_a_region_go_before_those_of_the_case(tmp_path, capsys):
+    case = tmp_path / "case"
+    shutil.copytree(PIPE, case, ignore=shutil.ignore_patterns("coarse", "medium", "fine", "postProcessing"))
+    (case / "constant/air").mkdir()
+    (case / "constant/polyMesh").rename(case / "constant/air/polyMesh")
+    (case / "249/air").mkdir()
+    (case / "249/U.gz").rename(case / "249/air/U.gz")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 1
+    assert "divided into regions; choose one with -region. Allowed: air" in capsys.readouterr().err
+    assert main(["run", "-case", str(case), "-region", "air", "-dry-run"]) == 0
+    assert "Dry run: 305 particles, 50000 steps" in capsys.readouterr().out
+    own = case / "constant/air/softCloudProperties"
+    text = (case / "constant/softCloudProperties").read_text()
+    own.write_text(text.replace("endTime         1;", "endTime         2;"))
+    assert main(["run", "-case", str(case), "-region", "air", "-dry-run"]) == 0
+    assert "Dry run: 305 particles, 100000 steps" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("angle", ["0", "180", "-3"])
+def test_feature_angles_that_are_none(angle, flow_file, capsys):
+    assert main(["info", "-flow", str(flow_file), f"-featureAngle={angle}"]) == 1
+    assert "an angle between 0 and 180 degrees is needed" in capsys.readouterr().err
+
+
+def test_the_boundary_of_a_case_is_not_divided(tmp_path):
+    write_case(tmp_path)
+    with pytest.raises(InputError, match="a case has its own patches"):
+        read_flow(tmp_path, source=Source(division=Division(feature_angle=30.0)))
+    assert read_flow(tmp_path).mesh.n_cells == 8

@@ -1,0 +1,298 @@
+"""Flows that change in time, on a mesh and in closed form."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from foam_writer import write_case
+from mesh_shapes import block, box_patches
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.patches import Escape, Rebound
+from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.errors import InputError
+from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.series import SeriesFlow, select_times
+
+WATER = Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
+INTEGRATORS = ("paper", "rosenbrock", "stokes")
+CENTRE = np.array([0.5, 0.5, 0.5])
+SHEAR = np.array([[0.0, 1.0, 0.0], [0.3, 0.0, 0.0], [0.0, 0.0, 0.0]])
+DRIFT = np.array([0.1, 0.0, 0.05])
+
+
+def swing(flow, t):
+    """Factor of the flow at t, and its rate of change; the flow is (ω, rate of growth)."""
+    omega, growth = flow
+    # A plain tuple: the cache of compiled code cannot be read where a type of its arguments is unknown.
+    return math.cos(omega * t) + growth * t, -omega * math.sin(omega * t) + growth
+
+
+def sample_swing(flow, host, x, t):
+    """Shear about the cube's centre and a drift, both in proportion to the factor."""
+    f, rate = swing(flow, t)
+    y, x_ = x[1] - 0.5, x[0] - 0.5
+    u = (0.1 + y, 0.3 * x_, 0.0 * y + 0.05)
+    l = (0.0, f, 0.0, 0.3 * f, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return (f * u[0], f * u[1], f * u[2]), l, (rate * u[0], rate * u[1], rate * u[2])
+
+
+def in_closed_form(omega=0.0, growth=0.0):
+    kernels = {
+        "sample": sample_swing,
+        "walk": walk_free,
+        "gap": gap_free,
+        "normal": normal_free,
+        "recover": recover_free,
+    }
+    return AnalyticFlow((float(omega), float(growth)), kernels)
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    shape = block(2, 0.2)
+    return build_mesh(shape, box_patches(shape))
+
+
+def in_files(mesh, times, omega=0.0, growth=0.0, log=None, **options):
+    """The same flow, known at some times."""
+
+    def read(index):
+        if log is not None:
+            log.append(index)
+        f = swing((omega, growth), times[index])[0]
+        l = np.broadcast_to(f * SHEAR, (mesh.n_points + mesh.n_cells, 3, 3))
+        return f * (DRIFT + (mesh.nodes - CENTRE) @ SHEAR.T), l
+
+    return SeriesFlow(mesh, times, read, **options)
+
+
+def cloud_in(flow, dt, integrator="paper", start=0.0, n=3, spread=0.0, tolerance=1e-6, **options):
+    """Soft particles near the middle that go with the flow."""
+    random = np.random.default_rng(7)
+    x = CENTRE + 0.1 * random.uniform(-1, 1, (n, 3))
+    t0 = start + spread * np.arange(n) / n
+    p = spheres(x, d=2e-3, rho=1e3, mu=1e-3 / 0.3, poissons_ratio=0.45, t0=t0)
+    p.v[:] = np.nan
+    walls = [Rebound() if patch.type == "wall" else Escape() for patch in flow.patches]
+    models = Models(integrator=integrator, tolerance=tolerance)
+    return Cloud(p, flow, WATER, walls, dt, models, start=start, **options)
+
+
+def assert_same(a: Particles, b: Particles):
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+def test_what_is_linear_in_time_is_met_exactly(mesh, random):
+    flow, exact = in_files(mesh, [0.0, 0.3, 1.0], growth=2.0), in_closed_form(growth=2.0)
+    x = random.random((50, 3))
+    for t in (0.0, 0.1, 0.3, 0.31, 1.0):
+        hosts = flow.locate(x)
+        u, l = flow.sample(x, hosts, t)
+        u_exact, l_exact = exact.sample(x, np.zeros(50), t)
+        np.testing.assert_allclose(u, u_exact, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(l, l_exact, rtol=0, atol=1e-13)
+        sampled = flow.kernels["sample"](flow.arrays(), hosts[0], tuple(x[0]), t)
+        slope = sample_swing((0.0, 2.0), 0, tuple(x[0]), t)[2]
+        np.testing.assert_allclose(sampled[2], slope, rtol=1e-12)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_particles_go_through_files_as_through_the_flow_itself(mesh, integrator):
+    steps = 400 if integrator == "paper" else 40
+    moved = [
+        cloud_in(flow, 0.4 / steps, integrator)
+        for flow in (in_files(mesh, [0.0, 0.13, 0.4], growth=1.0), in_closed_form(growth=1.0))
+    ]
+    for cloud in moved:
+        cloud.advance(steps)
+    files, exact = (cloud.particles for cloud in moved)
+    assert (files.status == Status.ACTIVE).all()
+    np.testing.assert_allclose(files.x, exact.x, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(files.F, exact.F, rtol=0, atol=1e-7)
+    assert np.abs(exact.F - np.eye(3).ravel()).max() > 0.05
+    assert np.abs(exact.x - CENTRE).max() > 0.03
+
+
+def test_interpolation_in_time_is_of_second_order(mesh):
+    end, omega = 1.0, 4.0
+    exact = cloud_in(in_closed_form(omega), 0.01, "stokes")
+    exact.advance(100)
+    errors = []
+    for n in (10, 20, 40):
+        cloud = cloud_in(in_files(mesh, np.linspace(0.0, end, n + 1).tolist(), omega), 0.01, "stokes")
+        cloud.advance(100)
+        errors.append([np.abs(cloud.particles.x - exact.particles.x).max(),
+                       np.abs(cloud.particles.F - exact.particles.F).max()])  # fmt: skip
+    orders = np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+    assert ((orders > 1.8) & (orders < 2.2)).all(), orders
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("dt", [0.01, 0.07, 0.35], ids=["fine", "astride", "coarse"])
+def test_the_answer_does_not_depend_on_how_the_work_is_split(mesh, integrator, dt):
+    times = np.linspace(0.2, 1.6, 15).tolist()
+    steps = round(1.4 / dt)
+
+    def moved(parts, threads=1, **options):
+        flow = in_files(mesh, times, 5.0, **options)
+        cloud = cloud_in(flow, dt, integrator, start=0.2, n=40, spread=0.5, tolerance=1e-2, threads=threads)
+        for part in parts:
+            cloud.advance(part)
+        return cloud.particles
+
+    whole = moved([steps])
+    assert (whole.status == Status.ACTIVE).all() or integrator == "paper"
+    assert_same(whole, moved([1] * steps))
+    assert_same(whole, moved([steps - 1, 1], threads=2))
+    assert_same(whole, moved([steps], keep=len(times)))
+
+
+def test_a_run_that_is_taken_up_again_ends_the_same(mesh):
+    times = np.linspace(0.0, 1.0, 11).tolist()
+    whole = cloud_in(in_files(mesh, times, 5.0), 0.02, "rosenbrock", spread=0.8)
+    whole.advance(50)
+    first = cloud_in(in_files(mesh, times, 5.0), 0.02, "rosenbrock", spread=0.8)
+    first.advance(23)
+    p = first.particles.take(np.arange(first.particles.size))
+    second = Cloud(p, in_files(mesh, times, 5.0), WATER, first.interactions, 0.02, first.models, step=23)
+    second.advance(27)
+    assert_same(whole.particles, second.particles)
+
+
+def test_a_periodic_flow_goes_as_the_same_written_out(mesh):
+    one = (0.1 + np.array([0.0, 0.15, 0.2, 0.35])).tolist()
+    period = 0.5
+    omega = 2 * math.pi / period
+    many = [t + period * cycle for cycle in range(4) for t in one]
+    looped = in_files(mesh, one, omega, period=period)
+    assert looped.span == (0.1, math.inf)
+    closed = in_files(mesh, [*one, 0.6], omega, period=period)
+    moved = [
+        cloud_in(flow, 0.01, "stokes", start=0.1) for flow in (looped, closed, in_files(mesh, many, omega))
+    ]
+    for cloud in moved:
+        cloud.advance(170)
+    np.testing.assert_allclose(moved[0].particles.x, moved[2].particles.x, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(moved[0].particles.F, moved[2].particles.F, rtol=0, atol=1e-9)
+    assert_same(moved[0].particles, moved[1].particles)
+
+
+def test_few_times_are_in_memory_and_each_is_read_once(mesh):
+    log = []
+    times = np.linspace(0.0, 1.0, 21).tolist()
+    flow = in_files(mesh, times, 5.0, log=log)
+    cloud = cloud_in(flow, 0.01)
+    for _ in range(100):
+        cloud.advance(1)
+        flow.sample(cloud.particles.x, cloud.particles.host, cloud.time)
+        assert len(flow.arrays().fields) <= 3 * (mesh.n_points + mesh.n_cells)
+    assert log == list(range(21))
+
+
+def test_all_times_of_a_short_loop_may_stay_in_memory(mesh):
+    log = []
+    flow = in_files(mesh, [0.0, 0.1, 0.2], 5.0, log=log, period=0.3, keep=10)
+    for _ in range(2):
+        for t in (0.0, 0.15, 0.25, 0.9, 1.3):
+            flow.load(t, t + 0.05)
+    assert sorted(log) == [0, 1, 2]
+
+
+def test_a_particle_appears_with_the_velocity_of_the_fluid_at_that_time(mesh):
+    flow = in_files(mesh, [0.0, 1.0], growth=3.0)
+    # So heavy that they keep it.
+    p = spheres(np.tile(CENTRE, (2, 1)), d=2e-3, rho=1e12, mu=1.0, t0=[0.0, 0.25])
+    p.v[:] = np.nan
+    walls = [Rebound() if patch.type == "wall" else Escape() for patch in flow.patches]
+    cloud = Cloud(p, flow, WATER, walls, 0.5, Models(integrator="rosenbrock"))
+    cloud.advance(1)
+    for k, t in enumerate(p.t0):
+        u = (1.0 + 3.0 * t) * DRIFT
+        np.testing.assert_allclose(p.v[k], u, rtol=1e-6, atol=1e-9)
+        np.testing.assert_allclose(p.x[k] - CENTRE, (0.5 - t) * u, rtol=1e-6, atol=1e-9)
+
+
+def test_velocity_on_a_patch_is_that_of_the_time(mesh):
+    flow = in_files(mesh, [0.0, 1.0], growth=1.0)
+    before, after = flow.patch_faces("lid", 0.0).velocity, flow.patch_faces("lid", 0.5).velocity
+    np.testing.assert_allclose(after, 1.5 * before, rtol=1e-12, atol=1e-15)
+
+
+def test_beyond_its_times_a_flow_is_not_known(mesh):
+    flow = in_files(mesh, [0.5, 1.0])
+    cloud = cloud_in(flow, 0.1, start=0.5)
+    cloud.advance(5)
+    with pytest.raises(InputError, match=r"the flow is known from 0.5 s to 1 s, not from 1 s to 1.1 s"):
+        cloud.advance(1)
+    with pytest.raises(InputError, match=r"known from 0.5 s"):
+        flow.load(0.4, 0.6)
+    p = spheres(np.tile(CENTRE, (3, 1)), d=2e-3, rho=1e3, mu=1.0, t0=[0.6, 0.7, 0.65])
+    with pytest.raises(
+        InputError, match=r"2 of 3 particles would appear before the start of the run at 0.7 s"
+    ):
+        Cloud(p, flow, WATER, cloud.interactions, 0.1, start=0.7)
+    with pytest.raises(InputError, match="do not rise"):
+        in_files(mesh, [0.0, 1.0, 1.0])
+
+
+def test_a_time_that_cannot_be_read_stops_the_run_when_it_is_needed(mesh):
+    def read(index):
+        if index == 3:
+            raise InputError("3/U: broken")
+        return np.zeros((mesh.n_points + mesh.n_cells, 3)), np.zeros((mesh.n_points + mesh.n_cells, 3, 3))
+
+    cloud = cloud_in(SeriesFlow(mesh, [0.0, 1.0, 2.0, 3.0, 4.0], read), 0.1, "stokes")
+    with pytest.raises(InputError, match="3/U: broken"):
+        cloud.advance(40)
+    assert cloud.step == 20
+
+
+@pytest.mark.parametrize("times", [[0.0, 0.1, 0.2], [0.0, 0.4], [0.0, 0.3, 0.6]])
+def test_times_that_do_not_fill_the_period_are_refused(mesh, times):
+    with pytest.raises(InputError, match=r"the period 1.5 s asks for fields up to nearly 1.5 s"):
+        in_files(mesh, times, period=1.5)
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("series") / "case"
+    write_case(folder)
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("selection", "chosen"),
+    [
+        (None, ("0", "0.5", "1e1")),
+        ("0.5", ("0.5",)),
+        ("latestTime", ("1e1",)),
+        (":0.5", ("0", "0.5")),
+        ("0.5:", ("0.5", "1e1")),
+        ("0.1:9", ("0.5",)),
+        ("10, 0", ("0", "1e1")),
+        ("0:0.2 0.5:10", ("0", "0.5", "1e1")),
+        (":", ("0", "0.5", "1e1")),
+    ],
+)
+def test_times_are_selected_as_by_openfoam(case, selection, chosen):
+    assert select_times(case, selection) == chosen
+
+
+@pytest.mark.parametrize(
+    ("selection", "message"),
+    [
+        ("0.6:9", "no time in 0.6:9; the times go from 0 to 1e1"),
+        ("0.6", "no time 0.6; the times are 0, 0.5, 1e1"),
+        ("a:b", "'a:b' is no range of times, such as"),
+        ("1:2:3", "time '1:2:3' is neither a number nor latestTime"),
+    ],
+)
+def test_times_that_are_not_there_are_named(case, selection, message):
+    with pytest.raises(InputError, match=message):
+        select_times(case, selection)

@@ -1,0 +1,224 @@
+"""Meshes for the tests of the flow: blocks of every kind of cell, and pipes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyvista
+
+from foamprb.flow.mesh.mesh import PatchSurface, build_mesh
+
+HEXAHEDRON_FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
+KINDS = ("hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed")
+
+
+def corners(n, perturbation, seed=0):
+    """Points of a unit cube cut into n³ cells, moved inside; and the eight corners of each cell."""
+    g = np.linspace(0.0, 1.0, n + 1)
+    z, y, x = np.meshgrid(g, g, g, indexing="ij")
+    points = np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+    inside = np.all((points > 1e-9) & (points < 1.0 - 1e-9), axis=1)
+    rng = np.random.default_rng(seed)
+    points[inside] += perturbation / n * rng.uniform(-0.5, 0.5, (inside.sum(), 3))
+    k, j, i = np.meshgrid(*3 * [np.arange(n)], indexing="ij")
+    s, t = n + 1, (n + 1) ** 2
+    b = (i + s * j + t * k).ravel()
+    return points, np.stack([b, b + 1, b + 1 + s, b + s, b + t, b + 1 + t, b + 1 + s + t, b + s + t], axis=1)
+
+
+def block(n, perturbation=0.3, kind="hexahedra", seed=0):
+    """A unit cube of n³ hexahedra with displaced points, cut further according to the kind."""
+    points, hexes = corners(n, perturbation, seed)
+    if kind == "hexahedra":
+        return grid(points, [(12, hexes)])
+    if kind == "tetrahedra":
+        # Along the main diagonal, which cuts opposite faces alike.
+        paths = ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))
+        return grid(points, [(10, hexes[:, [0, a, b, 6]]) for a, b in paths])
+    if kind == "prisms":
+        return grid(points, [(13, hexes[:, [0, 1, 2, 4, 5, 6]]), (13, hexes[:, [0, 2, 3, 4, 6, 7]])])
+    if kind == "pyramids":
+        centres = len(points) + np.arange(len(hexes))
+        faces = [np.column_stack([hexes[:, list(face)], centres]) for face in HEXAHEDRON_FACES]
+        return grid(np.concatenate([points, points[hexes].mean(axis=1)]), [(14, face) for face in faces])
+    if kind == "mixed":
+        # Layers of hexahedra below, of prisms with quadrangles below and above on top.
+        lower, upper = np.split(hexes, [n * n * (n // 2)])
+        return grid(
+            points,
+            [(12, lower), (13, upper[:, [0, 3, 7, 1, 2, 6]]), (13, upper[:, [0, 7, 4, 1, 6, 5]])],
+        )
+    assert kind == "polyhedra"
+    # Neighbours along x become one cell with ten faces.
+    first, second = hexes[0::2], hexes[1::2]
+    cells = [
+        [
+            row[list(face)]
+            for row, skip in ((a, 1), (b, 0))
+            for k, face in enumerate(HEXAHEDRON_FACES)
+            if k != skip
+        ]
+        for a, b in zip(first, second, strict=True)
+    ]
+    return polyhedra(points, cells)
+
+
+def grid(points, parts):
+    cells, types = [], []
+    for kind, ids in parts:
+        cells.append(np.column_stack([np.full(len(ids), ids.shape[1]), ids]).ravel())
+        types.append(np.full(len(ids), kind, dtype=np.uint8))
+    return pyvista.UnstructuredGrid(
+        np.concatenate(cells), np.concatenate(types), np.array(points, dtype=float)
+    )
+
+
+def polyhedra(points, cells):
+    """Cells given by the vertices of their faces."""
+    stream = []
+    for faces in cells:
+        flat = [number for face in faces for number in (len(face), *face)]
+        stream += [len(flat) + 1, len(faces), *flat]
+    types = np.full(len(cells), 42, dtype=np.uint8)
+    return pyvista.UnstructuredGrid(np.array(stream), types, np.array(points, dtype=float))
+
+
+def pipe(n, axial=4, radius=1.0, length=1.0):
+    """A pipe along x: an inner square of n × n bulging cells and a ring of n // 2 layers."""
+    t = np.linspace(-1.0, 1.0, n + 1)
+    y, z = np.meshgrid(t, t, indexing="ij")
+    core = 0.4 * np.stack([y * np.sqrt(1.0 - z**2 / 4.0), z * np.sqrt(1.0 - y**2 / 4.0)], axis=-1)
+    blocks = [core]
+    for quarter, side in enumerate((core[:, 0], core[-1, :], core[::-1, -1], core[0, ::-1])):
+        angle = (2 * quarter - 3) * np.pi / 4 + np.linspace(0.0, np.pi / 2, n + 1)
+        rim = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        s = np.linspace(0.0, 1.0, n // 2 + 1)[None, :, None]
+        blocks.append(side[:, None] * (1.0 - s) + rim[:, None] * s)
+    quads, offset = [], 0
+    for part in blocks:
+        rows, columns = part.shape[:2]
+        i, j = np.meshgrid(np.arange(rows - 1), np.arange(columns - 1), indexing="ij")
+        base = (offset + i * columns + j).ravel()
+        quads.append(np.stack([base, base + columns, base + columns + 1, base + 1], axis=1))
+        offset += rows * columns
+    flat = np.concatenate([part.reshape(-1, 2) for part in blocks])
+    _, first, place = np.unique(np.round(flat, 9), axis=0, return_index=True, return_inverse=True)
+    section, quads = flat[first], place.reshape(-1)[np.concatenate(quads)]
+    stations = np.linspace(0.0, length, axial + 1)
+    points = np.concatenate([np.column_stack([np.full(len(section), x), radius * section]) for x in stations])
+    m = len(section)
+    hexes = np.concatenate([np.hstack([quads + i * m, quads + (i + 1) * m]) for i in range(axial)])
+    return grid(points, [(12, hexes)])
+
+
+def boundary(mesh_grid, of_centre, types):
+    """Patches of a grid: ``of_centre`` names a face's patch by its centre; ``types``: name → type."""
+    surface = mesh_grid.extract_surface(algorithm="dataset_surface", pass_pointid=False, pass_cellid=False)
+    names = np.array([of_centre(centre) for centre in surface.cell_centers().points])
+    return [
+        PatchSurface(name, kind, surface.extract_cells(np.flatnonzero(names == name)).extract_surface(
+            algorithm="dataset_surface", pass_pointid=False, pass_cellid=False
+        ))
+        for name, kind in types.items()
+    ]  # fmt: skip
+
+
+def pipe_patches(mesh_grid, length=1.0):
+    def name(centre):
+        return "inlet" if centre[0] < 1e-9 else "outlet" if centre[0] > length - 1e-9 else "wall"
+
+    return boundary(mesh_grid, name, {"inlet": "patch", "outlet": "patch", "wall": "wall"})
+
+
+def box_patches(mesh_grid):
+    def name(centre):
+        return "floor" if centre[2] < 1e-9 else "lid" if centre[2] > 1.0 - 1e-9 else "sides"
+
+    return boundary(mesh_grid, name, {"floor": "wall", "lid": "patch", "sides": "wall"})
+
+
+def merged(grids):
+    """Grids of hexahedra side by side, points in the same place made one."""
+    points = np.concatenate([np.asarray(g.points) for g in grids])
+    first = np.concatenate([[0], np.cumsum([g.n_points for g in grids])[:-1]])
+    cells = np.concatenate(
+        [g.cells.reshape(-1, 9)[:, 1:] + start for g, start in zip(grids, first, strict=True)]
+    )
+    _, unique, place = np.unique(np.round(points, 9) + 0.0, axis=0, return_index=True, return_inverse=True)
+    return grid(points[unique], [(12, place.reshape(-1)[cells])])
+
+
+def period(angle):
+    """Rotation and shift from one period to the next, straight along x or around the z axis."""
+    if angle == 0.0:
+        return np.eye(3), np.array([1.0, 0.0, 0.0])
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), np.zeros(3)
+
+
+def cyclic_row(angle, n, cells=4, perturbation=0.2):
+    """A mesh of n periods, unit cubes straight or bent, between two cyclic patches; the floor is a wall."""
+    shape = block(cells, perturbation)
+    turn, shift = period(angle)
+    if angle:
+        x, y, z = np.array(shape.points).T
+        shape.points = np.column_stack(
+            [(1.0 + y) * np.cos(np.radians(angle) * x), (1.0 + y) * np.sin(np.radians(angle) * x), z]
+        )
+    parts = [shape]
+    for _ in range(n - 1):
+        last = parts[-1].copy()
+        last.points = np.asarray(last.points) @ turn.T + shift
+        parts.append(last)
+
+    def name(centre):
+        along = centre[0] / n if angle == 0.0 else np.arctan2(centre[1], centre[0]) / np.radians(angle * n)
+        return "left" if along < 1e-9 else "right" if along > 1.0 - 1e-9 else floor(centre)
+
+    def floor(centre):
+        return "floor" if centre[2] < 1e-9 else "sides"
+
+    row = merged(parts)
+    patches = boundary(row, name, {"left": "cyclic", "right": "cyclic", "floor": "wall", "sides": "wall"})
+    patches[0] = patches[0]._replace(neighbour="right")
+    patches[1] = matching(patches[0], patches[1], turn, shift, n)._replace(neighbour="left")
+    return build_mesh(row, patches)
+
+
+def matching(left, right, turn, shift, n):
+    """The right patch with its faces in the order of those of the left."""
+    centres = np.array(left.surface.cell_centers().points)
+    for _ in range(n):
+        centres = centres @ turn.T + shift
+    distance = np.linalg.norm(centres[:, None] - right.surface.cell_centers().points[None], axis=2)
+    faces = right.surface.faces.reshape(-1, 5)[distance.argmin(axis=1)]
+    return right._replace(surface=pyvista.PolyData(np.array(right.surface.points), faces.ravel()))
+
+
+def wedge(n, angle=5.0):
+    """A sector about the z axis, one cell thick, n cells from the axis to r = 1 and n along z."""
+    half = np.radians(angle) / 2.0
+    i, k = np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij")
+    r, z = i.ravel() / n, k.ravel() / n
+    sides = [np.column_stack([r * np.cos(a), r * np.sin(a), z]) for a in (-half, half)]
+    m = (n + 1) ** 2
+    # The axis has its points once.
+    points = np.concatenate([sides[0], sides[1][n + 1 :]])
+    back = np.concatenate([np.arange(n + 1), np.arange(m, len(points))])
+    cell = np.stack(np.meshgrid(np.arange(n), np.arange(n), indexing="ij"), axis=-1).reshape(-1, 2)
+    a = cell[:, 0] * (n + 1) + cell[:, 1]
+    b, c, d = a + n + 1, a + n + 2, a + 1
+    ring = cell[:, 0] > 0
+    hexes = np.stack([a, b, back[b], back[a], d, c, back[c], back[d]], axis=1)[ring]
+    prisms = np.stack([a, b, back[b], d, c, back[c]], axis=1)[~ring]
+    return grid(points, [(12, hexes), (13, prisms)])
+
+
+def wedge_patches(shape, angle=5.0):
+    tangent = np.tan(np.radians(angle) / 2.0)
+
+    def name(x):
+        if abs(abs(x[1]) - tangent * x[0]) < 1e-9:
+            return "front" if x[1] < 0.0 else "back"
+        return "ends" if min(x[2], 1.0 - x[2]) < 1e-9 else "wall"
+
+    return boundary(shape, name, {"front": "wedge", "back": "wedge", "ends": "patch", "wall": "wall"})

@@ -1,0 +1,152 @@
+"""The thread that writes, and runs that go on while it does."""
+
+from __future__ import annotations
+
+import errno
+import os
+import threading
+import time
+from collections.abc import Callable
+
+import pytest
+from pipe_case import results, short_case
+
+from foamprb import execute, prepare
+from foamprb.cli import main
+from foamprb.errors import RunStopped
+from foamprb.output import vtk
+from foamprb.output.background import Writer
+from foamprb.output.vtk import Series
+
+PATIENCE = 60.0
+"""Seconds after which what is waited for will not come."""
+
+
+def wait_for(condition: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline, "waited in vain"
+        time.sleep(1e-3)
+
+
+def fail() -> None:
+    raise OSError("no space")
+
+
+def test_one_piece_of_work_at_a_time_in_order() -> None:
+    done: list[int] = []
+    free = threading.Event()
+
+    def first() -> None:
+        assert free.wait(PATIENCE)
+        done.append(1)
+
+    with Writer() as writer:
+        writer.begin(first)
+        writer.check()
+        # It takes no second piece before the first is done.
+        second = threading.Thread(target=writer.begin, args=(lambda: done.append(2),))
+        second.start()
+        second.join(0.1)
+        assert second.is_alive()
+        assert done == []
+        free.set()
+        second.join(PATIENCE)
+        writer.finish()
+        assert done == [1, 2]
+        writer.begin(lambda: done.append(3))
+    assert done == [1, 2, 3]
+
+
+@pytest.mark.parametrize("word", ["check", "finish", "begin"])
+def test_what_went_wrong_is_said_once(word: str) -> None:
+    with Writer() as writer:
+        writer.begin(fail)
+        wait_for(lambda: writer._unfinished is not None and writer._unfinished.done())
+        with pytest.raises(OSError, match="no space"):
+            getattr(writer, word)(*([fail] if word == "begin" else []))
+        writer.finish()
+
+
+def test_leaving_raises_what_went_wrong_last() -> None:
+    with pytest.raises(OSError, match="no space"), Writer() as writer:
+        writer.begin(fail)
+
+
+def test_leaving_with_an_error_waits_and_keeps_the_error() -> None:
+    done = []
+
+    def slow() -> None:
+        time.sleep(0.05)
+        done.append(1)
+        fail()
+
+    def interrupted() -> None:
+        with Writer() as writer:
+            writer.begin(slow)
+            raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        interrupted()
+    assert done == [1]
+
+
+@pytest.fixture
+def case(tmp_path, monkeypatch):
+    # A few steps at a time: 50 to each of six write times.
+    monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 3000)
+    return short_case(tmp_path)
+
+
+def test_particles_go_on_while_a_cloud_is_written_but_not_beyond_the_next(case, monkeypatch):
+    job = prepare(case, threads=1)
+    append, steps = Series.append, []
+
+    def slow(series, cloud):
+        now = round(cloud.time / job.cloud.dt)
+        if now < job.steps:
+            # The particles come to the next write time while this is not written, and no further.
+            wait_for(lambda: job.cloud.step == now + 50)
+            time.sleep(0.05)
+        steps.append((now, job.cloud.step))
+        return append(series, cloud)
+
+    monkeypatch.setattr(Series, "append", slow)
+    execute(job)
+    assert steps == [(n, min(n + 50, 300)) for n in range(50, 301, 50)]
+
+
+def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypatch):
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    begin = Writer.begin
+
+    def at_once(writer, work):
+        begin(writer, work)
+        writer.finish()
+
+    monkeypatch.setattr(Writer, "begin", at_once)
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    assert results(case) == expected
+
+
+def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
+    job = prepare(case, threads=1)
+    write, begun = vtk.write_snapshot, []
+
+    def full(path, cloud):
+        begun.append(path.name)
+        if len(begun) == 2:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        return write(path, cloud)
+
+    monkeypatch.setattr(vtk, "write_snapshot", full)
+    # As slow as more particles would be.
+    monkeypatch.setattr("foamprb.run.job._next_chunk", lambda *_: time.sleep(0.01) or 1)
+    with pytest.raises(RunStopped, match=r"No space .*softCloud_000001\.vtp'\. To go on .*-resume"):
+        execute(job)
+    assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp"]
+    assert 100 < job.cloud.step < 150
+    folder = case / "postProcessing/softCloud"
+    assert [entry.time for entry in vtk.read_pvd(folder / "softCloud.pvd")] == [0.001]
+    assert [f.name for f in (folder / "checkpoint").iterdir()] == ["0.001.checkpoint"]

@@ -1,0 +1,263 @@
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import pyvista
+from clouds import cloud, in_parts
+from hypothesis import given
+from hypothesis import strategies as st
+from limits import limit_of_file_size
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.output.pieces import XMLPPolyDataReader
+from foamprb.output.vtk import (
+    Entry,
+    Parts,
+    Series,
+    Snapshot,
+    files_of,
+    layout,
+    read_pvd,
+    write_pieces,
+    write_snapshot,
+)
+
+
+@pytest.mark.parametrize("n", [0, 1, 4])
+def test_snapshot_round_trip(tmp_path: Path, n: int) -> None:
+    path, written = tmp_path / "cloud.vtp", cloud(0.1 + 0.2, n)
+    write_snapshot(path, written)
+    read = pyvista.read(path)
+
+    assert read.points.dtype == np.float64
+    np.testing.assert_array_equal(read.points, written.points)
+    assert read.n_verts == n
+    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
+    assert set(read.point_data.keys()) == set(written.arrays)
+    for name, array in written.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"].dtype == np.float64
+    assert read.field_data["TimeValue"][0] == 0.1 + 0.2
+    assert list(read.field_data["units"]) == ["d m", "U m/s"]
+    assert list(read.field_data["statusNames"]) == ["pending", "active", "stuck"]
+    assert list(read.field_data["patchNames"]) == ["inlet", "outlet", "wall"]
+
+
+def test_columns_of_a_transposed_array_keep_their_place(tmp_path: Path) -> None:
+    F = np.arange(18.0).reshape(2, 3, 3)
+    columns = F.transpose(2, 1, 0).reshape(9, 2).T
+    write_snapshot(tmp_path / "cloud.vtp", Snapshot(0.0, np.zeros((2, 3)), {"glyph": columns}))
+    np.testing.assert_array_equal(pyvista.read(tmp_path / "cloud.vtp").point_data["glyph"], columns)
+
+
+@pytest.mark.parametrize("array", [np.zeros(3), np.zeros((2, 3, 3)), np.zeros(())])
+def test_snapshot_refuses_arrays_of_another_shape(array: NDArray[Any]) -> None:
+    with pytest.raises(ValueError, match="'F' of a snapshot has shape"):
+        Snapshot(0.0, np.zeros((2, 3)), {"F": array})
+    with pytest.raises(ValueError, match="not \\(n, 3\\)"):
+        Snapshot(0.0, array)
+
+
+def test_full_disk_is_an_error_and_keeps_the_old_file(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "cloud.vtp"
+    path.write_text("old")
+    with limit_of_file_size(20_000), pytest.raises(OSError, match=r"cloud\.vtp: VTK could not write"):
+        write_snapshot(path, cloud(n=20_000))
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+    assert capfd.readouterr().err == ""
+
+
+def test_series_lists_exact_times_in_order(tmp_path: Path) -> None:
+    series = Series(tmp_path / "softCloud", "softCloud")
+    times = [0.0, 0.1, 0.1 + 0.2, 1e-7 + 0.5]
+    files = [series.append(cloud(time)) for time in times]
+    assert [file.name for file in files] == [f"softCloud_{i:06d}.vtp" for i in range(4)]
+
+    reader = pyvista.get_reader(series.pvd)
+    assert reader.time_values == times
+    reader.set_active_time_value(times[2])
+    assert reader.read()[0].field_data["TimeValue"][0] == times[2]
+    assert series.entries == read_pvd(series.pvd)
+
+
+def test_series_refuses_to_go_back(tmp_path: Path) -> None:
+    series = Series(tmp_path, "softCloud")
+    series.append(cloud(0.1))
+    for time in (0.1, 0.05, np.nan):
+        with pytest.raises(ValueError, match=r"does not follow 0\.1 s"):
+            series.append(cloud(time))
+
+
+def test_resumed_series_drops_what_will_be_rewritten(tmp_path: Path) -> None:
+    old = Series(tmp_path, "softCloud")
+    for time in (0.1, 0.2, 0.3, 0.4):
+        old.append(cloud(time))
+
+    assert Series(tmp_path, "softCloud", after=0.4).entries == old.entries
+    series = Series(tmp_path, "softCloud", after=0.2)
+    assert [entry.time for entry in read_pvd(series.pvd)] == [0.1, 0.2]
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "softCloud.pvd",
+        "softCloud_000000.vtp",
+        "softCloud_000001.vtp",
+    }
+    series.append(cloud(0.3))
+    assert series.entries[-1] == Entry(0.3, "softCloud_000002.vtp")
+
+
+def test_resuming_nothing_begins_anew(tmp_path: Path) -> None:
+    series = Series(tmp_path, "softCloud", after=0.0)
+    assert series.append(cloud(0.0)).name == "softCloud_000000.vtp"
+
+
+def test_new_run_removes_the_old_one_and_nothing_else(tmp_path: Path) -> None:
+    old = Series(tmp_path, "softCloud")
+    for time in (0.1, 0.2):
+        old.append(cloud(time))
+    # Not listed, as when a run was killed while it removed an older one.
+    (tmp_path / "softCloud_000007.vtp").touch()
+    others = [tmp_path / "softCloud_mine.vtp", tmp_path / "other_000007.vtp", tmp_path / "fates.csv"]
+    for file in others:
+        file.touch()
+    Series(tmp_path, "softCloud")
+    assert sorted(tmp_path.iterdir()) == sorted(others)
+
+
+def test_killed_run_leaves_nothing_behind_for_the_next(tmp_path: Path) -> None:
+    Series(tmp_path, "softCloud").append(cloud(0.1))
+    for name in (".softCloud_000001.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
+        (tmp_path / name).touch()
+    (tmp_path / "softCloud_000001.vtp").touch()
+    Series(tmp_path, "softCloud", after=0.1)
+    assert {file.name for file in tmp_path.iterdir()} == {"softCloud.pvd", "softCloud_000000.vtp"}
+
+
+def test_crash_between_cloud_and_list_keeps_the_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    series = Series(tmp_path, "softCloud")
+    series.append(cloud(0.1))
+    before = series.pvd.read_bytes()
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_text", fail)
+        with pytest.raises(OSError, match="no space"):
+            series.append(cloud(0.2))
+    assert series.pvd.read_bytes() == before
+    series.append(cloud(0.2))
+    assert [entry.time for entry in read_pvd(series.pvd)] == [0.1, 0.2]
+
+
+@pytest.mark.parametrize("text", ["", "<VTKFile>", '<a><DataSet file="x.vtp"/></a>', "\x00"])
+def test_broken_list_is_one_clear_message(tmp_path: Path, text: str) -> None:
+    (tmp_path / "softCloud.pvd").write_text(text)
+    with pytest.raises(InputError, match=r"softCloud.pvd: not a readable list .* Remove it"):
+        Series(tmp_path, "softCloud")
+
+
+@pytest.mark.parametrize("file", ["../other.vtp", "/etc/x.vtp", "a/b.vtp", "notes.txt"])
+def test_list_may_not_name_files_elsewhere(tmp_path: Path, file: str) -> None:
+    (tmp_path / "softCloud.pvd").write_text(f'<a><DataSet timestep="0" file="{file}"/></a>')
+    with pytest.raises(InputError, match=r"not a \.vtp or \.pvtp file in its own folder"):
+        Series(tmp_path, "softCloud")
+
+
+@given(times=st.lists(st.floats(0, 1e9), unique=True, min_size=1, max_size=4))
+def test_times_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, times: list[float]) -> None:
+    series = Series(tmp_path_factory.mktemp("series"), 'a "name" & <more>')
+    for time in sorted(times):
+        series.append(Snapshot(time, np.zeros((0, 3))))
+    assert [entry.time for entry in read_pvd(series.pvd)] == sorted(times)
+
+
+def fail(*_: object, **__: object) -> None:
+    raise OSError("no space")
+
+
+def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[Snapshot, Path]:
+    """A cloud, and the file of its pieces of so many particles each."""
+    whole, first = cloud(n=sum(sizes)), 0
+    path, pieces = folder / "cloud_000000.pvtp", []
+    for i, n in enumerate(sizes):
+        rows = slice(first, first + n)
+        arrays = {name: array[rows] for name, array in whole.arrays.items()}
+        pieces.append(folder / "cloud_000000" / f"{i}.vtp")
+        write_snapshot(pieces[-1], Snapshot(whole.time, whole.points[rows], arrays, whole.units, whole.names))
+        first += n
+    write_pieces(path, layout(whole), pieces)
+    return whole, path
+
+
+@pytest.mark.parametrize("sizes", [(3, 2), (4, 1, 7), (0,), (1,)])
+def test_a_cloud_in_parts_is_one_file(tmp_path: Path, sizes: tuple[int, ...]) -> None:
+    whole = cloud(n=sum(sizes))
+    found = write_snapshot(tmp_path / "cloud.vtp", in_parts(whole, sizes))
+    assert found == layout(whole)
+    read = pyvista.read(tmp_path / "cloud.vtp")
+    np.testing.assert_array_equal(read.points, whole.points)
+    n = sum(sizes)
+    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
+    for name, array in whole.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"][0] == whole.time
+    assert list(read.field_data["units"]) == ["d m", "U m/s"]
+    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+
+
+@pytest.mark.parametrize("good", [0, 1, 2])
+def test_what_goes_wrong_in_a_part_is_raised_and_keeps_the_old_file(
+    tmp_path: Path, good: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "cloud.vtp"
+    path.write_text("old")
+
+    def parts() -> Iterator[Snapshot]:
+        yield from [cloud()] * good
+        raise InputError("the flow ends")
+
+    with pytest.raises(InputError, match="the flow ends"):
+        write_snapshot(path, Parts(0.1, 3, parts()))
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize("sizes", [(3, 2), (0, 4, 1), (0,)])
+def test_pieces_are_one_cloud(tmp_path: Path, sizes: tuple[int, ...]) -> None:
+    whole, path = in_pieces(tmp_path, sizes)
+    read = XMLPPolyDataReader(path).read()
+    np.testing.assert_array_equal(read.points, whole.points)
+    assert read.n_verts == sum(sizes)
+    for name, array in whole.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"][0] == whole.time
+    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+    assert [file.name for file in files_of(path)] == [path.name, *(f"{i}.vtp" for i in range(len(sizes)))]
+
+
+def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
+    series = Series(tmp_path, "cloud")
+    series.append(cloud(0.1))
+    for time in (0.2, 0.3):
+        stem = series.next(time)
+        write_snapshot(stem / "0.vtp", cloud(time))
+        write_pieces(stem.with_suffix(".pvtp"), layout(cloud(time)), [stem / "0.vtp"])
+        series.add(time, stem.with_suffix(".pvtp"))
+    # As of a run killed while it wrote the next.
+    write_snapshot(series.next(0.4) / "1.vtp", cloud(0.4))
+    series = Series(tmp_path, "cloud", after=0.2)
+    assert series.append(cloud(0.3)).name == "cloud_000002.vtp"
+    assert [entry.file for entry in read_pvd(series.pvd)] == [
+        "cloud_000000.vtp",
+        "cloud_000001.pvtp",
+        "cloud_000002.vtp",
+    ]
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "cloud.pvd", "cloud_000000.vtp", "cloud_000001", "cloud_000001.pvtp", "cloud_000002.vtp"
+    }  # fmt: skip

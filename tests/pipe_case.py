@@ -1,0 +1,68 @@
+"""The pipe case of the tree, copied, edited and read."""
+
+from __future__ import annotations
+
+import csv
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from paths import PIPE
+
+from foamprb.cli import main
+
+END = 0.006
+"""End time of :func:`short_case`, s."""
+
+
+def copy_of_pipe(folder: Path) -> Path:
+    case = folder / "pipe"
+    skipped = shutil.ignore_patterns("postProcessing", "coarse", "medium", "fine", "log.*")
+    shutil.copytree(PIPE, case, ignore=skipped)
+    return case
+
+
+def edit(case: Path, pattern: str, text: str, file: str = "constant/softCloudProperties") -> None:
+    path = case / file
+    edited, n = re.subn(pattern, text, path.read_text(), flags=re.MULTILINE)
+    assert n, f"{pattern} is not in {file}"
+    path.write_text(edited)
+
+
+def short_case(folder: Path) -> Path:
+    """305 particles, the last of them injected after 4 ms; six write times until 6 ms; one on the wall."""
+    case = copy_of_pipe(folder)
+    edit(case, r"endTime\s+\S+;", f"endTime {END};")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.001;")
+    edit(case, r"parcelsPerSecond\s+\S+;", "parcelsPerSecond 75000;")
+    edit(case, r"duration\s+\S+;", "duration 0.004;")
+    edit(case, r"\(0 -0\.00165 0\)", "(0 -0.00165 0) (0 -0.002096 0)", "constant/softCloudPositions")
+    return case
+
+
+def time_folder(case: Path) -> Path:
+    return max((f for f in case.iterdir() if re.fullmatch(r"[1-9]\d*", f.name)), key=lambda f: int(f.name))
+
+
+def message(case: Path, capsys: pytest.CaptureFixture[str], *options: str) -> str:
+    """The one message of a run that must fail."""
+    assert main(["run", "-case", str(case), *options]) == 1
+    err = capsys.readouterr().err
+    assert "Traceback" not in err
+    assert err.startswith("--> foamprb Error : ")
+    assert len(err.strip().splitlines()) == 1
+    return err
+
+
+def fates(case: Path) -> list[dict[str, str]]:
+    with (case / "postProcessing/softCloud/fates.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def results(case: Path) -> dict[str, bytes]:
+    """All files of a run but the checkpoint before the last, which tells of interruptions."""
+    folder = case / "postProcessing/softCloud"
+    files = [file for file in folder.rglob("*") if file.is_file() and file.suffix != ".checkpoint"]
+    files.append(max(folder.glob("checkpoint/*"), key=lambda file: float(file.stem)))
+    return {str(file.relative_to(folder)): file.read_bytes() for file in files}

@@ -1,0 +1,326 @@
+"""The pipe case of the tree, through the command line."""
+
+from __future__ import annotations
+
+import gzip
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+from paths import PIPE, ROOT
+from pipe_case import copy_of_pipe, edit, fates, message, time_folder
+from scipy import stats
+
+from foamprb.cli import main
+from foamprb.cloud.measures import MEASURES
+from foamprb.cloud.state import Status
+from foamprb.cloudfunctions.functions import STATUS_NAMES
+from foamprb.output.vtk import read_pvd
+from foamprb.run.job import prepare
+
+HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"
+D = 5e-6
+
+
+@pytest.fixture
+def case(tmp_path):
+    return copy_of_pipe(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def short_run(tmp_path_factory):
+    """A run of 0.03 s that writes three times."""
+    case = copy_of_pipe(tmp_path_factory.mktemp("short"))
+    edit(case, r"endTime\s+\S+;", "endTime 0.03;")
+    assert main(["run", "-case", str(case)]) == 0
+    return case
+
+
+def test_fates_have_a_row_for_every_particle(short_run):
+    table = short_run / "postProcessing/softCloud/fates.csv"
+    assert table.read_text().splitlines()[0] == HEADER
+    rows = fates(short_run)
+    assert [int(row["id"]) for row in rows] == list(range(305))
+    assert {row["fate"] for row in rows} <= set(STATUS_NAMES)
+    assert [float(row["Ca"]) for row in rows[:5]] == pytest.approx([1e-4, 0.25, 0.5, 0.75, 1.0], rel=1e-12)
+    for row in rows:
+        a, b, c = (float(row[name]) for name in "abc")
+        assert a >= b >= c > 0
+        assert float(row["D"]) == pytest.approx((a - c) / (a + c), rel=1e-12, abs=1e-15)
+        assert (row["patch"] == "") == (row["fate"] in ("active", "pending"))
+
+
+def test_series_holds_every_write_time_and_quantity(short_run):
+    folder = short_run / "postProcessing/softCloud"
+    entries = read_pvd(folder / "softCloud.pvd")
+    assert [entry.time for entry in entries] == pytest.approx([0.01, 0.02, 0.03])
+    injected = [pyvista.read(folder / entry.file) for entry in entries]
+    # 3000 a second, and five from the start; the one due at the write time itself comes after it.
+    assert [cloud.n_points for cloud in injected] == [35, 65, 95]
+    for entry, cloud in zip(entries, injected, strict=True):
+        assert set(MEASURES) <= set(cloud.point_data.keys())
+        assert cloud.field_data["TimeValue"][0] == entry.time
+        assert list(cloud.field_data["statusNames"]) == list(STATUS_NAMES)
+
+
+def test_glyph_is_the_radius_times_the_deformation_gradient(short_run):
+    folder = short_run / "postProcessing/softCloud"
+    cloud = pyvista.read(folder / read_pvd(folder / "softCloud.pvd")[-1].file)
+    F = cloud["deformationGradient"].reshape(-1, 3, 3)
+    glyph = cloud["glyph"].reshape(-1, 3, 3)
+    np.testing.assert_allclose(glyph, (D / 2) * F.transpose(0, 2, 1), rtol=1e-14)
+    np.testing.assert_allclose(cloud["J"], np.linalg.det(F), rtol=1e-12)
+    # Semi-axes and orientation rebuild R² F Fᵀ; the quaternion is (w, x, y, z).
+    w, x, y, z = cloud["orientation"].T
+    axes = np.stack(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    ).transpose(2, 0, 1)
+    rebuilt = np.einsum("nia,na,nja->nij", axes, cloud["semiAxes"] ** 2, axes)
+    expected = (D / 2) ** 2 * F @ F.transpose(0, 2, 1)
+    np.testing.assert_allclose(rebuilt, expected, atol=1e-11 * expected.max())
+    np.testing.assert_array_equal(cloud["active"], cloud["status"] == Status.ACTIVE)
+
+
+def test_reported_load_is_that_of_poiseuille_flow(short_run):
+    folder = short_run / "postProcessing/softCloud"
+    cloud = pyvista.read(folder / read_pvd(folder / "softCloud.pvd")[-1].file)
+    r = np.hypot(cloud.points[:, 1], cloud.points[:, 2])
+    exact = 923.8 * r / 2.1e-3
+    np.testing.assert_allclose(cloud["shearRate"], exact, atol=0.03 * 923.8)
+    mu = 1.208 * 1.491e-5 * 923.8 / np.array([float(row["Ca"]) for row in fates(short_run)])
+    expected = 1.208 * 1.491e-5 * cloud["shearRate"] / mu[cloud["origId"]]
+    np.testing.assert_allclose(cloud["capillaryNumber"], expected, rtol=1e-12)
+
+
+def test_a_second_run_gives_the_same_bytes(short_run):
+    table = short_run / "postProcessing/softCloud/fates.csv"
+    before = table.read_bytes()
+    assert main(["run", "-case", str(short_run), "-threads", "1"]) == 0
+    assert table.read_bytes() == before
+
+
+def test_quasi_rigid_particle_lands_within_two_percent_on_the_coarse_mesh(case):
+    """Against 8989 diameters of the exact pipe, touching by its centre as there."""
+    edit(case, r"^(\s*)patches\s*$", r"\1touching centre;\n\1patches")
+    edit(case, r"duration\s+\S+;", "duration 0.001;")
+    edit(case, r"endTime\s+\S+;", "endTime 0.3;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.1;")
+    assert main(["run", "-case", str(case)]) == 0
+    rows = fates(case)
+    distance = [float(row["x1"]) / D for row in rows[:4]]
+    assert [row["fate"] for row in rows[:3]] == ["stuck"] * 3
+    assert distance[0] == pytest.approx(8989, rel=0.02)
+    assert float(rows[0]["t1"]) == pytest.approx(0.2327, rel=0.01)
+    assert distance[0] < distance[1] < distance[2]
+
+
+def test_dry_run_reports_and_writes_nothing(case, capsys):
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    for expected in ("305 particles", "shape Stokes number", "Reynolds number", "size/cell size", "stick"):
+        assert expected in out
+    assert not (case / "postProcessing").exists()
+
+
+def test_log_ends_with_the_fate_of_every_particle(short_run, capsys):
+    assert main(["run", "--case", str(short_run)]) == 0
+    out = capsys.readouterr().out
+    table = re.findall(r"^    (injected|active|stuck|escaped|failed) +(\d+)$", out, re.MULTILINE)
+    numbers = {name: int(n) for name, n in table}
+    assert numbers.pop("injected") == sum(numbers.values())
+    assert out.rstrip().endswith("End")
+    assert "Time = 0.02" in out
+
+
+def test_info_says_what_the_case_holds(capsys):
+    assert main(["info", "-case", str(PIPE)]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"hexahedron +9216\b", out)
+    assert re.search(r"^ +inlet +768 faces +patch$", out, re.MULTILINE)
+    assert re.search(r"^ +wall +768 faces +wall$", out, re.MULTILINE)
+    assert re.search(r"^ +\d+ +U \(volVectorField\), p", out, re.MULTILINE)
+
+
+def truncate_velocity(case: Path) -> None:
+    file = next(time_folder(case).glob("U*"))
+    if file.suffix == ".gz":
+        raw = gzip.decompress(file.read_bytes())
+        file.write_bytes(gzip.compress(raw[: len(raw) // 2]))
+    else:
+        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+
+
+MISTAKES = {
+    "no such case": (shutil.rmtree, ["pipe"]),
+    "no settings": (lambda c: (c / "constant/softCloudProperties").unlink(), ["softCloudProperties"]),
+    "truncated U": (truncate_velocity, ["U"]),
+    "no U": (lambda c: next(time_folder(c).glob("U*")).unlink(), ["U"]),
+    "no mesh": (lambda c: shutil.rmtree(c / "constant/polyMesh"), ["polyMesh"]),
+    "patch that matches nothing": (
+        lambda c: edit(c, r'"\(inlet\|outlet\)"', '"(inlt|outlt)"'),
+        ["softCloudProperties", "inlt", "inlet"],
+    ),
+    "patch without a rule": (lambda c: edit(c, r'"\(inlet\|outlet\)"', "outlet"), ["inlet"]),
+    "injection through no patch": (lambda c: edit(c, r"patch\s+inlet;", "patch inlt;"), ["inlt", "inlet"]),
+    "injection through the wall": (lambda c: edit(c, r"patch\s+inlet;", "patch wall;"), ["no fluid enters"]),
+    "particle outside the mesh": (
+        lambda c: edit(c, r"-0\.00165|-1\.65e-0?3", "-0.0022", "constant/softCloudPositions"),
+        ["1 of 1", "outside the mesh", "-0.0022"],
+    ),
+    "negative density": (lambda c: edit(c, r"rho0\s+\S+;", "rho0 -1;"), ["rho0", "-1", "> 0"]),
+    "misspelt entry": (lambda c: edit(c, r"deltaT\s", "deltat "), ["deltat", "Did you mean 'deltaT'"]),
+    "broken viscosity": (
+        lambda c: edit(c, r"nu\s+.*;", "nu air;", "constant/transportProperties"),
+        ["transportProperties", "nu", "air"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_each_mistake_has_its_one_message(name, case, capsys):
+    make, expected = MISTAKES[name]
+    make(case)
+    text = message(case, capsys)
+    for words in expected:
+        assert words in text
+
+
+def test_missing_time_names_those_that_exist(case, capsys):
+    text = message(case, capsys, "-time", "7777")
+    assert "7777" in text
+    assert time_folder(case).name in text
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["rnu"], "Did you mean 'run'"),
+        (["run", "-cas", "x"], "-cas"),
+        (["run", "-threads", "0"], ">= 1"),
+        (["run", "-threads", "many"], "many"),
+        (["run", "-time", "1", "-latestTime"], "latestTime"),
+    ],
+)
+def test_mistakes_in_the_arguments(words, expected, capsys):
+    assert main(words) == 1
+    err = capsys.readouterr().err
+    assert expected in err
+    assert "Traceback" not in err
+
+
+def population(case, threads=None):
+    return prepare(case, threads=threads).cloud.particles
+
+
+def of(p, injector):
+    return p.take(np.flatnonzero(p.injector == injector))
+
+
+def test_a_population_is_spread_and_reproducible(case):
+    """Size, density and stiffness are drawn by the model's name, whatever else is injected."""
+    plain = of(population(case), 5)
+    names = {"rho0": (900.0, 1100.0), "shearModulus": (50.0, 500.0), "viscosity": (0.1, 0.2)}
+    rho, mu, eta = (
+        f"{name} {{ type uniform; uniformDistribution {{ minValue {low}; maxValue {high}; }} }}"
+        for name, (low, high) in names.items()
+    )
+    sizes = "{ type uniform; uniformDistribution { minValue 2e-6; maxValue 9e-6; } }"
+    edit(case, r"(patch\s+inlet;)", rf"\1 {rho} solid {{ {mu} {eta} }}")
+    edit(case, r"sizeDistribution\s*\{\s*\$:onePoint\.sizeDistribution;\s*\}", f"sizeDistribution {sizes}")
+    both = of(population(case, threads=1), 5), of(population(case, threads=2), 5)
+    for array, other in zip(*both, strict=True):
+        np.testing.assert_array_equal(array, other)
+    p = both[0]
+    np.testing.assert_array_equal(p.x, plain.x)
+    for values, (low, high) in ((p.rho, names["rho0"]), (p.mu, names["shearModulus"]),
+                                (p.eta, names["viscosity"]), (2e6 * p.R, (2.0, 9.0))):  # fmt: skip
+        share = (values - low) / (high - low)
+        assert stats.ks_1samp(share, stats.uniform.cdf).pvalue > 0.01
+    np.testing.assert_allclose(p.lame, p.mu * 2.0 * 0.499 / (1.0 - 2.0 * 0.499), rtol=1e-12)
+    np.testing.assert_allclose(p.Ca * p.mu, 1.208 * 1.491e-5 * 923.8, rtol=1e-4)
+    # No two quantities share their random numbers, or who is large would be stiff.
+    columns = [p.rho, p.mu, p.eta, p.R]
+    correlation = np.corrcoef(columns) - np.eye(4)
+    assert np.abs(correlation).max() < 4.0 / np.sqrt(p.size)
+    text = (case / "constant/softCloudProperties").read_text()
+    (case / "constant/softCloudProperties").write_text(re.sub(r"Ca025\s*\{[^{}]*\{[^{}]*\}\s*\}", "", text))
+    alone = of(population(case), 4)
+    for name, array, other in zip(p._fields, p, alone, strict=True):
+        if name != "injector":
+            np.testing.assert_array_equal(array, other)
+
+
+def test_a_stiffness_beyond_all_numbers_is_one_message(case, capsys):
+    edit(case, r"Ca\s+0\.5;(?=\s+//)", "Ca 1e-320;")
+    text = message(case, capsys, "-dry-run")
+    assert re.search(r"the shear modulus of \d+ of \d+ particles is inf, no positive number", text)
+
+
+def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
+    monkeypatch.setattr(
+        "foamprb.run.precompile.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")
+    )
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(case / "cache"))
+    monkeypatch.setattr("foamprb.compile.link._parts", {})
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    assert "ompiling" not in capsys.readouterr().out
+
+
+def test_a_cloud_function_that_cannot_work_stops_a_dry_run(case, capsys):
+    edit(
+        case, r"cloudFunctions\s*\{\}", "cloudFunctions { hits { type patchPostProcessing; patches (wal); } }"
+    )
+    text = message(case, capsys, "-dry-run")
+    assert (
+        "softCloudProperties: cloudFunctions/hits: patch wal is not in the mesh. Did you mean 'wall'" in text
+    )
+
+
+def test_positions_that_are_left_out_are_counted(case, capsys):
+    edit(case, r"^\(\s*$|^\(", "( (0 -0.0022 0) ", "constant/softCloudPositions")
+    edit(case, r"type(\s+)manualInjection;", r"type\1manualInjection; ignoreOutOfBounds true;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    assert "1 of 2 positions lie outside the mesh and are left out" in capsys.readouterr().out
+
+
+def test_models_that_do_not_go_together_name_the_file(case, capsys):
+    edit(case, r"shape(\s+)paper;", r"shape\1stokes;")
+    edit(case, r"tractionModel(\s+)roscoe;", r"tractionModel\1jeffery;")
+    text = message(case, capsys)
+    assert "softCloudProperties" in text
+    assert "roscoe" in text
+
+
+def test_debug_shows_where_an_error_arose(case):
+    (case / "constant/softCloudProperties").unlink()
+    with pytest.raises(Exception, match="softCloudProperties"):
+        main(["run", "-case", str(case), "--debug"])
+
+
+def test_doubtful_numbers_are_warned_of_with_their_size(case, capsys):
+    edit(case, r"deltaT\s+\S+;", "deltaT 0.001;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert re.search(r"Warning : .*deltaT is 16\.\d times the shape's relaxation time", out)
+    edit(case, r"value\s+5e-0?6;", "value 5e-4;")
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert "Warning" in out
+    assert "particle Reynolds number is" in out
+    assert "times as large as the cell" in out
+
+
+def test_the_readmes_python_runs():
+    """The ten lines, as they stand."""
+    text = (ROOT / "README.md").read_text()
+    lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
+    names: dict[str, object] = {}
+    exec(lines.replace('"cases/pipe"', f'"{PIPE}"').replace("20_000", "200"), names)
+    assert names["particles"].x[0, 0] > 0.0

@@ -1,0 +1,57 @@
+"""What a whole run needs of memory for each particle."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import pytest
+from paths import ROOT
+from pipe_case import copy_of_pipe, edit
+
+FEW, MANY = 50_000, 250_000
+MOST = 1000.0
+"""Bytes per particle, of which the state is 462 and the copy that is being written 362."""
+
+SCRIPT = """
+import gc, sys
+from pathlib import Path
+from paths import ROOT
+from foamprb.run.job import describe, execute, prepare
+
+def peak_of_run(case):
+    gc.collect()
+    # From here on the peak counts.
+    Path("/proc/self/clear_refs").write_text("5")
+    job = prepare(case, threads=1)
+    describe(job)
+    execute(job, "startTime")
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM"))
+
+few, many = sys.argv[1:]
+# The first time also loads and compiles.
+peak_of_run(few)
+print(peak_of_run(many) - peak_of_run(few))
+"""
+
+
+@pytest.mark.skipif(not os.access("/proc/self/clear_refs", os.W_OK), reason="needs Linux' /proc")
+def test_a_run_needs_less_than_a_kilobyte_per_particle(tmp_path):
+    cases = []
+    for n in (FEW, MANY):
+        (tmp_path / str(n)).mkdir()
+        case = copy_of_pipe(tmp_path / str(n))
+        # All are in the flow when the last of three clouds is written.
+        edit(case, r"endTime\s+\S+;", "endTime 1.2e-4;")
+        edit(case, r"writeInterval\s+\S+;", "writeInterval 4e-5;")
+        edit(case, r"duration\s+\S+;", "duration 5e-5;")
+        edit(case, r"parcelsPerSecond\s+\S+;", f"parcelsPerSecond {n / 5e-5:g};")
+        cases.append(str(case))
+    path = os.pathsep.join([str(ROOT), *sys.path])
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, *cases],
+        capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": path},
+    )  # fmt: skip
+    assert float(done.stdout.splitlines()[-1]) / (MANY - FEW) < MOST

@@ -1,0 +1,86 @@
+"""The loop is compiled by another process while the flow is read, and is what this one would have made."""
+
+import numpy as np
+import pytest
+from mesh_shapes import block
+
+import foamprb
+from foamprb.cli import main
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import LOOPS, Cloud, Models, Tracker
+from foamprb.compile import link as compiling
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.series import SeriesFlow
+from foamprb.flow.walk import MeshFlow
+from foamprb.run.precompile import Ahead
+
+AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))
+
+
+def steady(mesh):
+    return MeshFlow(mesh, 0.1 * np.ones((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+
+
+def transient(mesh):
+    u = 0.1 * np.ones((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
+    return SeriesFlow(mesh, [0.0, 1.0], lambda _: u)
+
+
+@pytest.mark.parametrize("make", [steady, transient])
+def test_what_was_compiled_ahead_is_what_is_wanted(make, tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
+    flow = make(build_mesh(block(1, 0.0, "mixed")))
+    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
+    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
+    assert not cloud.compiled
+    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    ahead = Ahead(early, type(flow))
+    assert ahead
+    ahead.wait()
+    assert cloud.compiled
+    assert not Ahead(early, type(flow))
+    cloud.advance(1)
+    stats = cloud.tracker._track.stats
+    assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
+    assert p.x[0, 0] > 0.5
+    # The stages as the first process would compile them are those that the loop is made of.
+    monkeypatch.setattr(compiling, "_parts", {})
+    early.compile_stages()
+    found = [p.dispatcher for p in compiling._parts.values() if p.dispatcher.signatures]
+    slopes = {early.bindings[name].__code__ for name in ("first_slope", "second_slope", "end_slope")}
+    assert {d.py_func.__code__ for d in found} >= slopes
+    assert all(sum(d.stats.cache_hits.values()) == 1 for d in found)
+
+
+def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
+    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    ahead = Ahead(tracker, MeshFlow)
+    ahead.stop()
+    ahead.wait()
+    assert not tracker.compiled
+
+
+def test_one_that_cannot_start_costs_nothing_but_its_help(tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
+    monkeypatch.setattr("foamprb.run.precompile.sys.executable", "/bin/false")
+    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    ahead = Ahead(tracker, MeshFlow)
+    ahead.wait()
+    assert not tracker.compiled
+
+
+def test_after_compile_no_run_has_to(capsys):
+    """Where other tests keep their code as well, as much of it is theirs."""
+    assert main(["compile"]) == 0
+    assert "The code is kept in" in capsys.readouterr().out
+    for kind in (MeshFlow, SeriesFlow):
+        for integrator in LOOPS:
+            models = Models(integrator=integrator)
+            assert Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False).compiled

@@ -1,0 +1,287 @@
+"""Runs that are interrupted and go on: the same results, bit for bit, or one clear message."""
+
+from __future__ import annotations
+
+import errno
+import gzip
+import logging
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from paths import ROOT
+from pipe_case import END, edit, message, results, short_case, time_folder
+
+from foamprb import execute, prepare
+from foamprb.cli import main
+from foamprb.cloud.cloud import Still
+from foamprb.errors import RunStopped
+from foamprb.output import atomic
+from foamprb.output.vtk import Series
+from foamprb.parallel.team import Serial, View
+
+KILL_TEST = ROOT / "tools/hardening/kill_test"
+EARLIER = 0.003
+
+
+@pytest.fixture(scope="module")
+def truth(tmp_path_factory):
+    """The results of a run never interrupted."""
+    case = short_case(tmp_path_factory.mktemp("truth"))
+    assert main(["run", "-case", str(case), "-threads", "2"]) == 0
+    found = results(case)
+    assert len(found) == 9
+    assert b",stuck,wall," in found["fates.csv"]
+    return found
+
+
+@pytest.fixture
+def case(tmp_path):
+    return short_case(tmp_path)
+
+
+@pytest.fixture
+def stopped(case):
+    """A case whose run was stopped at 3 ms, with particles pending."""
+    stop_after(case, EARLIER)
+    return case
+
+
+def stop_after(case: Path, time: float) -> None:
+    # What the command line logs to, a test before may have closed.
+    logging.getLogger("foamprb").handlers.clear()
+    job = prepare(case, threads=1)
+    with pytest.raises(RunStopped, match=r"stopped at t = .*foamprb run -resume"):
+        execute(job, "latestTime", stop=lambda: job.cloud.time > 0.99 * time)
+
+
+def go_on(case: Path, *options: str) -> None:
+    assert main(["run", "-case", str(case), "-resume", *options]) == 0
+
+
+def test_a_stopped_run_goes_on_with_other_threads(stopped, truth):
+    assert "fates.csv" not in results(stopped)
+    go_on(stopped, "-threads", "3")
+    assert results(stopped) == truth
+
+
+def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch):
+    # A few steps at a time, so that it stops at any of them.
+    monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 3000)
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    assert expected["fates.csv"] == truth["fates.csv"]
+    shutil.rmtree(case / "postProcessing")
+    for time in (0.0, 0.0017, 0.0043):
+        stop_after(case, time)
+    go_on(case)
+    assert results(case) == expected
+
+
+def test_a_later_end_time_continues_the_run(case, truth):
+    edit(case, r"endTime\s+\S+;", f"endTime {EARLIER};")
+    assert main(["run", "-case", str(case)]) == 0
+    edit(case, r"endTime\s+\S+;", f"startFrom latestTime; startTime 0; endTime {END};")
+    assert main(["run", "-case", str(case)]) == 0
+    assert results(case) == truth
+
+
+def test_another_write_interval_changes_no_particle(stopped, truth):
+    edit(stopped, r"writeInterval\s+\S+;", "writeInterval 0.002;")
+    go_on(stopped)
+    assert results(stopped)["fates.csv"] == truth["fates.csv"]
+
+
+def test_a_finished_run_goes_nowhere_and_writes_its_tables_again(stopped, truth):
+    go_on(stopped)
+    (stopped / "postProcessing/softCloud/fates.csv").unlink()
+    go_on(stopped)
+    assert results(stopped) == truth
+
+
+def test_an_unfinished_run_is_replaced_only_by_the_users_word(stopped, truth, capsys):
+    before = results(stopped)
+    text = message(stopped, capsys)
+    for words in ("unfinished run", "0.003 s", "-resume", "-overwrite", "startFrom latestTime"):
+        assert words in text
+    assert results(stopped) == before
+    assert main(["run", "-case", str(stopped), "-overwrite"]) == 0
+    assert results(stopped) == truth
+    assert main(["run", "-case", str(stopped)]) == 0
+
+
+def test_start_from_start_time_replaces_an_unfinished_run(stopped, truth):
+    edit(stopped, r"endTime\s", "startFrom startTime; endTime ")
+    assert main(["run", "-case", str(stopped)]) == 0
+    assert results(stopped) == truth
+
+
+def test_without_a_checkpoint_a_run_begins_at_the_start(case, truth, capsys):
+    go_on(case)
+    assert "No checkpoint in" in capsys.readouterr().out
+    assert results(case) == truth
+
+
+def test_a_new_run_leaves_nothing_of_a_longer_one(case, truth):
+    edit(case, r"endTime\s+\S+;", "endTime 0.009;")
+    assert main(["run", "-case", str(case)]) == 0
+    edit(case, r"endTime\s+\S+;", f"endTime {END};")
+    assert main(["run", "-case", str(case)]) == 0
+    assert results(case) == truth
+
+
+def hasten(case: Path) -> None:
+    """Let the flow be faster by a thousandth, in the cells."""
+    file = time_folder(case) / "U.gz"
+    text = gzip.decompress(file.read_bytes())
+    count = re.search(rb"internalField\s+nonuniform List<vector>\s+(\d+)\s*\(", text)
+    n, start = 3 * int(count[1]), count.end()
+    values = 1.001 * np.frombuffer(text, dtype=float, count=n, offset=start)
+    file.write_bytes(gzip.compress(text[:start] + values.tobytes() + text[start + 8 * n :]))
+
+
+CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
+    "time step": (
+        lambda c: edit(c, r"deltaT\s+\S+;", "deltaT 1e-05;"),
+        "solution/deltaT was 2e-05, is 1e-05",
+    ),
+    "stiffness": (lambda c: edit(c, r"Ca 0\.25;", "Ca 0.3;"), "injections/Ca025/solid/shear_modulus was"),
+    "gravity": (lambda c: edit(c, r"^(\s*)gravity;", r"\1"), r"gravity was .*, is \(0\.0, 0\.0, 0\.0\)"),
+    "viscosity": (
+        lambda c: edit(c, r"1\.491e-0?5", "1.5e-05", "constant/transportProperties"),
+        "fluid/nu was 1.491e-05, is 1.5e-05",
+    ),
+    "integrator": (
+        lambda c: edit(c, r"shape(\s+)paper", r"shape\1rosenbrock"),
+        "models/integrator was paper",
+    ),
+    "wall": (lambda c: edit(c, r"type(\s+)stick", r"type\1escape"), "patch wall was Stick"),
+    "one place": (
+        lambda c: edit(c, r"-0\.00165", "-0.00165001", "constant/softCloudPositions"),
+        "particles at the start/x has changed",
+    ),
+    "flow": (hasten, "flow/nodes has changed"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_changed_physics_is_refused_by_name(name, stopped, capsys):
+    change, expected = CHANGES[name]
+    before = results(stopped)
+    change(stopped)
+    text = message(stopped, capsys, "-resume")
+    assert re.search(expected, text), text
+    assert "-overwrite" in text
+    assert results(stopped) == before
+
+
+def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
+    (stopped / "postProcessing/softCloud/softCloud_000001.vtp").unlink()
+    assert "softCloud_000001.vtp is missing" in message(stopped, capsys, "-resume")
+    (stopped / "postProcessing/softCloud/softCloud.pvd").unlink()
+    assert "lists other times" in message(stopped, capsys, "-resume")
+
+
+def test_a_damaged_checkpoint_costs_one_write_interval(stopped, truth, capsys):
+    folder = stopped / "postProcessing/softCloud/checkpoint"
+    last = folder / "0.003.checkpoint"
+    last.write_bytes(last.read_bytes()[:-1000])
+    go_on(stopped)
+    out = capsys.readouterr().out
+    assert re.search(r"Warning : .*0\.003\.checkpoint is damaged", out)
+    assert "Continuing from the checkpoint at t = 0.002 s" in out
+    assert results(stopped) == truth
+
+
+def test_two_runs_do_not_write_to_one_folder(stopped, capsys):
+    with atomic.only_writer(stopped / "postProcessing/softCloud"):
+        assert "another run is writing here" in message(stopped, capsys, "-resume")
+
+
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    begin_write = Serial.begin_write
+
+    def interrupted(team: Serial, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+        if cloud.step == 100:
+            signal.raise_signal(number)
+        return begin_write(team, series, cloud, view)
+
+    monkeypatch.setattr(Serial, "begin_write", interrupted)
+    assert main(["run", "-case", str(case)]) == status
+    err = capsys.readouterr().err
+    assert (
+        err == "--> foamprb stopped at t = 0.002 s. To go on from the last checkpoint: foamprb run -resume.\n"
+    )
+    assert {n: signal.getsignal(n) for n in before} == before
+    go_on(case)
+    assert results(case) == truth
+
+
+# The first files of the run, its first checkpoint, between, and the table at the end.
+@pytest.mark.parametrize("nth", [1, 3, 5, 6, 20, 31, 37])
+def test_a_full_disk_has_one_message_and_the_run_goes_on(nth, case, truth, capsys, monkeypatch):
+    flush, calls = atomic._flush, iter(range(1, 1000))
+
+    def full(path: Path, flags: int) -> None:
+        if next(calls) == nth:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        flush(path, flags)
+
+    monkeypatch.setattr(atomic, "_flush", full)
+    text = message(case, capsys)
+    assert re.search(r"No space left on device: '.*/softCloud/.*'.*-resume", text)
+    found = {name: data for name, data in results_so_far(case).items() if ".checkpoint" not in name}
+    assert all(truth[name] == data for name, data in found.items() if not name.endswith(".pvd"))
+    monkeypatch.undo()
+    go_on(case)
+    assert results(case) == truth
+
+
+def results_so_far(case: Path) -> dict[str, bytes]:
+    folder = case / "postProcessing/softCloud"
+    return {str(f.relative_to(folder)): f.read_bytes() for f in folder.rglob("*") if f.is_file()}
+
+
+def test_too_many_failures_end_the_run_with_its_results(case, capsys):
+    edit(case, r"deltaT\s+\S+;", "deltaT 0.001;")
+    edit(case, r"endTime\s+\S+;", f"endTime {END};\n maxFailedFraction 0.1;")
+    text = message(case, capsys)
+    failed, injected = map(int, re.search(r"(\d+) of (\d+) particles have failed", text).groups())
+    assert failed > 0.1 * injected
+    folder = case / "postProcessing/softCloud"
+    assert len((folder / "failed.csv").read_text().splitlines()) == failed + 1
+    assert (folder / "fates.csv").exists()
+    # Still too many.
+    assert text.split(";")[0] == message(case, capsys, "-resume").split(";")[0]
+    edit(case, r"maxFailedFraction\s+\S+;", "")
+    go_on(case)
+    allowed = results(case)
+    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    assert results(case) == allowed
+
+
+def test_mistakes_in_the_entries(case, capsys):
+    edit(case, r"endTime\s", "startFrom lastTime; endTime ")
+    assert "Did you mean 'latestTime'?" in message(case, capsys)
+    edit(case, r"startFrom lastTime;", "startTime 0.1;")
+    assert "a cloud begins at time 0" in message(case, capsys)
+    edit(case, r"startTime 0\.1;", "maxFailedFraction 2;")
+    assert "a number from 0 to 1" in message(case, capsys)
+    assert "not allowed with" in message(case, capsys, "-resume", "-overwrite")
+
+
+def test_killed_runs_end_as_if_they_had_never_been(tmp_path):
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+    words = [sys.executable, str(KILL_TEST), "-kills", "12", "-seed", "5"]
+    done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"^1[2-9] interruptions", done.stdout, re.MULTILINE)

@@ -1,0 +1,211 @@
+"""Transient cases through the command line: a box with a velocity that is uniform in space, or nearly."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+import shutil
+
+import numpy as np
+import pytest
+import pyvista
+from transient_case import SCALE, write_transient_case
+
+from foamprb.cli import main
+from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.series import SeriesFlow, read_series
+from foamprb.flow.walk import MeshFlow
+from foamprb.output.vtk import read_pvd
+from foamprb.run.job import prepare
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    return write_transient_case(tmp_path_factory.mktemp("transient") / "case")
+
+
+@pytest.fixture
+def case(written, tmp_path):
+    shutil.copytree(written, tmp_path / "case")
+    return tmp_path / "case"
+
+
+def edit(case, pattern, text):
+    file = case / "constant/softCloudProperties"
+    edited, n = re.subn(pattern, text, file.read_text())
+    assert n
+    file.write_text(edited)
+
+
+def run(case, *options):
+    assert main(["run", "-case", str(case), *options]) == 0
+    return case / "postProcessing/softCloud"
+
+
+def message(case, capsys, *options):
+    assert main(["run", "-case", str(case), *options]) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("--> foamprb Error : ")
+    assert len(error.splitlines()) == 1
+    return error
+
+
+def test_velocities_between_the_times_are_those_of_the_line(case, random):
+    flow, start, middle = read_series(case), read_case(case, 0), read_case(case, 0.5)
+    x = random.random((20, 3))
+    hosts = flow.locate(x)
+    for t in (0.0, 0.2, 0.5):
+        u, l = flow.sample(x, hosts, t)
+        for found, a, b in zip((u, l), start.sample(x, hosts, 0), middle.sample(x, hosts, 0), strict=True):
+            np.testing.assert_allclose(found, a + t / 0.5 * (b - a), rtol=0, atol=1e-12)
+    assert "linear in time between 3 times from 0 to 1.5" in flow.notes[1]
+
+
+def test_the_time_of_the_run_is_that_of_the_flow(case):
+    folder = run(case, "-time", "0:1.5")
+    entries = read_pvd(folder / "softCloud.pvd")
+    assert [entry.time for entry in entries] == pytest.approx([0.4, 0.8, 1.2])
+    with (folder / "fates.csv").open() as file:
+        row = next(csv.DictReader(file))
+    assert (float(row["t0"]), float(row["t1"])) == (0.3, pytest.approx(1.2))
+    # The factor is 0.02 at 0.5 and −0.04 at 1.5: at 1.2 it is −0.022.
+    last = pyvista.read(folder / entries[-1].file)
+    gradient = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
+    d = 0.5 * 0.022 * (gradient + gradient.T)
+    assert last["shearRate"] == pytest.approx(np.sqrt(2 * np.sum(d * d)), rel=1e-4)
+
+
+def test_a_run_starts_at_the_first_time_that_is_selected(case):
+    edit(case, "SOI 0.3", "SOI 0.6")
+    edit(case, "writeInterval 0.4", "writeInterval 0.35")
+    folder = run(case, "-time", "0.5:")
+    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.85, 1.2])
+
+
+def test_a_period_repeats_the_flow(case):
+    edit(case, "endTime 1.2", "endTime 6; period 2")
+    folder = run(case)
+    assert read_pvd(folder / "softCloud.pvd")[-1].time == pytest.approx(6.0)
+    flow = prepare(case).cloud.flow
+    x = np.array([[0.2, 0.3, 0.4]])
+    for t in (0.0, 0.7, 1.8):
+        u, _ = flow.sample(x, flow.locate(x), t)
+        again, _ = flow.sample(x, flow.locate(x), t + 4.0)
+        np.testing.assert_allclose(u, again, rtol=1e-12)
+    assert "repeats itself every 2 s" in flow.notes[1]
+
+
+def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):
+    whole = tmp_path / "whole"
+    shutil.copytree(case, whole)
+    run(whole)
+    edit(case, "endTime 1.2", "endTime 0.8")
+    run(case)
+    edit(case, "endTime 0.8", "endTime 1.2")
+    folder = run(case, "-resume")
+    again = whole / "postProcessing/softCloud"
+    assert (folder / "fates.csv").read_bytes() == (again / "fates.csv").read_bytes()
+    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.4, 0.8, 1.2])
+
+
+def test_a_run_does_not_go_on_in_another_flow(case, capsys):
+    edit(case, "endTime 1.2", "endTime 0.8")
+    run(case)
+    edit(case, "endTime 0.8", "endTime 1.2; period 2")
+    assert "flow/period" in message(case, capsys, "-resume")
+
+
+def test_a_single_time_is_a_steady_flow(case):
+    assert isinstance(prepare(case).cloud.flow, SeriesFlow)
+    for options in ("0.5", "latestTime"):
+        job = prepare(case, options)
+        assert isinstance(job.cloud.flow, MeshFlow)
+        assert job.cloud.start == 0.0
+
+
+def test_a_dry_run_reads_what_it_needs_and_says_what_it_found(case, capsys):
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    out = capsys.readouterr().out
+    assert "2 particles, 24 steps" in out
+    assert "linear in time" in out
+
+
+def test_a_transient_flow_of_a_mesh_file(case, tmp_path):
+    """That of the case, written out by VTK: the same fates but for the cut of the faces."""
+    whole = run(case)
+    names = []
+    for time in SCALE:
+        flow = read_case(case, time)
+        grid = pyvista.OpenFOAMReader(str(marked(case)))
+        grid.set_active_time_value(float(time))
+        shape = grid.read()["internalMesh"]
+        shape.clear_data()
+        shape.cell_data["U"] = flow.arrays(0.0).nodes[flow.mesh.n_points :, 3:6]
+        shape.save(tmp_path / f"flow{time}.vtu")
+        names.append({"name": f"flow{time}.vtu", "time": float(time)})
+    (tmp_path / "flow.vtu.series").write_text(json.dumps({"files": names}))
+    expected = fates(whole)
+    shutil.rmtree(case / "postProcessing")
+    file = str(tmp_path / "flow.vtu.series")
+    found = fates(run(case, "-flow", file, "-time", "0:1.5"))
+    for a, b in zip(found, expected, strict=True):
+        assert [float(a[k]) for k in ("x1", "y1", "z1")] == pytest.approx(
+            [float(b[k]) for k in ("x1", "y1", "z1")], abs=1e-6
+        )
+
+
+def marked(case):
+    (case / "case.foam").touch()
+    return case / "case.foam"
+
+
+def fates(folder):
+    with (folder / "fates.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def moving(case):
+    (case / "0.5/polyMesh").mkdir()
+    shutil.copy(case / "constant/polyMesh/points", case / "0.5/polyMesh/points")
+
+
+def cut_short(case):
+    file = case / "1.5/U"
+    file.write_text(file.read_text()[:300])
+
+
+MISTAKES = {
+    "end beyond the flow": (
+        lambda c: edit(c, "endTime 1.2", "endTime 1.6"), [],
+        ["softCloudProperties", "solution/endTime is 1.6", "the flow at 1.5", "period"],
+    ),
+    "end before the start": (
+        lambda c: edit(c, "endTime 1.2", "endTime 0.4"), ["-time", "0.5:"],
+        ["solution/endTime is 0.4. Allowed: after 0.5, the first time of the flow"],
+    ),
+    "injection before the start": (
+        lambda c: edit(c, "SOI 0.3", "SOI 0.3"), ["-time", "0.5:"],
+        ["injection model manual: SOI is 0.3. Allowed: from 0.5 on"],
+    ),
+    "a mesh that moves": (moving, [], ["0.5/polyMesh/points", "the mesh changes in time"]),
+    "several times of a steady flow": (
+        lambda c: edit(c, "transient yes; ", ""), ["-time", "0:0.5"],
+        ["solution/transient is no", "-time '0:0.5' selects several times"],
+    ),
+    "a period that the times do not fill": (
+        lambda c: edit(c, "transient yes; ", "transient yes; period 4; "), [],
+        ["the period 4 s asks for fields up to nearly 4 s", "1.5 s"],
+    ),
+    "no velocity at a time": (lambda c: (c / "0.5/U").unlink(), [], ["0.5: no field U; the fields are p"]),
+    "a velocity cut short": (cut_short, [], ["1.5"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_gives_one_message(mistake, case, capsys):
+    break_it, options, words = MISTAKES[mistake]
+    break_it(case)
+    error = message(case, capsys, *options)
+    for word in words:
+        assert word in error

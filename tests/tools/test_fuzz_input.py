@@ -1,0 +1,42 @@
+"""Some damaged inputs, as tools/hardening/fuzz_input tries them by the thousand."""
+
+from __future__ import annotations
+
+import importlib.machinery
+import importlib.util
+import sys
+
+import pytest
+from paths import ROOT
+
+TOOL = ROOT / "tools/hardening/fuzz_input"
+
+
+@pytest.fixture(scope="module")
+def tool():
+    loader = importlib.machinery.SourceFileLoader("fuzz_input", str(TOOL))
+    path = list(sys.path)
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("fuzz_input", loader))
+    sys.modules["fuzz_input"] = module
+    loader.exec_module(module)
+    yield module
+    sys.path[:] = path
+    del sys.modules["fuzz_input"]
+
+
+def test_damaged_input_ends_in_a_message_or_a_correct_run(tool, tmp_path):
+    failures: list[str] = []
+    outcomes = tool.fuzz(60, 1, tmp_path, failures.append)
+    assert not failures, "\n".join(failures)
+    assert sum(outcomes.values()) == 60
+    seen = {kind for _, kind in outcomes}
+    assert seen == {"message", "run"}
+
+
+def test_a_failure_is_seen(tool, tmp_path):
+    """The sound inputs with other sizes than they have: every one must be told."""
+    inputs = tool.sound_inputs(tmp_path)
+    answer = tool.attempt(tmp_path / inputs[0].name, inputs[0].flow, (8, 27, 23))
+    assert answer["outcome"] == "silent"
+    assert "the input had (8, 27, 23)" in answer["text"]
+    assert tool.attempt(tmp_path / "none", "", (8, 27, 24))["outcome"] == "message"

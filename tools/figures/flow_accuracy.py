@@ -1,0 +1,184 @@
+"""Errors of u and ∇u between the cell centres of pipe meshes, against the Poiseuille solution.
+
+Usage: python tools/figures/flow_accuracy.py CASE [CASE …], coarsest first; pipes along x with the paper's
+dimensions unless told otherwise. Each mesh is sampled at random points, in the core (r < 0.9 R) and near the
+wall, by three methods: ours; OpenFOAM's cellPoint (nodal means on the same tetrahedra, gradient constant in
+each); and VTK's point data (probed; gradient by vtkGradientFilter). Once with the solver's U, once with exact
+values at the cell centres and at rest on the wall.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pyvista
+from numpy.typing import NDArray
+
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.read.openfoam import read_fields, select_time
+from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.walk import MeshFlow
+
+Floats = NDArray[np.float64]
+Sampler = Callable[[Floats], tuple[Floats, Floats]]
+COLUMNS = ("u core", "u wall", "∇u core", "∇u wall")
+
+
+class Pipe(NamedTuple):
+    """A pipe along x: radius in m, mean velocity in m/s."""
+
+    radius: float
+    mean: float
+
+    def velocity(self, x: Floats) -> Floats:
+        """Poiseuille's u at the points (n, 3), zero outside."""
+        u = np.zeros_like(x)
+        u[:, 0] = 2.0 * self.mean * np.maximum(1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / self.radius**2, 0.0)
+        return u
+
+    def gradient(self, x: Floats) -> Floats:
+        """∂u_i/∂x_j at the points, (n, 3, 3)."""
+        l = np.zeros((len(x), 3, 3))
+        l[:, 0, 1:] = -4.0 * self.mean / self.radius**2 * x[:, 1:]
+        return l
+
+
+def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
+    """Nodal u and ∇u of foamprb."""
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, boundary))
+    return lambda x: flow.sample(x, flow.locate(x), 0.0)
+
+
+def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
+    """OpenFOAM's cellPoint: means weighted by inverse distance, boundary points from boundary faces only."""
+    columns = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
+    u = weighted_mean(mesh, mesh.cell_points, mesh.centres[columns], cells[columns])
+    first = mesh.face_start[mesh.n_internal]
+    faces = np.repeat(np.arange(len(boundary)), np.diff(mesh.face_start)[mesh.n_internal :])
+    rim = mesh.face_points[first:]
+    u_rim = weighted_mean(mesh, rim, mesh.boundary_centres[faces], boundary[faces])
+    u[rim] = u_rim[rim]
+    nodes, values = mesh.nodes, np.concatenate([u, cells])
+    flow = MeshFlow(mesh, values, np.zeros((len(values), 3, 3)))
+
+    def sample(x: Floats) -> tuple[Floats, Floats]:
+        hosts = flow.locate(x)
+        tets = mesh.tets[hosts]
+        edges = nodes[tets[:, 1:]] - nodes[tets[:, :1]]
+        differences = values[tets[:, 1:]] - values[tets[:, :1]]
+        return flow.sample(x, hosts, 0.0)[0], np.linalg.solve(edges, differences).transpose(0, 2, 1)
+
+    return sample
+
+
+def weighted_mean(mesh: Mesh, points: NDArray[np.int32], sites: Floats, values: Floats) -> Floats:
+    """Means at mesh points of values at sites, weighted by inverse distance."""
+    weight = 1.0 / np.linalg.norm(mesh.points[points] - sites, axis=1)
+    total = np.bincount(points, weight, mesh.n_points)
+    sums = [np.bincount(points, weight * column, mesh.n_points) for column in values.T]
+    return np.stack(sums, axis=1) / np.where(total > 0.0, total, 1.0)[:, None]
+
+
+def vtk_points(grid: pyvista.UnstructuredGrid) -> Sampler:
+    """VTK's probe of the grid's point data ``U``, and of its gradient."""
+    derived = grid.compute_derivative(scalars="U", gradient="l")
+
+    def sample(x: Floats) -> tuple[Floats, Floats]:
+        probed = pyvista.PolyData(x).sample(derived)
+        return np.asarray(probed["U"], dtype=float), np.asarray(probed["l"], dtype=float).reshape(-1, 3, 3)
+
+    return sample
+
+
+def read_vtk(case: Path) -> pyvista.UnstructuredGrid:
+    """The case's mesh with the point data that VTK's reader makes."""
+    reader = pyvista.POpenFOAMReader(str(case / "system" / "controlDict"))
+    reader.cell_to_point_creation = True
+    reader.set_active_time_value(float(select_time(case)))
+    return reader.read()["internalMesh"]
+
+
+def with_point_data(grid: pyvista.UnstructuredGrid, cells: Floats, pipe: Pipe) -> pyvista.UnstructuredGrid:
+    """The grid with the means that VTK makes of cell values, zero on the wall as the reader would have it."""
+    copy = pyvista.UnstructuredGrid()
+    copy.copy_structure(grid)
+    copy.cell_data["U"] = cells
+    copy = copy.cell_data_to_point_data()
+    on_wall = np.hypot(copy.points[:, 1], copy.points[:, 2]) > (1.0 - 1e-5) * pipe.radius
+    copy.point_data["U"][on_wall] = 0.0
+    return copy
+
+
+def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
+    """Points spread evenly over the middle three fifths of the pipe, inside its faceted mesh."""
+    rng = np.random.default_rng(0)
+    low, high = mesh.points[:, 0].min(), mesh.points[:, 0].max()
+    r, angle = pipe.radius * np.sqrt(rng.random(number)), 2.0 * np.pi * rng.random(number)
+    x = low + (high - low) * (0.2 + 0.6 * rng.random(number))
+    points = np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
+    nothing = np.zeros((mesh.n_points + mesh.n_cells, 3))
+    flow = MeshFlow(mesh, nothing, np.zeros((len(nothing), 3, 3)))
+    return points[flow.locate(points) >= 0]
+
+
+def errors(sample: Sampler, pipe: Pipe, x: Floats) -> list[tuple[float, float]]:
+    """Rms and maximum of the errors, for each of the columns, in %."""
+    u, l = sample(x)
+    core = np.hypot(x[:, 1], x[:, 2]) < 0.9 * pipe.radius
+    of_u = np.linalg.norm(u - pipe.velocity(x), axis=1) / pipe.mean
+    of_l = np.linalg.norm((l - pipe.gradient(x)).reshape(-1, 9), axis=1) / (4.0 * pipe.mean / pipe.radius)
+    parts = [100.0 * error[region] for error in (of_u, of_l) for region in (core, ~core)]
+    return [(float(np.sqrt(np.mean(part**2))), float(part.max())) for part in parts]
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
+    parser.add_argument("-radius", type=float, default=2.1e-3, help="m (default: %(default)s)")
+    parser.add_argument(
+        "-mean", type=float, default=0.484995, help="mean velocity, m/s (default: %(default)s)"
+    )
+    parser.add_argument("-points", type=int, default=100_000, help="sampling points (default: %(default)s)")
+    options = parser.parse_args()
+    pipe = Pipe(options.radius, options.mean)
+
+    results: dict[tuple[str, str], list[list[tuple[float, float]]]] = {}
+    sizes = []
+    for case in options.cases:
+        mesh, cells, boundary, _ = read_fields(case)
+        x = random_points(mesh, pipe, options.points)
+        sizes.append(mesh.n_cells)
+        exact, exact_boundary = pipe.velocity(mesh.centres), pipe.velocity(mesh.boundary_centres)
+        for patch, first, last in zip(mesh.patches, mesh.patch_start, mesh.patch_start[1:], strict=False):
+            if patch.type == "wall":
+                exact_boundary[first:last] = 0.0
+        grid = read_vtk(case)
+        for source, values in (("solver", (cells, boundary)), ("exact", (exact, exact_boundary))):
+            points = grid if source == "solver" else with_point_data(grid, exact, pipe)
+            for method, sampler in (
+                ("foamprb", ours(mesh, *values)),
+                ("cellPoint", cell_point(mesh, *values)),
+                ("VTK", vtk_points(points)),
+            ):
+                results.setdefault((source, method), []).append(errors(sampler, pipe, x))
+
+    print("Errors rms/max; u in % of the mean velocity, ∇u in % of the wall shear rate; order of the rms")
+    print(f"{'cells':>8} {'values':7} {'method':10}" + "".join(f"{name:>16}" for name in COLUMNS))
+    for (source, method), rows in results.items():
+        for size, row in zip(sizes, rows, strict=True):
+            print(f"{size:8} {source:7} {method:10}" + "".join(f"{rms:9.3f}/{top:6.2f}" for rms, top in row))
+        if len(rows) > 1:
+            step = np.log(sizes[-1] / sizes[-2]) / 3.0
+            orders = [np.log(a[0] / b[0]) / step for a, b in zip(rows[-2], rows[-1], strict=True)]
+            print(f"{'order':>8} {'':18}" + "".join(f"{order:16.2f}" for order in orders))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,93 @@
+"""How far soft particles travel in the paper's pipe, against their softness: the paper's Fig. 14 (a).
+
+Tracks the particle of Sect. 5.4 from (0, −1.65 mm, 0) until its centre meets the wall, for capillary numbers
+from 0.0001 to 1, with both drag laws, in the exact Poiseuille flow and in OpenFOAM cases of the same pipe.
+Writes ``distance.csv`` and, with matplotlib, ``distance.png``.
+
+    python tools/figures/pipe_distance.py cases/pipe --output docs
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+
+import foamprb
+from foamprb.body.drag import DRAGS
+from foamprb.output.tables import write_table
+
+NU, RHO = 1.491e-5, 1.208
+WALL_SHEAR_RATE, RADIUS, DIAMETER = 923.8, 2.1e-3, 5e-6
+CAPILLARY = np.array([1e-4, *np.arange(0.05, 1.001, 0.05)])
+RIGID_ANALYTIC, RIGID_PRINTED = 8989.0, 9165.0
+
+
+def distances(flow, drag: str, dt: float) -> np.ndarray:
+    """Landing distance over the particle's diameter, for each of CAPILLARY."""
+    medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
+    start = np.tile([0.0, -1.65e-3, 0.0], (len(CAPILLARY), 1))
+    particles = foamprb.spheres(start, d=DIAMETER, rho=2560.0, mu=medium.mu * WALL_SHEAR_RATE / CAPILLARY)
+    interactions = [foamprb.Stick() if p.type == "wall" else foamprb.Escape() for p in flow.patches]
+    models = foamprb.Models(drag=drag, touching="centre")
+    cloud = foamprb.Cloud(particles, flow, medium, interactions, dt, models)
+    cloud.advance(round(1.0 / dt))
+    if not (particles.status == foamprb.Status.STUCK).all():
+        raise SystemExit(f"Not every particle landed: {cloud.particles.counts()}")
+    return particles.x[:, 0] / DIAMETER
+
+
+def main() -> None:
+    """Compute, write and plot."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("cases", type=Path, nargs="*", default=[Path("cases/pipe")], metavar="CASE")
+    parser.add_argument("--output", type=Path, default=Path("docs"))
+    parser.add_argument("--dt", type=float, default=1e-5, help="time step, s [1e-5]")
+    options = parser.parse_args()
+    flows = {
+        "analytic": foamprb.analytic.pipe(RADIUS, WALL_SHEAR_RATE * RADIUS / 4),
+    }
+    for case in options.cases:
+        flow = foamprb.read_case(case)
+        flows[f"OpenFOAM, {flow.mesh.n_cells} cells"] = flow
+    columns = {"Ca": CAPILLARY}
+    for name, flow in flows.items():
+        for drag in DRAGS:
+            columns[f"{drag}, {name}"] = distances(flow, drag, options.dt)
+    options.output.mkdir(parents=True, exist_ok=True)
+    write_table(options.output / "distance.csv", columns)
+    for name, values in columns.items():
+        print(f"{name:40s}", " ".join(f"{v:9.5g}" for v in values[::5]))
+    plot(columns, options.output / "distance.png")
+
+
+def plot(columns: dict[str, np.ndarray], file: Path) -> None:
+    """Distance against Ca, one curve for each drag law and flow."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    from matplotlib import pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    colours = dict(zip(DRAGS, ("tab:blue", "tab:orange"), strict=True))
+    markers = {drag: iter("osv^") for drag in DRAGS}
+    for name, values in columns.items():
+        if name == "Ca":
+            continue
+        drag, flow = name.split(", ", 1)
+        style = (
+            {"ls": "-"}
+            if flow == "analytic"
+            else {"ls": "", "marker": next(markers[drag]), "ms": 4, "mfc": "none"}
+        )
+        axes.plot(CAPILLARY, values, color=colours[drag], label=name, **style)
+    axes.axhline(RIGID_ANALYTIC, color="0.4", lw=0.8, label="rigid sphere, closed form")
+    axes.axhline(RIGID_PRINTED, color="0.4", lw=0.8, ls=":", label="rigid sphere, the paper's print")
+    axes.set(xlabel="Ca at the wall shear rate", ylabel="landing distance / particle diameter")
+    axes.legend(frameon=False)
+    figure.savefig(file, dpi=150)
+
+
+if __name__ == "__main__":
+    main()
