@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from foamprb.body.material import Parameter, add_material
     from foamprb.cloud.block import Medium
-    from foamprb.cloud.cloud import Cloud, Models
+    from foamprb.cloud.cloud import Cloud
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
+    from foamprb.cloud.tracker import Models
     from foamprb.errors import InputError, RunStopped
     from foamprb.flow import analytic
     from foamprb.flow.read.meshfile import read_mesh_file
@@ -27,7 +28,7 @@ _HOMES = {
     "Escape": "foamprb.cloud.patches",
     "InputError": "foamprb.errors",
     "Medium": "foamprb.cloud.block",
-    "Models": "foamprb.cloud.cloud",
+    "Models": "foamprb.cloud.tracker",
     "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
     "Rebound": "foamprb.cloud.patches",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from foamprb.output.vtk import Parts, Snapshot
+from foamprb.output.vtk import Parts, PointCloud
 
 
-def cloud(time: float = 0.1, n: int = 4) -> Snapshot:
+def cloud(time: float = 0.1, n: int = 4) -> PointCloud:
     random = np.random.default_rng(1)
-    return Snapshot(
+    return PointCloud(
         time,
         random.random((n, 3)),
         {
@@ -27,12 +27,12 @@ def cloud(time: float = 0.1, n: int = 4) -> Snapshot:
     )
 
 
-def in_parts(whole: Snapshot, sizes: tuple[int, ...]) -> Parts:
+def in_parts(whole: PointCloud, sizes: tuple[int, ...]) -> Parts:
     """The same cloud, so many particles at a time."""
     ends = np.cumsum(sizes)
     rows = [slice(end - n, end) for end, n in zip(ends, sizes, strict=True)]
     snapshots = (
-        Snapshot(
+        PointCloud(
             whole.time,
             whole.points[part],
             {name: array[part] for name, array in whole.arrays.items()},

@@ -16,9 +16,10 @@ from mesh_shapes import block, box_patches
 from foamprb import analytic
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.errors import RunStopped
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.walk import MeshFlow

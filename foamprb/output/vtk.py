@@ -29,7 +29,7 @@ _BLOCK_BYTES = 1 << 20
 
 
 @dataclass(frozen=True)
-class Snapshot:
+class PointCloud:
     """A cloud of n particles at one time.
 
     Parameters
@@ -76,11 +76,11 @@ class Parts(NamedTuple):
     """Time of all, s."""
     number: int
     """At least one."""
-    snapshots: Iterator[Snapshot]
+    snapshots: Iterator[PointCloud]
     """So many, with the same arrays, units and names."""
 
 
-def write_snapshot(path: Path, cloud: Snapshot | Parts) -> tuple[PieceArray, ...]:
+def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, ...]:
     """Write a cloud as VTK PolyData, in one step: a vertex per particle, with its point arrays.
 
     Field data are ``TimeValue``, ``units`` (``"rho kg/m3"``, …) and, for each array of codes,
@@ -104,7 +104,7 @@ def write_snapshot(path: Path, cloud: Snapshot | Parts) -> tuple[PieceArray, ...
     Exception
         Whatever the parts raise; what was at ``path`` is as it was.
     """
-    parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, Snapshot) else cloud
+    parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, PointCloud) else cloud
     source = _Source(parts)
     writer = vtkXMLPolyDataWriter()
     writer.SetInputConnection(source.GetOutputPort())
@@ -151,7 +151,7 @@ class PieceArray(NamedTuple):
     components: int
 
 
-def layout(snapshot: Snapshot) -> tuple[PieceArray, ...]:
+def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
     """The arrays of a cloud, the points first."""
     arrays = {"Points": np.asarray(snapshot.points, dtype=np.float64), **snapshot.arrays}
     return tuple(
@@ -244,7 +244,7 @@ class Tracks:
     tracks
         Arrays by name, (m,): of the paths.
     units, names
-        As of a :class:`Snapshot`.
+        As of a :class:`PointCloud`.
     """
 
     points: NDArray[np.float64]
@@ -330,7 +330,7 @@ class Series:
         """The file that ParaView opens."""
         return self.folder / f"{self.name}.pvd"
 
-    def append(self, cloud: Snapshot | Parts) -> Path:
+    def append(self, cloud: PointCloud | Parts) -> Path:
         """Write a cloud and list it.
 
         Returns
@@ -428,7 +428,7 @@ def _pvd_text(entries: Sequence[Entry]) -> str:
     )
 
 
-def _poly_data(snapshot: Snapshot) -> vtkPolyData:
+def _poly_data(snapshot: PointCloud) -> vtkPolyData:
     data = vtkPolyData()
     points = vtkPoints()
     points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))

@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
-from foamprb.cloud.cloud import Cloud, Tracker
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
 from foamprb.cloud.state import CHANGING, Particles, Status
+from foamprb.cloud.tracker import Tracker
 from foamprb.compile.link import is_compiled, link
 from foamprb.errors import InputError
 

@@ -25,9 +25,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.block import LANES
-from foamprb.cloud.cloud import AT_ONCE, Cloud, Still, Tracker, longest_semi_axis
+from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.executor import AT_ONCE, longest_semi_axis
 from foamprb.cloud.measures import injected
 from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
+from foamprb.cloud.tracker import Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.walk import sample_with
@@ -316,7 +318,7 @@ class Root:
                  "s"[: nodes > 1])  # fmt: skip
         log.info("    %-24s %.1f", "shared memory [MB]", self._published.size / 1e6)
 
-    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+    def begin_write(self, series: Series, cloud: Snapshot, view: View) -> Callable[[], object]:
         """Let every process write its particles at once; what is left is to list the pieces."""
         self._cloud.flow.load(cloud.time, cloud.time)
         self._show(self._cloud.flow_arrays())

@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Still
+from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.measures import (
     MEASURES,
     Gradients,
@@ -28,7 +28,7 @@ from foamprb.cloud.measures import (
 from foamprb.cloud.state import Particles
 from foamprb.errors import InputError
 from foamprb.flow.base import Sampled
-from foamprb.output.vtk import Parts, Series, Snapshot
+from foamprb.output.vtk import Parts, PointCloud, Series
 
 log = logging.getLogger("foamprb")
 
@@ -60,9 +60,9 @@ class View:
         """
         units = {name: m.unit for name, m in MEASURES.items()}
 
-        def snapshots() -> Iterator[Snapshot]:
+        def snapshots() -> Iterator[PointCloud]:
             for c in contexts(particles, flow, self.mu, time, ids):
-                yield Snapshot(time, c.particles.x, measure(c), units, self.names)
+                yield PointCloud(time, c.particles.x, measure(c), units, self.names)
 
         return Parts(time, number_of_contexts(len(injected(particles))), snapshots())
 
@@ -77,7 +77,7 @@ class Team(Protocol):
     def take(self, cloud: Cloud) -> None:
         """Share out the particles of a cloud that is ready to be advanced."""
 
-    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+    def begin_write(self, series: Series, cloud: Snapshot, view: View) -> Callable[[], object]:
         """Begin to write a cloud; what ends that, and lists the cloud, may be called in another thread.
 
         Both raise OSError if a file cannot be written.
@@ -92,7 +92,7 @@ class Serial:
     def take(self, cloud: Cloud) -> None:
         """There is nobody to share with."""
 
-    def begin_write(self, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+    def begin_write(self, series: Series, cloud: Snapshot, view: View) -> Callable[[], object]:
         """Leave to the other thread all but looking at a flow that will have changed by then."""
         steady = cloud.flow.span == (-np.inf, np.inf)
         flow = cloud.flow if steady else gradients(cloud.particles, cloud.flow, cloud.time)

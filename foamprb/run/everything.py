@@ -8,10 +8,11 @@ import numpy as np
 import pyvista
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import LOOPS, Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import LOOPS, Models
 from foamprb.compile.link import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.reconstruct import Reconstruction

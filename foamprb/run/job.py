@@ -22,12 +22,14 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models, Still, Tracker, available_threads
+from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import draw
 from foamprb.cloud.injection.models import release
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
+from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.functions import STATUS_NAMES, Functions, Look
 from foamprb.compile.link import cache_directory
 from foamprb.dictionary.positions import read_positions
@@ -434,7 +436,7 @@ class Results(NamedTuple):
     checkpoints: Checkpoints
     marks: Fingerprint
 
-    def save(self, cloud: Cloud | Still, functions: Mapping[str, NDArray[Any]]) -> None:
+    def save(self, cloud: Cloud | Snapshot, functions: Mapping[str, NDArray[Any]]) -> None:
         """Write a checkpoint, of a cloud whose files have been written."""
         self.checkpoints.write(save(cloud, functions, self.series.entries, self.marks))
 
@@ -448,7 +450,7 @@ def _go_through_time(
     per_write = max(1, round(solution.writeInterval / solution.deltaT))
     reported = np.flatnonzero(cloud.particles.status == Status.FAILED)
     failing = _failing(job)
-    still: Still | None = None
+    snapshot: Snapshot | None = None
     with Writer() as writer, _progress(cloud.start, solution.endTime) as show:
 
         def ask() -> bool:
@@ -466,11 +468,11 @@ def _go_through_time(
             if not reached:
                 results.save(cloud, job.functions.state())
                 raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {_HOW_TO_GO_ON}")
-            still = cloud.still(still)
-            end_write = team.begin_write(results.series, still, view(job))
+            snapshot = cloud.snapshot(snapshot)
+            end_write = team.begin_write(results.series, snapshot, view(job))
             job.functions.write(job.folder)
             seen = {name: array.copy() for name, array in job.functions.state().items()}
-            writer.begin(partial(_end_writing, end_write, results, still, seen))
+            writer.begin(partial(_end_writing, end_write, results, snapshot, seen))
             log_time()
             reported = _log_failures(cloud.particles, reported)
             failing = _failing(job)
@@ -478,7 +480,7 @@ def _go_through_time(
 
 
 def _end_writing(
-    end_write: Callable[[], object], results: Results, cloud: Still, functions: Mapping[str, NDArray[Any]]
+    end_write: Callable[[], object], results: Results, cloud: Snapshot, functions: Mapping[str, NDArray[Any]]
 ) -> None:
     end_write()
     results.save(cloud, functions)
@@ -555,7 +557,7 @@ def _next_chunk(job: Job, target: int) -> int:
     cloud = job.cloud
     counts = cloud.counts()
     work = counts[Status.PENDING] + counts[Status.ACTIVE]
-    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.crew.at_once // work))
+    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.executor.at_once // work))
 
 
 @contextmanager

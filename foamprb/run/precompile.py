@@ -14,8 +14,9 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from foamprb.cloud.cloud import Tracker, available_threads
+from foamprb.cloud.executor import available_threads
 from foamprb.cloud.state import empty
+from foamprb.cloud.tracker import Tracker
 
 if TYPE_CHECKING:
     # The process that compiles should soon begin to.

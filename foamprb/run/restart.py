@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import foamprb
-from foamprb.cloud.cloud import Cloud, Still
+from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.functions import Functions
 from foamprb.errors import InputError
@@ -53,7 +53,10 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
 
 
 def save(
-    cloud: Cloud | Still, functions: Mapping[str, NDArray[Any]], entries: Sequence[Entry], marks: Fingerprint
+    cloud: Cloud | Snapshot,
+    functions: Mapping[str, NDArray[Any]],
+    entries: Sequence[Entry],
+    marks: Fingerprint,
 ) -> Checkpoint:
     """The state of a run: its cloud, what its functions remember, its series, and its fingerprint."""
     header = {

@@ -12,8 +12,9 @@ from scipy.interpolate import CubicSpline
 
 from foamprb import Medium
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
 from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst

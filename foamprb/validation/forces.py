@@ -9,8 +9,9 @@ from scipy.integrate import solve_ivp
 
 from foamprb import Medium
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from foamprb.validation.runs import advance_to

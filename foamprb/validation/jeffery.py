@@ -6,7 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial.transform import Rotation
 
-from foamprb.cloud.cloud import Models
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references_rigid as rigid
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from foamprb.body.imex import INTEGRATORS
-from foamprb.cloud.cloud import Models
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row

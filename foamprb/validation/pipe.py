@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foamprb.cloud.cloud import Models
 from foamprb.cloud.state import Status
+from foamprb.cloud.tracker import Models
 from foamprb.flow.base import Flow
 from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst

@@ -11,10 +11,11 @@ from foamprb import Medium
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.tensor import Tensor, det, dot, from_frame, inverse, to_frame
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Escape, Stick
 from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
 from foamprb.validation import references

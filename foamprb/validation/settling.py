@@ -8,8 +8,9 @@ from scipy.spatial.transform import Rotation
 from foamprb import Medium
 from foamprb.body.drag import DRAGS
 from foamprb.body.ellipsoid import integrals
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import set_rest_shape, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst

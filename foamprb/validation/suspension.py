@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation import references_rigid as rigid

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from foamprb.cloud.cloud import Models, available_threads
+from foamprb.cloud.executor import available_threads
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation import references_soft as soft

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foamprb.cloud.cloud import Models
+from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, worst

@@ -10,11 +10,12 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, stored_energy
 from foamprb.cloud.advance import track_block
 from foamprb.cloud.block import ROWS, Medium, new_scratch
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Reason, Status, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.flow.analytic import walk_free
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))

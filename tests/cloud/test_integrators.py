@@ -16,9 +16,10 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 
 SECOND_ORDER = ("rosenbrock", "stokes")

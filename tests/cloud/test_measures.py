@@ -24,7 +24,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.cloud import measures
-from foamprb.cloud.cloud import longest_semi_axis
+from foamprb.cloud.executor import longest_semi_axis
 from foamprb.cloud.measures import MEASURES, context, contexts, gradients, measure
 from foamprb.cloud.state import Particles, Status
 
@@ -159,14 +159,14 @@ def test_a_copy_of_what_changes_stays_as_it_was(flow):
     p = spheres(np.zeros((3, 3)), d=1e-6, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, Medium(MU, 1.0, (0.0, 0.0, 0.0)), [], 1e-5, threads=1)
     cloud.advance(1)
-    still = cloud.still()
-    before = [array.copy() for array in still.particles]
+    snapshot = cloud.snapshot()
+    before = [array.copy() for array in snapshot.particles]
     cloud.advance(3)
-    assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(before, still.particles, strict=True))
-    assert not np.array_equal(still.particles.F, cloud.particles.F)
+    assert all(np.array_equal(a, b, equal_nan=True) for a, b in zip(before, snapshot.particles, strict=True))
+    assert not np.array_equal(snapshot.particles.F, cloud.particles.F)
     # What stays as it is needs no memory twice, and the next copy none of its own.
-    assert still.particles.x0 is cloud.particles.x0
-    again = cloud.still(still)
-    assert again.particles.F is still.particles.F
+    assert snapshot.particles.x0 is cloud.particles.x0
+    again = cloud.snapshot(snapshot)
+    assert again.particles.F is snapshot.particles.F
     assert np.array_equal(again.particles.F, cloud.particles.F)
-    assert (still.step, again.step) == (1, 4)
+    assert (snapshot.step, again.step) == (1, 4)

@@ -18,8 +18,9 @@ import foamprb
 from foamprb.cloud.adaptive import end_inertial
 from foamprb.cloud.advance import dense_newton
 from foamprb.cloud.block import LANES, Medium
-from foamprb.cloud.cloud import LOOPS, Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import LOOPS, Models
 from foamprb.compile import link as compiling
 from foamprb.compile.link import link
 

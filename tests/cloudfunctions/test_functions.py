@@ -16,10 +16,11 @@ from foamprb import analytic, execute, prepare
 from foamprb.body.tensor import principal_frame
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import MEASURES, context
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Status, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.functions import (
     FUNCTIONS,
     Functions,
@@ -412,7 +413,7 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch
         edit(case, r"endTime\s+\S+;", "endTime 0.012;")
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
-            monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 1000)
+            monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 1000)
             job = prepare(case, threads=1)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)

@@ -10,9 +10,10 @@ from foam_writer import write_case
 from mesh_shapes import block, box_patches
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
 from foamprb.flow.mesh.mesh import build_mesh

@@ -14,9 +14,10 @@ from foamprb.body.ellipsoid import integrals
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud, Models
+from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
 from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
 
 RADIUS, NU, PERIOD, AMPLITUDE, MEAN, PHASE = 2e-3, 2e-6, 1.0, 0.06, 5e-3, 0.4
 OMEGA = 2 * np.pi / PERIOD

@@ -70,9 +70,9 @@ WRITERS = {
         write_table(path, {f"c{i}": np.random.default_rng(i).random(2_000_000) for i in range(20)})
     """,
     "cloud.vtp": """
-        from foamprb.output.vtk import Snapshot, write_snapshot
+        from foamprb.output.vtk import PointCloud, write_snapshot
         values = np.random.default_rng(0).random((3_000_000, 9))
-        snapshot = Snapshot(0.0, values[:, :3].copy(), {f"F{i}": values for i in range(5)})
+        snapshot = PointCloud(0.0, values[:, :3].copy(), {f"F{i}": values for i in range(5)})
         write_snapshot(path, snapshot)
     """,
 }

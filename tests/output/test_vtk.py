@@ -16,8 +16,8 @@ from foamprb.output.pieces import XMLPPolyDataReader
 from foamprb.output.vtk import (
     Entry,
     Parts,
+    PointCloud,
     Series,
-    Snapshot,
     files_of,
     layout,
     read_pvd,
@@ -50,16 +50,16 @@ def test_snapshot_round_trip(tmp_path: Path, n: int) -> None:
 def test_columns_of_a_transposed_array_keep_their_place(tmp_path: Path) -> None:
     F = np.arange(18.0).reshape(2, 3, 3)
     columns = F.transpose(2, 1, 0).reshape(9, 2).T
-    write_snapshot(tmp_path / "cloud.vtp", Snapshot(0.0, np.zeros((2, 3)), {"glyph": columns}))
+    write_snapshot(tmp_path / "cloud.vtp", PointCloud(0.0, np.zeros((2, 3)), {"glyph": columns}))
     np.testing.assert_array_equal(pyvista.read(tmp_path / "cloud.vtp").point_data["glyph"], columns)
 
 
 @pytest.mark.parametrize("array", [np.zeros(3), np.zeros((2, 3, 3)), np.zeros(())])
 def test_snapshot_refuses_arrays_of_another_shape(array: NDArray[Any]) -> None:
     with pytest.raises(ValueError, match="'F' of a snapshot has shape"):
-        Snapshot(0.0, np.zeros((2, 3)), {"F": array})
+        PointCloud(0.0, np.zeros((2, 3)), {"F": array})
     with pytest.raises(ValueError, match="not \\(n, 3\\)"):
-        Snapshot(0.0, array)
+        PointCloud(0.0, array)
 
 
 def test_full_disk_is_an_error_and_keeps_the_old_file(
@@ -170,7 +170,7 @@ def test_list_may_not_name_files_elsewhere(tmp_path: Path, file: str) -> None:
 def test_times_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, times: list[float]) -> None:
     series = Series(tmp_path_factory.mktemp("series"), 'a "name" & <more>')
     for time in sorted(times):
-        series.append(Snapshot(time, np.zeros((0, 3))))
+        series.append(PointCloud(time, np.zeros((0, 3))))
     assert [entry.time for entry in read_pvd(series.pvd)] == sorted(times)
 
 
@@ -178,7 +178,7 @@ def fail(*_: object, **__: object) -> None:
     raise OSError("no space")
 
 
-def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[Snapshot, Path]:
+def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[PointCloud, Path]:
     """A cloud, and the file of its pieces of so many particles each."""
     whole, first = cloud(n=sum(sizes)), 0
     path, pieces = folder / "cloud_000000.pvtp", []
@@ -186,7 +186,8 @@ def in_pieces(folder: Path, sizes: tuple[int, ...]) -> tuple[Snapshot, Path]:
         rows = slice(first, first + n)
         arrays = {name: array[rows] for name, array in whole.arrays.items()}
         pieces.append(folder / "cloud_000000" / f"{i}.vtp")
-        write_snapshot(pieces[-1], Snapshot(whole.time, whole.points[rows], arrays, whole.units, whole.names))
+        part = PointCloud(whole.time, whole.points[rows], arrays, whole.units, whole.names)
+        write_snapshot(pieces[-1], part)
         first += n
     write_pieces(path, layout(whole), pieces)
     return whole, path
@@ -216,7 +217,7 @@ def test_what_goes_wrong_in_a_part_is_raised_and_keeps_the_old_file(
     path = tmp_path / "cloud.vtp"
     path.write_text("old")
 
-    def parts() -> Iterator[Snapshot]:
+    def parts() -> Iterator[PointCloud]:
         yield from [cloud()] * good
         raise InputError("the flow ends")
 

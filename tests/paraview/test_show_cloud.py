@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from paths import ROOT
 
 from foamprb.cloud.state import Status
-from foamprb.output.vtk import Series, Snapshot
+from foamprb.output.vtk import PointCloud, Series
 
 SCRIPT = ROOT / "tools" / "paraview" / "show_cloud.py"
 PIPE = ROOT / "cases" / "pipe"
@@ -75,7 +75,7 @@ def deformation_gradients(n: int) -> NDArray[Any]:
     return F
 
 
-def write_run(case: Path, radius: float = RADIUS) -> tuple[Snapshot, NDArray[Any]]:
+def write_run(case: Path, radius: float = RADIUS) -> tuple[PointCloud, NDArray[Any]]:
     """Two times of a cloud of six bodies along a line; returns the last, and its F."""
     n = len(STATUSES)
     F = deformation_gradients(n)
@@ -83,7 +83,7 @@ def write_run(case: Path, radius: float = RADIUS) -> tuple[Snapshot, NDArray[Any
     series = Series(case / "postProcessing" / "softCloud", "softCloud")
     for time in (0.1, 0.2):
         points = np.c_[np.linspace(1e-3, 6e-3, n) + 1e-3 * time, np.full(n, 5e-4), np.full(n, 5e-4)]
-        snapshot = Snapshot(
+        snapshot = PointCloud(
             time,
             points,
             {
@@ -193,7 +193,7 @@ def test_run_without_cloud_shows_the_walls_and_says_so(duct: Path, tmp_path: Pat
 
 def test_time_that_was_not_written_and_nobody_in_the_flow(duct: Path, tmp_path: Path) -> None:
     Series(duct / "postProcessing" / "softCloud", "softCloud").append(
-        Snapshot(
+        PointCloud(
             0.0,
             np.zeros((2, 3)),
             {

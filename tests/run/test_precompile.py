@@ -7,7 +7,8 @@ from mesh_shapes import block
 import foamprb
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import LOOPS, Cloud, Models, Tracker
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.tracker import LOOPS, Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.series import SeriesFlow

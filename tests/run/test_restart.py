@@ -21,7 +21,7 @@ from pipe_case import END, edit, message, results, short_case, time_folder
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.cloud import Still
+from foamprb.cloud.cloud import Snapshot
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.vtk import Series
@@ -74,7 +74,7 @@ def test_a_stopped_run_goes_on_with_other_threads(stopped, truth):
 
 def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch):
     # A few steps at a time, so that it stops at any of them.
-    monkeypatch.setattr("foamprb.cloud.cloud._Threads.at_once", 3000)
+    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     assert expected["fates.csv"] == truth["fates.csv"]
@@ -210,7 +210,7 @@ def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
     begin_write = Serial.begin_write
 
-    def interrupted(team: Serial, series: Series, cloud: Still, view: View) -> Callable[[], object]:
+    def interrupted(team: Serial, series: Series, cloud: Snapshot, view: View) -> Callable[[], object]:
         if cloud.step == 100:
             signal.raise_signal(number)
         return begin_write(team, series, cloud, view)

@@ -1,0 +1,219 @@
+"""The compiled loop over particles, put together from the models that a cloud selects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from foamprb.body.drag import DRAGS
+from foamprb.body.material import MATERIALS
+from foamprb.body.material import finger as finger_of_ellipsoid
+from foamprb.body.surface_tension import laplace_stress
+from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.adaptive import (
+    ADAPTIVE_ROWS,
+    ADAPTIVE_STAGES,
+    end_inertial,
+    end_inertialess,
+    first_inertial,
+    first_inertialess,
+    second_inertial,
+    second_inertialess,
+    track_adaptive,
+)
+from foamprb.cloud.advance import STAGES, track_block, track_share
+from foamprb.cloud.block import LANES, ROWS, Medium, new_scratch
+from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
+from foamprb.cloud.patches import Interaction, Rebound
+from foamprb.cloud.state import Particles, Status
+from foamprb.compile.link import compile_part, is_compiled, link
+from foamprb.errors import InputError
+from foamprb.flow.analytic import gap_free
+from foamprb.flow.walk import LONG
+
+__all__ = ["Models", "Tracker"]
+
+
+@dataclass(frozen=True)
+class Models:
+    """Names of the models that a cloud selects, from the registries of :mod:`foamprb.body`."""
+
+    traction: str = "roscoe"
+    drag: str = "oberbeck"
+    material: str = "neoHooke"
+    touching: Literal["ellipsoid", "centre"] = "ellipsoid"
+    integrator: str = "paper"
+    tolerance: float = 1e-4
+    """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
+
+
+class Loop(NamedTuple):
+    """A compiled loop over particles, and what it is made of."""
+
+    entry: Callable[..., int]
+    stages: tuple[Callable[..., Any], ...]
+    rows: int
+    """Rows of a block."""
+    adaptive: bool
+    bindings: dict[str, Callable[..., Any]]
+
+
+def _second_order(**slopes: Callable[..., Any]) -> Loop:
+    return Loop(track_adaptive, (*ADAPTIVE_STAGES, *slopes.values()), ADAPTIVE_ROWS, True, slopes)
+
+
+LOOPS: dict[str, Loop] = {
+    "paper": Loop(track_block, STAGES, ROWS, False, {}),
+    "rosenbrock": _second_order(
+        first_slope=first_inertial, second_slope=second_inertial, end_slope=end_inertial
+    ),
+    "stokes": _second_order(
+        first_slope=first_inertialess, second_slope=second_inertialess, end_slope=end_inertialess
+    ),
+}
+"""The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
+
+
+class Tracker:
+    """The compiled loop over particles with everything that acts on them, but neither particles nor flow.
+
+    Parameters
+    ----------
+    models
+        Names of the models.
+    kernels
+        The functions of the flow, as :class:`~foamprb.flow.base.Flow` has them.
+    medium, interactions, dt, start
+        As of a :class:`Cloud`.
+    shaped, tense
+        Whether some particle is no sphere at rest; whether some has surface tension.
+    """
+
+    def __init__(
+        self,
+        models: Models,
+        kernels: Mapping[str, Callable[..., Any]],
+        medium: Medium,
+        interactions: Sequence[Interaction],
+        dt: float,
+        start: float,
+        shaped: bool,
+        tense: bool,
+    ) -> None:
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense
+        bindings = dict(kernels)
+        if models.touching == "centre":
+            bindings["gap"] = gap_free
+        bindings["traction"] = TRACTIONS[models.traction]
+        bindings["drag"] = DRAGS[models.drag]
+        material = MATERIALS[models.material]
+        bindings["derivatives"] = material.derivatives
+        if material.dilation is not None:
+            bindings["dilation"] = material.dilation
+        if shaped:
+            bindings["finger"] = finger_of_ellipsoid
+        if tense:
+            bindings["interface"] = laplace_stress
+        self.loop = loop = LOOPS[models.integrator]
+        bindings.update(loop.bindings)
+        self.kernels, self.bindings = kernels, bindings
+        self.separate: tuple[Callable[..., Any], ...] = (*loop.stages, *RARE, *LONG)
+        self.table = _patch_table(interactions)
+        self.medium, self.dt, self.start = medium, dt, start
+        self.options = (models.tolerance,) if loop.adaptive else ()
+        self._track = link(track_share, {**bindings, "track": loop.entry}, self.separate)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Another process compiles for itself.
+        return Tracker, self._made_of
+
+    @property
+    def compiled(self) -> bool:
+        """Whether the loop is compiled already."""
+        return is_compiled(self._track)
+
+    def compile_moves(self, flow: Any) -> None:
+        """Compile what comes after the stages in each step, with what the flow's kernels read."""
+        self._compile((release, reach_end), {"flow": flow})
+
+    def compile_stages(self) -> None:
+        """Compile the second half of the stages.
+
+        With it, and with what reads a flow, there is about as much to compile as without it in the loop.
+        """
+        stages = self.loop.stages
+        self._compile(stages[len(stages) // 2 :], {})
+
+    def _compile(self, functions: Iterable[Callable[..., Any]], arguments: dict[str, Any]) -> None:
+        scratch, vector = new_scratch(self.loop.rows), (0.0, 0.0, 0.0)
+        arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
+        arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
+        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
+        for function in functions:
+            compile_part(function, arguments, self.bindings, self.separate)
+
+    def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
+        """Carry particles from step ``step`` through ``steps`` steps, in place.
+
+        Parameters
+        ----------
+        flow
+            What the flow's kernels read.
+
+        Returns
+        -------
+        The number of walks that failed and were mended by the tree.
+        """
+        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
+        place = (p.status[rows].astype(np.int64) << 32) + p.host[rows]
+        rows = rows[np.argsort(place, kind="stable")]
+
+        def work(first: int) -> int:
+            scratch = new_scratch(self.loop.rows)
+            mended: int = self._track(
+                flow, self.table, self.medium, p, rows, first, shares,
+                step, steps, self.dt, self.start, scratch, self.options,
+            )  # fmt: skip
+            return mended
+
+        blocks = -(-len(rows) // LANES)
+        # A thread that is held up leaves the shares that it has not begun to others.
+        shares = max(1, min(_SHARES * threads if threads > 1 else 1, blocks))
+        if shares == 1:
+            return work(0)
+        with ThreadPoolExecutor(threads) as pool:
+            return sum(pool.map(work, range(shares)))
+
+
+_SHARES = 8
+"""Of the particles, for each of several threads."""
+
+
+def check(models: Models) -> None:
+    """Raise InputError if the models do not go together."""
+    material = MATERIALS[models.material]
+    if models.integrator == "stokes" and models.traction != "roscoe":
+        raise InputError(f"the integrator stokes needs the traction roscoe, not {models.traction}")
+    if models.integrator == "stokes" and not material.isochoric:
+        raise InputError(f"the integrator stokes takes no {models.material}: it has no incompressible form")
+    if models.integrator == "paper" and material.dilation is None:
+        raise InputError(f"the integrator paper takes no {models.material}: choose rosenbrock or stokes")
+
+
+def refuse_tension(models: Models) -> None:
+    if models.integrator == "paper":
+        raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
+
+
+def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:
+    rebounds = [i if isinstance(i, Rebound) else Rebound() for i in interactions]
+    return PatchTable(
+        np.array([i.code for i in interactions], dtype=np.int8),
+        np.array([r.e for r in rebounds], dtype=float),
+        np.array([r.mu for r in rebounds], dtype=float),
+    )
