@@ -59,7 +59,7 @@ from foamprb.dictionary.schema import (
     selected,
 )
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.mesh.patch import WALLS
+from foamprb.flow.base import WALLS
 from foamprb.settings.libs import load_libs
 
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
