@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gzip
+import logging
+import os
 import re
 import zlib
 from collections.abc import Callable, Iterator
@@ -10,7 +12,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from foamprb.dictionary.files import existing, has_both_forms
 from foamprb.errors import InputError, suggestion
+
+log = logging.getLogger("foamprb")
 
 DICTIONARY_TEXT = "a dictionary { … }"
 
@@ -151,8 +156,8 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     Expanded are ``$name`` (also ``${name}``), looked up from the dictionary where it stands outward, with
     ``.`` between the keys of nested dictionaries; ``$:a.b`` from the top of the file; ``$.name`` and
     ``$..name`` in this and in the enclosing dictionary only; ``$name;`` in place of an entry, which merges
-    the dictionary ``name``; ``#include``, ``#includeIfPresent`` and ``#sinclude``. A macro sees what is
-    complete before it, as in OpenFOAM: not the dictionary that it stands in.
+    the dictionary ``name``; ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``. A macro
+    sees what is complete before it, as in OpenFOAM: not the dictionary that it stands in.
 
     Parameters
     ----------
@@ -170,6 +175,14 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     root = Dictionary("", None, source, 0)
     text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
     _Parser(source, text, including=()).fill(root)
+    root.entries.pop(_HEADER, None)
+    return root
+
+
+def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
+    """Make of a text what :func:`read_dictionary` would of the file, which it comes from."""
+    root = Dictionary("", None, Source(path, case), 0)
+    _Parser(root.source, text, including=()).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -196,8 +209,11 @@ def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
 
 
 def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
+    found = existing(path) or path
+    if has_both_forms(path):
+        log.warning("%s and %s.gz are both there: the first is read, as by OpenFOAM.", path, path.name)
     try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
+        with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
             return stream.read().decode("utf-8")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
@@ -224,7 +240,8 @@ _TOKEN = re.compile(
 _HEADER = "FoamFile"
 _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
-_INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False}
+_INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False, "#includeEtc": True}
+_ETC = "#includeEtc"
 _CASE_FOLDERS = {
     "$FOAM_CASE": "",
     "${FOAM_CASE}": "",
@@ -398,7 +415,9 @@ class _Parser:
         if name.text in _MARKS or name.text == "":
             raise self.mistake(directive, "names no file.")
         path = self.source.path.parent / self.in_case(unquoted(name.text))
-        if not (path.is_file() or _INCLUDES[directive.text]):
+        if directive.text == _ETC:
+            path = self.in_etc(name)
+        if not (existing(path) or _INCLUDES[directive.text]):
             return
         if path.resolve() in self.files:
             raise self.mistake(name, "includes itself.")
@@ -412,6 +431,24 @@ class _Parser:
             if name.startswith(tag):
                 return f"{self.source.case.resolve() / folder}{name.removeprefix(tag)}"
         return name
+
+    def in_etc(self, name: _Token) -> Path:
+        """Find a file in OpenFOAM's folders ``etc``: the user's, the site's, and that of the installation."""
+        etc = [Path.home() / ".OpenFOAM"]
+        etc += [
+            Path(os.environ[key], "etc")
+            for key in ("WM_PROJECT_SITE", "WM_PROJECT_DIR")
+            if os.environ.get(key)
+        ]
+        for folder in etc:
+            if existing(folder / unquoted(name.text)):
+                return folder / unquoted(name.text)
+        raise self.mistake(
+            name,
+            "is in none of the folders "
+            + ", ".join(map(str, etc))
+            + "; is WM_PROJECT_DIR set? (OpenFOAM's bashrc sets it)",
+        )
 
     def peek(self, ahead: int = 0) -> _Token:
         """Look at a coming token; the last one has no text."""
