@@ -31,6 +31,7 @@ from foamprb.flow.read.case import (
 )
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
+from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.reconstruct import Reconstruction
 
@@ -160,7 +161,8 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
     require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
-    return CaseMesh(mesh, patches, tuple(notes_of_forms(files)))
+    require_patch_shapes(mesh, folder)
+    return CaseMesh(mesh, patches, (*notes_of_forms(files), *notes_of_types(patches)))
 
 
 def velocities(field: Field, whole: CaseMesh) -> tuple[Floats, Floats]:

@@ -344,6 +344,19 @@ BREAKAGES = {
         "4 of 24 boundary faces",
     ),
     "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "1 of 24 boundary faces"),
+    "patch of a type misspelt": (
+        rewrite(POLY + "boundary", "type wall", "type wal"),
+        r"boundary, line 8: boundary/floor/type is 'wal'\. Did you mean 'wall'\?",
+    ),
+    "a curved symmetry plane": (
+        lambda case: (
+            edit(
+                case / POLY / "boundary", r"sides // a patch\n    \{ type wall", "sides { type symmetryPlane"
+            ),
+            edit(case / "1e1/U", r"sides \{[^}]*\}", "sides { type symmetryPlane; }"),
+        ),
+        "patch sides is of type symmetryPlane, but not planar: its faces turn by up to 180",
+    ),
     "gap between patches": (rewrite(POLY + "boundary", "nFaces 4", "nFaces 3"), "lid starts at face"),
     "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
     "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
@@ -365,6 +378,15 @@ def test_a_broken_case_gives_its_one_message(name, case, capfd):
         read_case(case)
     assert str(case) in str(caught.value)
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_type_of_somebodys_library_is_a_plain_patch(case):
+    """OpenFOAM makes a generic patch of it."""
+    edit(case / POLY / "boundary", "type patch", "type turbineInlet")
+    flow = read_case(case)
+    note = "Patch lid is of type turbineInlet, which is taken for a plain patch, as by OpenFOAM."
+    assert note in flow.notes
+    assert flow.patches[1] == Patch("lid", "turbineInlet")
 
 
 def test_a_damaged_owner_is_found_without_the_note(tmp_path):
