@@ -1,7 +1,7 @@
 """Rules that a dictionary entry's value must keep, declared beside its type.
 
 A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
-annotated, e.g. ``rho0: Annotated[float, Positive]``. The reader checks; the class stays a plain record.
+annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.schema` checks.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Only:
-    """The one value that means what foamprb does, for entries that OpenFOAM's users know; and why."""
+    """An entry of OpenFOAM's that may have one value only, the one that means what foamprb does; and why."""
 
     value: bool | float | str
     why: str
@@ -54,7 +54,7 @@ class Only:
 
 @dataclass(frozen=True)
 class Each:
-    """What every component of a vector must keep."""
+    """Bounds of every component of a vector."""
 
     bounds: Bounds
 

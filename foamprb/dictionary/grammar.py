@@ -1,4 +1,4 @@
-"""OpenFOAM's dictionaries: their grammar, with macros and includes, and where each entry was written."""
+"""OpenFOAM's dictionary files: text, with macros and includes, to a tree of entries."""
 
 from __future__ import annotations
 
@@ -6,160 +6,35 @@ import gzip
 import re
 import zlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 
-DICTIONARY_TEXT = "a dictionary { … }"
-
-
-@dataclass(frozen=True)
-class Source:
-    """A file that is read for a case."""
-
-    path: Path
-    case: Path
-
-    def __str__(self) -> str:
-        path, case = self.path.resolve(), self.case.resolve()
-        return str(path.relative_to(case) if path.is_relative_to(case) else self.path)
-
-    def mistake(self, line: int, what: str) -> InputError:
-        """Make the error of a line."""
-        return InputError(f"{self}, line {line}: {what}")
-
-
-@dataclass(eq=False)
-class Entry:
-    """What stands under a key of a dictionary, where it was written, and whether a macro has used it."""
-
-    key: str
-    parent: Entry | None
-    source: Source
-    line: int
-    used: bool = field(default=False, kw_only=True)
-
-    @property
-    def path(self) -> str:
-        """Keys from the top of the file, with slashes between them."""
-        above = self.parent.path if self.parent else ""
-        return f"{above}/{unquoted(self.key)}" if above else unquoted(self.key)
-
-    def mistake(self, what: str) -> InputError:
-        """Make the error of this entry: file, line, path, and what is wrong."""
-        return self.source.mistake(self.line, f"{self.path} {what}")
-
-    def missing(self, key: str, allowed: str) -> InputError:
-        """Make the error of a key that this dictionary lacks."""
-        path = f"{self.path}/{key}" if self.path else key
-        place = f", line {self.line}" if self.path else ""
-        return InputError(f"{self.source}{place}: {path} is missing. {allowed}")
-
-    def dictionary(self) -> Dictionary:
-        """Take this entry as a dictionary; a key without a value, such as ``gravity;``, is an empty one."""
-        raise self.mistake(f"is {self}. Allowed: {DICTIONARY_TEXT}.")
-
-    def copy(self, key: str, parent: Entry) -> Entry:
-        """Copy to another place."""
-        return replace(self, key=key, parent=parent)
-
-
-@dataclass(eq=False)
-class Stream(Entry):
-    """An entry's tokens up to the semicolon, macros expanded."""
-
-    tokens: tuple[str, ...] = ()
-
-    def dictionary(self) -> Dictionary:
-        """See :meth:`Entry.dictionary`."""
-        if self.tokens:
-            return super().dictionary()
-        return Dictionary(self.key, self.parent, self.source, self.line)
-
-    @property
-    def text(self) -> str:
-        """The tokens with a space between any two."""
-        return " ".join(self.tokens)
-
-    def __str__(self) -> str:
-        text = re.sub(r"(?<=[(\[]) | (?=[)\]])", "", self.text)
-        return f"'{text if len(text) <= 60 else text[:57] + '...'}'"
-
-
-@dataclass(eq=False)
-class Dictionary(Entry):
-    """Entries by key, in their order."""
-
-    entries: dict[str, Entry] = field(default_factory=dict)
-
-    def __str__(self) -> str:
-        return "a dictionary"
-
-    def dictionary(self) -> Dictionary:
-        """See :meth:`Entry.dictionary`."""
-        return self
-
-    def at(self, path: str) -> Entry:
-        """Find the entry that the keys of a path with slashes lead to."""
-        entry: Entry = self
-        for key in path.split("/"):
-            entry = entry.dictionary().entries[key]
-        return entry
-
-    def copy(self, key: str, parent: Entry) -> Dictionary:
-        """Copy to another place, entries and all."""
-        twin = replace(self, key=key, parent=parent)
-        twin.entries = {name: entry.copy(name, twin) for name, entry in self.entries.items()}
-        return twin
-
-    def add(self, entry: Entry) -> None:
-        """Add an entry; of two dictionaries with one key the entries are merged, else the last one counts."""
-        earlier = self.entries.get(entry.key)
-        if isinstance(earlier, Dictionary) and isinstance(entry, Dictionary):
-            earlier.merge(entry)
-        else:
-            self.entries[entry.key] = entry
-
-    def merge(self, other: Dictionary) -> None:
-        """Take over another dictionary's entries."""
-        for entry in other.entries.values():
-            entry.parent = self
-            self.add(entry)
-
-
-@dataclass(eq=False)
-class DictionaryList(Entry):
-    """Named dictionaries in parentheses, ``( name { … } name { … } )``; a name may occur twice."""
-
-    items: list[Dictionary] = field(default_factory=list)
-
-    def __str__(self) -> str:
-        return "a list of dictionaries"
-
-    def copy(self, key: str, parent: Entry) -> DictionaryList:
-        """Copy to another place, dictionaries and all."""
-        twin = replace(self, key=key, parent=parent)
-        twin.items = [item.copy(item.key, twin) for item in self.items]
-        return twin
+__all__ = ["read_dictionary", "read_dictionary_list"]
 
 
 def read_dictionary(path: Path, case: Path) -> Dictionary:
     """Read a file in OpenFOAM's dictionary format, with macros and includes.
 
-    Expanded are ``$name`` (also ``${name}``), looked up from the dictionary where it stands outward, with
-    ``.`` between the keys of nested dictionaries; ``$:a.b`` from the top of the file; ``$.name`` and
-    ``$..name`` in this and in the enclosing dictionary only; ``$name;`` in place of an entry, which merges
-    the dictionary ``name``; ``#include``, ``#includeIfPresent`` and ``#sinclude``. A macro sees what is
-    complete before it, as in OpenFOAM: not the dictionary that it stands in.
+    These macros and directives are expanded:
+
+    * ``$name`` and ``${name}``, sought in the dictionary where it stands, then in those around it; with ``.``
+      between the keys of nested dictionaries;
+    * ``$:a.b``, sought from the top of the file; ``$.name`` and ``$..name``, sought in this dictionary and in
+      the enclosing one only;
+    * ``$name;`` in place of an entry, which merges the dictionary ``name``;
+    * ``#include``, ``#includeIfPresent`` and ``#sinclude``.
+
+    As in OpenFOAM, a macro sees what is complete before it, which the dictionary where it stands is not.
 
     Parameters
     ----------
     path
         The file.
     case
-        The case, which messages name files relative to, and ``$FOAM_CASE`` and ``<case>`` in an include mean.
+        The case: messages name files relative to it, and ``$FOAM_CASE`` and ``<case>`` in an include mean it.
 
     Raises
     ------
@@ -288,7 +163,7 @@ class _Parser:
             twin = self.look_up(tokens[0], parent).copy(key.text, parent)
             twin.used = False
             return twin
-        # The variables of a computed value belong to the computation, which whoever needs the value refuses.
+        # A computed value keeps its variables: it is refused where it is needed.
         words = [
             word
             for token in tokens
@@ -414,22 +289,22 @@ class _Parser:
         return name
 
     def peek(self, ahead: int = 0) -> _Token:
-        """Look at a coming token; the last one has no text."""
+        """Return a coming token; the last one has no text."""
         return self.tokens[min(self.position + ahead, len(self.tokens) - 1)]
 
     def take(self) -> _Token:
-        """Go on to the next token."""
+        """Return the next token and go past it."""
         token = self.peek()
         self.position += 1
         return token
 
     def mistake(self, token: _Token, what: str) -> InputError:
-        """Make the error of a token."""
+        """Return the error for a token."""
         return self.source.mistake(token.line, f"'{token.text}' {what}")
 
 
 def _upward(entry: Entry) -> Iterator[Entry]:
-    """Go from an entry to the top of the file."""
+    """Yield an entry and those that hold it, up to the top of the file."""
     above: Entry | None = entry
     while above is not None:
         yield above
@@ -443,8 +318,3 @@ def _descend(dictionary: Dictionary, name: str) -> Entry | None:
     first, _, rest = name.partition(".")
     inner = dictionary.entries.get(first)
     return _descend(inner, rest) if isinstance(inner, Dictionary) and rest else None
-
-
-def unquoted(text: str) -> str:
-    """Strip the quotes of a word, if it has them."""
-    return text[1:-1] if text.startswith('"') else text

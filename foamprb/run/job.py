@@ -30,7 +30,7 @@ from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
-from foamprb.cloudfunctions.functions import STATUS_NAMES, Functions, Look
+from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunctions, ObservedCloud
 from foamprb.compile.link import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
@@ -47,14 +47,9 @@ from foamprb.parallel.team import Serial, Team, View
 from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.precompile import Ahead
 from foamprb.run.restart import Fingerprint, fingerprint, restore, save
-from foamprb.settings.settings import (
-    InjectionSettings,
-    Settings,
-    Solution,
-    StartFrom,
-    match_patches,
-    read_settings,
-)
+from foamprb.settings.patches import match_patches
+from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import InjectionSettings, Settings, Solution, StartFrom
 
 log = logging.getLogger("foamprb")
 
@@ -75,15 +70,15 @@ class Job:
 
     settings: Settings
     cloud: Cloud
-    functions: Functions
+    functions: CloudFunctions
     ahead: Ahead | None = None
     """Who compiles the loop, if it is another process."""
 
     @property
-    def look(self) -> Look:
-        """What is to be seen of the cloud."""
+    def observed(self) -> ObservedCloud:
+        """The cloud with the names of its injection models and patches."""
         injectors = tuple(injection.name for injection in self.settings.injections)
-        return Look(self.cloud, injectors, self.patch_names)
+        return ObservedCloud(self.cloud, injectors, self.patch_names)
 
     @property
     def folder(self) -> Path:
@@ -226,9 +221,10 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
-    look = Look(cloud, tuple(i.name for i in settings.injections), tuple(p.name for p in flow.patches))
+    injectors = tuple(injection.name for injection in settings.injections)
+    observed = ObservedCloud(cloud, injectors, tuple(patch.name for patch in flow.patches))
     try:
-        functions = Functions(settings.functions, look)
+        functions = CloudFunctions(settings.functions, observed)
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions)
@@ -543,10 +539,10 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
     while cloud.step < target and _moving(cloud):
         if stop():
             return False
-        until = job.functions.next_look(target)
+        until = job.functions.next_sample(target)
         cloud.advance(_next_chunk(job, target))
         if cloud.step == until:
-            job.functions.see()
+            job.functions.sample()
         show(cloud.time)
     cloud.step = target
     return True
@@ -557,7 +553,7 @@ def _next_chunk(job: Job, target: int) -> int:
     cloud = job.cloud
     counts = cloud.counts()
     work = counts[Status.PENDING] + counts[Status.ACTIVE]
-    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.executor.at_once // work))
+    return min(job.functions.next_sample(target) - cloud.step, max(1, cloud.executor.at_once // work))
 
 
 @contextmanager
@@ -609,11 +605,11 @@ def _log_failures(p: Particles, reported: NDArray[np.int64]) -> NDArray[np.int64
 
 def write_fates(job: Job) -> None:
     """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed."""
-    p, look = job.cloud.particles, job.look
+    p = job.cloud.particles
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last is that of −1.
     patches = np.array((*job.patch_names, ""), dtype=object)
-    axes, D = look.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
+    axes, D = job.observed.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
     write_table(
         job.folder / FATES,
         {

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 import foamprb
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.cloudfunctions.functions import Functions
+from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.output.checkpoint import Checkpoint
 from foamprb.output.vtk import Entry, files_of, read_pvd
@@ -73,7 +73,7 @@ def save(
 
 
 def restore(
-    cloud: Cloud, functions: Functions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
+    cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
 ) -> None:
     """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
 

@@ -1,4 +1,7 @@
-"""Where and when particles appear: OpenFOAM's injection models, with its entries."""
+"""Where and when particles appear: OpenFOAM's injection models, with its entries.
+
+A new injection model is a frozen dataclass of its entries and a line in :data:`INJECTIONS`.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,14 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, empty
 from foamprb.dictionary.constraints import Angle, Axes, Constant, NonNegative, Positive, Vector3
+from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 
@@ -33,6 +37,32 @@ class Places(NamedTuple):
     """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
 
 
+class Injection(Schema, Protocol):
+    """Where and when particles appear."""
+
+    @property
+    def SOI(self) -> float:
+        """Start of injection, s."""
+
+    def places(self, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]) -> Places:
+        """Return the places of all particles.
+
+        Parameters
+        ----------
+        flow
+            The flow into which they are injected.
+        random
+            Source of every random number.
+        read
+            Reads a file of positions, (n, 3), m.
+
+        Raises
+        ------
+        InputError
+            If the flow does not have what the entries name, or nothing would be injected.
+        """
+
+
 @dataclass(frozen=True)
 class ManualInjection:
     """Particles at the positions that a file lists, all at the time ``SOI``."""
@@ -48,7 +78,7 @@ class ManualInjection:
         random: np.random.Generator,  # noqa: ARG002
         read: Callable[[Path], Floats],
     ) -> Places:
-        """Positions of the file, those outside the flow left out if the user said so.
+        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
 
         Raises
         ------
@@ -88,7 +118,7 @@ class PatchInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """Random places on the patch, as many per area as fluid enters there, at even intervals in time.
+        """Return random places on the patch, their density in proportion to the flux, at even intervals.
 
         Raises
         ------
@@ -127,7 +157,7 @@ class CellZoneInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """Random places in the zone: as many in each part of it as its volume asks for, give or take two.
+        """Return random places in the zone; their number in any part is that of its volume, to within two.
 
         Raises
         ------
@@ -181,7 +211,7 @@ class ConeInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """The positions in turn, at even intervals in time, with a random direction each.
+        """Return the positions in turn, at even intervals in time, with a random direction each.
 
         Raises
         ------
@@ -206,7 +236,7 @@ class ConeInjection:
 
 
 def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
-    """Unit vectors (n, 3) at the angles theta from the axes (n, 3), turned about them, rad."""
+    """Return unit vectors (n, 3) at angles theta from the axes (n, 3), turned about them; angles in rad."""
     along = axes / np.linalg.norm(axes, axis=1)[:, None]
     # The coordinate axis farthest from parallel gives a normal.
     other = np.eye(3)[np.argmin(np.abs(along), axis=1)]
@@ -219,7 +249,7 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
 
 
 def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator) -> Floats:
-    """One random point in each triangle (n, 3, 3), with a linear density given at its vertices (n, 3)."""
+    """Draw a point in each triangle (n, 3, 3), from a linear density given at its vertices (n, 3)."""
     weights = np.empty(density.shape)
     open_rows = np.arange(len(density))
     while len(open_rows):
@@ -235,7 +265,7 @@ def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator
 def release(
     model: Injection, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]
 ) -> Particles:
-    """Pending spheres where an injection model puts them; size, density and stiffness are left at zero.
+    """Return pending spheres where an injection model puts them, of zero size, density and stiffness.
 
     Parameters
     ----------
@@ -261,11 +291,10 @@ def release(
     return p
 
 
-Injection = ManualInjection | PatchInjection | CellZoneInjection | ConeInjection
-
 INJECTIONS: dict[str, type[Injection]] = {
     "cellZoneInjection": CellZoneInjection,
     "coneInjection": ConeInjection,
     "manualInjection": ManualInjection,
     "patchInjection": PatchInjection,
 }
+"""By the word that ``type`` selects."""

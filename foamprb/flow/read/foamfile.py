@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.dictionary.constraints import NonNegative
-from foamprb.dictionary.grammar import Stream, read_dictionary_list, unquoted
+from foamprb.dictionary.grammar import read_dictionary_list
 from foamprb.dictionary.schema import read_entries
+from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError
 
 Floats: TypeAlias = NDArray[np.float64]
