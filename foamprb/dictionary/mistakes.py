@@ -32,6 +32,10 @@ class Mistake(InputError):  # noqa: N818
         self.missing = missing
         self.meant = frozenset(meant)
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[str]]:
+        # To another process it goes as its message.
+        return InputError, (str(self),)
+
 
 class ReportedError(InputError):
     """What follows from a mistake that has been collected already; it is not collected."""
@@ -44,6 +48,9 @@ class SeveralMistakes(InputError):  # noqa: N818
         self.errors = tuple(sorted(errors, key=_place))
         lines = "".join(f"\n    {error}" for error in self.errors)
         super().__init__(f"{len(self.errors)} mistakes:{lines}")
+
+    def __reduce__(self) -> tuple[type[InputError], tuple[str]]:
+        return InputError, (str(self),)
 
 
 def _place(error: InputError) -> tuple[str, int]:

@@ -326,6 +326,8 @@ def describe(job: Job) -> list[str]:
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
     for name, function in settings.functions.items():
         log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
+    if cloud.particles.size == 0:
+        warnings.append("there is no particle: no injection model releases any.")
     for warning in warnings:
         log.warning("%s", warning)
     return warnings

@@ -7,6 +7,7 @@ interval, the number of threads. Nothing here depends on how the particles are s
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -151,7 +152,7 @@ def _sums(array: ArrayLike) -> Sums:
     values = np.asarray(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
-    columns = values.reshape(len(values), -1) if values.ndim > 1 else values.reshape(-1, 1)
+    columns = values.reshape(len(values), math.prod(values.shape[1:]))
     random = np.random.default_rng(0)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
