@@ -46,7 +46,15 @@ class ParticleHistogram:
         return self.sampleInterval
 
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the state of all particles at the start, and integrals of zero."""
+        """Return the state of all particles at the start, and integrals of zero.
+
+        Raises
+        ------
+        InputError
+            If an injection model has the name of a column that the tables have already.
+        """
+        if taken := {"lower", "upper"} & set(cloud.injectors):
+            raise InputError(f"no injection model may be called {min(taken)}, as a column of the tables is.")
         p = cloud.particles
         D, rate = cloud.measure(np.arange(p.size), "taylorDeformation", "shearRate")
         return {

@@ -16,6 +16,7 @@ from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import columns, masses, names_of
 from foamprb.dictionary.constraints import AtLeastOne, Words
 from foamprb.errors import InputError, suggestion
+from foamprb.output.names import file_name
 from foamprb.output.tables import write_table
 
 __all__ = ["PatchPostProcessing"]
@@ -74,7 +75,7 @@ class PatchPostProcessing:
             )
             n = cloud.cloud.contact_normals(rows)
             write_table(
-                folder / f"{name}.csv",
+                folder / f"{file_name(name)}.csv",
                 {
                     "id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
                     "fate": names_of(STATUS_NAMES, p.status[rows]), "t": p.t[rows],

@@ -11,7 +11,8 @@ from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.injection.shapes import SHAPES, Shape, Sphere
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, refuse_unknown, selected
-from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary
+from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
+from foamprb.output.names import fault_of_word
 from foamprb.settings import entries
 from foamprb.settings.settings import Fluid, InjectionSettings, Solid
 
@@ -48,7 +49,10 @@ def read_injections(models: Dictionary, constant: Dictionary, fluid: Fluid) -> t
 
 def _injection(dictionary: Dictionary, constant: Dictionary, fluid: Fluid) -> InjectionSettings:
     mistakes = Mistakes()
-    own = {name for model in INJECTIONS.values() for name in names_of(model)}
+    name = unquoted(dictionary.key)
+    if fault := fault_of_word(name):
+        mistakes.add(dictionary.mistake(f"is no name of an injection model: {fault}."))
+    own = {key for model in INJECTIONS.values() for key in names_of(model)}
     with mistakes:
         kind = selected(INJECTIONS, dictionary)
         own = set(names_of(kind))
@@ -72,7 +76,7 @@ def _injection(dictionary: Dictionary, constant: Dictionary, fluid: Fluid) -> In
             [place for place in (constant, dictionary) if "solid" in place.entries], constant, fluid
         )
     mistakes.raise_any()
-    return InjectionSettings(name=dictionary.key, model=model, rho=rho, solid=solid, size=size, shape=shape)
+    return InjectionSettings(name=name, model=model, rho=rho, solid=solid, size=size, shape=shape)
 
 
 def _shape(place: Dictionary) -> Shape:

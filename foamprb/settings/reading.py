@@ -12,6 +12,8 @@ from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, unquoted
 from foamprb.dictionary.values import Files
+from foamprb.errors import InputError
+from foamprb.output.names import fault_of_folder, fault_of_word
 from foamprb.settings import entries
 from foamprb.settings.fluid import of_region, read_fluid, read_gravity
 from foamprb.settings.injections import read_injections
@@ -44,7 +46,12 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
         If there are mistakes, all of them: the file, the line, the entry's path, what was found and what is
         allowed. Of a file that is no dictionary, the first fault of its grammar.
     """
+    if region and (fault := fault_of_word(region)):
+        raise InputError(f"'{region}' is no name of a region: {fault}.")
     file = case / (dictionary or of_region(case, region, _DICTIONARY))
+    name = file.stem.removesuffix("Properties") or file.stem
+    if fault := fault_of_word(name):
+        raise InputError(f"{file}: its name gives the cloud the name '{name}', which is none: {fault}.")
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         # First: the entries that follow may name solids that these files add.
@@ -71,12 +78,14 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
                 _section(sub_models, "injectionModels"), _section(root, "constantProperties"), fluid
             )
     with mistakes:
-        functions = _functions(_section(root, "cloudFunctions")) if "cloudFunctions" in root.entries else {}
+        functions = (
+            _functions(_section(root, "cloudFunctions"), name) if "cloudFunctions" in root.entries else {}
+        )
     mistakes.raise_any()
     return Settings(
         case=case,
         file=file,
-        name=file.stem.removesuffix("Properties") or file.stem,
+        name=name,
         solution=solution,
         fluid=fluid,
         gravity=gravity,
@@ -100,15 +109,15 @@ def _section(dictionary: Dictionary, key: str) -> Dictionary:
     return dictionary.entries[key].dictionary()
 
 
-def _functions(dictionary: Dictionary) -> dict[str, CloudFunction]:
+def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:
     """Read ``cloudFunctions { name { type …; … } … }``."""
     functions: dict[str, CloudFunction] = {}
     mistakes = Mistakes()
     for entry in dictionary.entries.values():
         with mistakes:
             name, own = unquoted(entry.key), entry.dictionary()
-            if Path(name).name != name:
-                raise entry.mistake("is no name of a folder, which the results need.")
+            if fault := fault_of_folder(name, cloud):
+                raise entry.mistake(f"is no name of a folder, which the results need: {fault}.")
             functions[name] = read_entries(selected(FUNCTIONS, own), own, also=("type",))
     mistakes.raise_any()
     return functions

@@ -7,6 +7,7 @@ import pytest
 from observing import MEAN, RADIUS, WATER, column, observe, pipe_cloud, table
 
 from foamprb.cloud.measures import MEASURES, context
+from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.errors import InputError
 
@@ -66,3 +67,9 @@ def test_the_bins_hold_everybody(tmp_path):
 def test_an_unknown_field():
     with pytest.raises(InputError, match=r"field residenceTim\. Did you mean 'residenceTime'"):
         ParticleHistogram(fields=("residenceTim",))
+
+
+def test_an_injection_model_called_as_a_column_is_refused():
+    cloud = ObservedCloud(pipe_cloud(2), ("lower", "two"), ("wall", "inlet", "outlet"))
+    with pytest.raises(InputError, match="cloudFunctions/f: no injection model may be called lower"):
+        CloudFunctions({"f": ParticleHistogram()}, cloud)

@@ -9,6 +9,7 @@ from foamprb.body.tensor import principal_frame
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
+from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 
 
@@ -49,3 +50,16 @@ def test_touching_by_the_centre(tmp_path):
     rows = table(tmp_path / "f/wall.csv")
     assert len(rows) == 3
     assert np.isfinite(column(rows, "impactAngle")).all()
+
+
+def test_a_patch_with_any_name_stays_in_the_folder(tmp_path):
+    """The mesh may call a patch anything."""
+    cloud = pipe_cloud()
+    names = ("../../../wall", "..", "out let")
+    functions = CloudFunctions({"f": PatchPostProcessing(names)}, ObservedCloud(cloud, ("one", "two"), names))
+    cloud.advance(700)
+    functions.write(tmp_path / "a/b/c")
+    files = sorted(str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*.*"))
+    expected = ["%2E%2E%2F%2E%2E%2F%2E%2E%2Fwall.csv", "%2E%2E.csv", "out%20let.csv"]
+    assert files == [f"a/b/c/f/{name}" for name in expected]
+    assert len(table(tmp_path / "a/b/c/f" / expected[0])) > 0

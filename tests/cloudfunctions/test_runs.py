@@ -15,6 +15,7 @@ from pipe_case import copy_of_pipe, edit
 from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
+from foamprb.output.names import fault_of_folder
 
 BLOCK = """cloudFunctions
 {
@@ -98,3 +99,10 @@ def test_the_facets_normal_is_that_of_the_pipe(cases):
     v = np.stack([column(rows, c) for c in ("Ux", "Uy", "Uz")], axis=1)
     angle = np.degrees(np.arccos(np.einsum("ni,ni->n", v, radial) / np.linalg.norm(v, axis=1)))
     np.testing.assert_allclose(column(rows, "impactAngle"), angle, atol=6.0)
+
+
+def test_no_function_may_have_the_name_of_a_result(cases):
+    plain, _ = cases
+    written = [path.name for path in plain.iterdir()]
+    assert len(written) > 4
+    assert all(fault_of_folder(name, "softCloud") for name in written)

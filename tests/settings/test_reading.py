@@ -431,6 +431,12 @@ def test_cloud_functions(read: Reader) -> None:
             "cloudFunctions/f has the field age. Allowed: maxDef",
         ),
         ('"a/b" { type particleHistogram; }', "cloudFunctions/a/b is no name of a folder"),
+        ("a/../../b { type particleHistogram; }", "is no name of a folder, which the results need: it conta"),
+        (".. { type particleHistogram; }", "cloudFunctions/.. is no name of a folder"),
+        ('"a b" { type particleHistogram; }', "it contains ' '"),
+        ("fates.csv { type particleHistogram; }", "the results have a file of that name"),
+        ("checkpoint { type particleHistogram; }", "the results have a file of that name"),
+        ("softCloud_000000 { type particleHistogram; }", "the results have a file of that name"),
         ("f;", "cloudFunctions/f/type is missing"),
     ],
 )
@@ -438,6 +444,18 @@ def test_a_wrong_cloud_function_has_its_message(read: Reader, function: str, mes
     with pytest.raises(InputError, match=re.escape(message)) as caught:
         read(("solution", f"cloudFunctions {{ {function} }} solution"))
     assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+def test_names_that_are_no_words_are_refused(case: Path, read: Reader) -> None:
+    text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("        {\n            type patchInj")]
+    with pytest.raises(InputError, match=r"injectionModels/a/b is no name of an injection model: it cont"):
+        read((text, "        a/b\n"))
+    for file in ("constant/..Properties", "constant/a bProperties"):
+        (case / file).write_text(CLOUD)
+        with pytest.raises(InputError, match=r"its name gives the cloud the name '.*', which is none"):
+            read_settings(case, Path(file))
+    with pytest.raises(InputError, match=r"'\.\./\.\./x' is no name of a region: it contains '/'"):
+        read_settings(case, region="../../x")
 
 
 def test_the_documentation_names_every_entry() -> None:
