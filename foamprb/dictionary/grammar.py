@@ -5,7 +5,8 @@ from __future__ import annotations
 import gzip
 import re
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -41,10 +42,10 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     InputError
         If the file cannot be read or is not such a dictionary; with the line.
     """
-    source = Source(path, case)
+    source, spent = Source(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    _Parser(source, text, including=()).fill(root)
+    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    _Parser(source, text, (), spent).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -64,20 +65,47 @@ def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
     InputError
         If the file cannot be read or is not such a list; with the line.
     """
-    source = Source(path, case)
+    source, spent = Source(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    return _Parser(source, text, including=()).counted_list(root)
+    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    return _Parser(source, text, (), spent).counted_list(root)
 
 
-def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
+MOST_BYTES = 8 << 20
+"""Of a dictionary and all that it includes, decompressed."""
+MOST_FILES = 1000
+"""That a dictionary includes, one in another or one after the other."""
+MOST_NESTED = 100
+"""Dictionaries in each other."""
+MOST_WORDS = 200_000
+"""To which all macros of a dictionary expand."""
+
+
+@dataclass
+class _Spent:
+    """How much of what is allowed a dictionary has needed so far, with all that it includes."""
+
+    bytes: int = 0
+    files: int = 0
+    words: int = 0
+
+
+def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) -> str:
     try:
+        # The others, pipes and devices, may have no end, or never begin.
+        if path.exists() and not path.is_file():
+            raise mistake("is not a file")
         with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
-            return stream.read().decode("utf-8")
+            data = stream.read(MOST_BYTES - spent.bytes + 1)
+            spent.bytes += len(data)
+            text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
-    except (OSError, EOFError, zlib.error) as error:
+    except (OSError, EOFError, ValueError, zlib.error) as error:
         raise mistake(getattr(error, "strerror", None) or str(error) or "cannot be read") from error
+    if spent.bytes > MOST_BYTES:
+        raise mistake(f"has more than {MOST_BYTES >> 20} MiB, and so is no dictionary")
+    return text
 
 
 class _Token(NamedTuple):
@@ -97,6 +125,7 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _HEADER = "FoamFile"
+_COUNT = re.compile(r"\d{1,18}", re.ASCII)
 _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
 _INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False}
@@ -126,8 +155,9 @@ def _tokens(source: Source, text: str) -> Iterator[_Token]:
 class _Parser:
     """Reads one file; ``including`` are the files that it is being included from."""
 
-    def __init__(self, source: Source, text: str, including: tuple[Path, ...]) -> None:
+    def __init__(self, source: Source, text: str, including: tuple[Path, ...], spent: _Spent) -> None:
         self.source = source
+        self.spent = spent
         self.tokens = list(_tokens(source, text))
         self.position = 0
         self.files = (*including, source.path.resolve())
@@ -160,7 +190,7 @@ class _Parser:
             return self.dictionaries(key, parent)
         tokens = self.stream(key)
         if start.startswith("$") and len(tokens) == 1:
-            twin = self.look_up(tokens[0], parent).copy(key.text, parent)
+            twin = self.copy(tokens[0], self.look_up(tokens[0], parent), key.text, parent)
             twin.used = False
             return twin
         # A computed value keeps its variables: it is refused where it is needed.
@@ -174,6 +204,7 @@ class _Parser:
     def dictionary(self, key: _Token, parent: Entry) -> Dictionary:
         """Read ``{ … }``."""
         dictionary = Dictionary(key.text, parent, self.source, key.line)
+        self.require_depth(key, _depth(dictionary))
         self.fill(dictionary, opened=self.take())
         return dictionary
 
@@ -182,7 +213,7 @@ class _Parser:
         if self.peek().text == _HEADER and self.peek(1).text == "{":
             self.dictionary(self.take(), root)
         count = self.take()
-        if not count.text.isascii() or not count.text.isdigit() or self.peek().text != "(":
+        if not _COUNT.fullmatch(count.text) or self.peek().text != "(":
             raise self.mistake(count, "stands where a number and a list ( name { … } … ) are expected.")
         name = self.source.path.name.removesuffix(".gz")
         entries = self.items(_Token(name, count.line), root)
@@ -237,7 +268,26 @@ class _Parser:
         entry = self.look_up(token, scope)
         if not isinstance(entry, Stream):
             raise self.mistake(token, f"is {entry}, and cannot stand within a value.")
+        self.spend(token, len(entry.tokens))
         return entry.tokens
+
+    def copy(self, token: _Token, entry: Entry, key: str, parent: Entry) -> Entry:
+        """Copy the entry that a macro names to another place."""
+        size, height = _extent(entry)
+        self.spend(token, size)
+        self.require_depth(token, _depth(parent) + height)
+        return entry.copy(key, parent)
+
+    def spend(self, token: _Token, words: int) -> None:
+        """Count the words to which a macro expands: without a limit, n lines could expand to 2ⁿ."""
+        self.spent.words += words
+        if self.spent.words > MOST_WORDS:
+            raise self.mistake(token, f"expands to too much: all macros, to more than {MOST_WORDS} words.")
+
+    def require_depth(self, token: _Token, depth: int) -> None:
+        """Raise InputError if dictionaries are nested too deeply."""
+        if depth > MOST_NESTED:
+            raise self.mistake(token, f"is nested too deeply: more than {MOST_NESTED} dictionaries.")
 
     def look_up(self, token: _Token, scope: Dictionary) -> Entry:
         """Find the entry that a macro names."""
@@ -263,7 +313,7 @@ class _Parser:
             raise self.mistake(token, f"stands where a key is expected, but is {template}, not a dictionary.")
         if self.take().text != ";":
             raise self.mistake(token, "has no closing ;.")
-        dictionary.merge(template.copy(template.key, dictionary))
+        dictionary.merge(self.copy(token, template, template.key, dictionary).dictionary())
 
     def include(self, directive: _Token, dictionary: Dictionary) -> None:
         """Read another file's entries into a dictionary."""
@@ -273,12 +323,17 @@ class _Parser:
         if name.text in _MARKS or name.text == "":
             raise self.mistake(directive, "names no file.")
         path = self.source.path.parent / self.in_case(unquoted(name.text))
-        if not (path.is_file() or _INCLUDES[directive.text]):
+        if not (_INCLUDES[directive.text] or _is_file(path)):
             return
+        self.spent.files += 1
+        if self.spent.files > MOST_FILES:
+            raise self.mistake(name, f"is the file after {MOST_FILES} others that are included.")
+        text = _read_text(path, self.spent, lambda why: self.mistake(name, f"cannot be included: {why}."))
         if path.resolve() in self.files:
             raise self.mistake(name, "includes itself.")
-        text = _read_text(path, lambda why: self.mistake(name, f"cannot be included: {why}."))
-        _Parser(Source(path, self.source.case), text, self.files).fill(dictionary)
+        if len(self.files) > MOST_NESTED:
+            raise self.mistake(name, f"is included too deeply: by more than {MOST_NESTED} files.")
+        _Parser(Source(path, self.source.case), text, self.files, self.spent).fill(dictionary)
         dictionary.entries.pop(_HEADER, None)
 
     def in_case(self, name: str) -> str:
@@ -299,8 +354,35 @@ class _Parser:
         return token
 
     def mistake(self, token: _Token, what: str) -> InputError:
-        """Return the error for a token."""
+        """Return the error for a token; of what is included from outside the case, nothing is shown."""
+        if len(self.files) > 1 and not self.files[-1].is_relative_to(self.source.case.resolve()):
+            return self.source.mistake(token.line, "this is no dictionary; it was included.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
+def _depth(entry: Entry) -> int:
+    """Return the number of entries that hold one another down to this one."""
+    return sum(1 for _ in _upward(entry)) - 1
+
+
+def _extent(entry: Entry) -> tuple[int, int]:
+    """Return the number of words in an entry, and how deeply dictionaries are nested in it."""
+    if isinstance(entry, Stream):
+        return 1 + len(entry.tokens), 0
+    inner: Collection[Entry] = ()
+    if isinstance(entry, Dictionary):
+        inner = entry.entries.values()
+    elif isinstance(entry, DictionaryList):
+        inner = entry.items
+    extents = [_extent(one) for one in inner]
+    return 1 + sum(size for size, _ in extents), 1 + max((height for _, height in extents), default=0)
 
 
 def _upward(entry: Entry) -> Iterator[Entry]:

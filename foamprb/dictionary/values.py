@@ -152,7 +152,10 @@ def _file(entry: Stream) -> Path | None:
 
 def _existing(entry: Stream, name: str) -> Path | None:
     path = entry.source.case / "constant" / name
-    return path if path.is_file() else None
+    try:
+        return path if path.is_file() else None
+    except OSError:
+        return None
 
 
 def _files(entry: Stream) -> tuple[Path, ...] | None:

@@ -14,6 +14,7 @@ from typing import Annotated, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.injection.room import require_room
 from foamprb.cloud.state import Particles, empty
 from foamprb.dictionary.constraints import Angle, Axes, Constant, NonNegative, Positive, Vector3
 from foamprb.dictionary.schema import Schema
@@ -125,12 +126,11 @@ class PatchInjection:
         InputError
             If no fluid enters through the patch, or nothing is injected.
         """
-        n = round(self.parcelsPerSecond * self.duration)
-        if n == 0:
-            raise InputError(
-                f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
-                f"duration {self.duration:g} s gives no particle."
-            )
+        n = require_room(
+            self.parcelsPerSecond * self.duration,
+            f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
+            f"duration {self.duration:g} s",
+        )
         faces = flow.patch_faces(self.patch, self.SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
@@ -168,13 +168,12 @@ class CellZoneInjection:
         # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
         volumes = np.maximum(zone.volumes, 0.0)
         total = np.cumsum(volumes)
-        n = round(self.numberDensity * total[-1]) if len(total) else 0
-        if n == 0:
-            volume = total[-1] if len(total) else 0.0
-            raise InputError(
-                f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
-                f"volume {volume:g} m3 of {len(volumes)} tetrahedra gives no particle."
-            )
+        volume = float(total[-1]) if len(total) else 0.0
+        n = require_room(
+            self.numberDensity * volume,
+            f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
+            f"volume {volume:g} m3 of {len(volumes)} tetrahedra",
+        )
         # One random number for each n-th part of the volume, counted along the cells.
         sought = (np.arange(n) + random.random(n)) / n * total[-1]
         chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
@@ -223,11 +222,8 @@ class ConeInjection:
         if (hosts < 0).any():
             first = "({:g} {:g} {:g})".format(*positions[hosts < 0][0])
             raise InputError(f"coneInjection: the position {first} lies outside the mesh.")
-        n = round(self.parcelsPerInjector) * len(positions)
-        if n == 0:
-            raise InputError(
-                f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} gives no particle."
-            )
+        what = f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} at {len(positions)} positions"
+        n = require_room(float(np.rint(self.parcelsPerInjector)) * len(positions), what)
         which = np.arange(n) % len(positions)
         theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
         v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))

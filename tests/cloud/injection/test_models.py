@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import re
+import resource
 import shutil
 import tempfile
 from pathlib import Path
@@ -15,7 +16,8 @@ from hypothesis import strategies as st
 from paths import PIPE
 from scipy import stats
 
-from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, release
+from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, PatchInjection, release
+from foamprb.cloud.injection.room import BYTES, free_memory
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.read.foamfile import read_cell_zones
@@ -199,3 +201,56 @@ class TestCone:
             self.release(positionAxis=(((0.1, 0.0, 0.0), (0.0, 0.0, 0.0)),))
         with pytest.raises(InputError, match="empty list positionAxis"):
             self.release(positionAxis=())
+
+
+class TestRoom:
+    @pytest.mark.parametrize(
+        ("model", "message"),
+        [
+            (
+                PatchInjection("inlet", 1e12, 0.1),
+                "on inlet: parcelsPerSecond 1e[+]12 times duration 0.1 s gives 1e[+]11 particles, "
+                "which need about 9[0-9]([.][0-9])? TB of memory; .* [MGT]B are free",
+            ),
+            (PatchInjection("inlet", 1e200, 1e200), "gives inf particles, which need about inf TB"),
+            (
+                CellZoneInjection("all", 1e30),
+                "cellZoneInjection in all: numberDensity 1e[+]30 .* gives .* particles, which need about",
+            ),
+            (
+                ConeInjection(**(CONE | {"parcelsPerInjector": 1e300})),
+                "coneInjection: parcelsPerInjector 1e[+]300 at 2 positions gives 2e[+]300 particles",
+            ),
+            (ConeInjection(**(CONE | {"parcelsPerInjector": 1.7e308})), "gives inf particles"),
+        ],
+    )
+    def test_more_than_memory_can_hold_is_refused_before_it_is_taken(self, pipe_flow, model, message):
+        flow = with_zones(pipe_flow, {"all": np.arange(pipe_flow.mesh.n_cells)})
+        if isinstance(model, ConeInjection):
+            flow = analytic.pipe(1.0, 1.0)
+        with pytest.raises(InputError, match=message):
+            release(model, flow, rng(), no_file)
+
+    def test_limits_of_the_process_count(self, pipe_flow, monkeypatch):
+        monkeypatch.setattr("foamprb.cloud.injection.room.free_memory", lambda: 50_000.0 * BYTES)
+        assert release(PatchInjection("inlet", 49_999.0, 1.0), pipe_flow, rng(), no_file).size == 49_999
+        with pytest.raises(InputError, match=r"5e\+04 particles, which need about \S+ MB of memory; \S+ MB"):
+            release(PatchInjection("inlet", 50_001.0, 1.0), pipe_flow, rng(), no_file)
+
+    def test_what_is_free_is_what_the_system_says(self):
+        soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+        free = free_memory()
+        assert 1e8 < free < 1e14
+        resource.setrlimit(resource.RLIMIT_AS, (2**44, hard))
+        try:
+            assert free_memory() <= free * 1.5
+            with Path("/proc/self/statm").open() as file:
+                in_use = int(file.read().split()[0]) * resource.getpagesize()
+            resource.setrlimit(resource.RLIMIT_AS, (in_use + (64 << 20), hard))
+            assert free_memory() <= 64 << 20
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+    def test_a_run_needs_what_is_said(self):
+        """Less than a kilobyte, which tests/run/test_memory.py measures."""
+        assert 800 < BYTES < 1000
