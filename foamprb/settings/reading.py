@@ -10,7 +10,7 @@ from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
-from foamprb.dictionary.tree import Dictionary, unquoted
+from foamprb.dictionary.tree import Dictionary, Source, unquoted
 from foamprb.dictionary.values import Files
 from foamprb.errors import InputError
 from foamprb.output.names import fault_of_folder, fault_of_word
@@ -25,6 +25,10 @@ from foamprb.settings.solution import read_solution
 __all__ = ["read_settings"]
 
 _DICTIONARY = "softCloudProperties"
+_TO_BEGIN = (
+    f"To begin, copy the dictionary at the top of docs/settings.md to constant/{_DICTIONARY}, and adapt its "
+    "patches, particles and times; or name another with -dict."
+)
 
 
 def read_settings(case: Path, dictionary: Path | None = None, region: str = "") -> Settings:
@@ -52,6 +56,8 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
     name = file.stem.removesuffix("Properties") or file.stem
     if fault := fault_of_word(name):
         raise InputError(f"{file}: its name gives the cloud the name '{name}', which is none: {fault}.")
+    if not file.exists() and case.is_dir():
+        raise InputError(f"{Source(file, case)}: No such file or directory (case {case}). {_TO_BEGIN}")
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         # First: the entries that follow may name solids that these files add.
