@@ -26,38 +26,12 @@ from foamprb.body.material import viscous_stress
 from foamprb.body.tensor import Tensor, add, det, dot, inverse, scale, to_frame, transpose
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import (
-    AT_A,
-    AT_CLEARANCE,
-    AT_DT,
-    AT_DUDT,
-    AT_ERROR,
-    AT_ETA,
-    AT_F,
-    AT_J,
-    AT_L,
-    AT_LAME,
-    AT_M,
-    AT_MOVING,
-    AT_MU,
-    AT_NEW_A,
-    AT_NEW_F,
-    AT_NEW_V,
-    AT_PREDICTOR,
-    AT_Q,
-    AT_R,
-    AT_RHO,
-    AT_STRESS,
-    AT_STRETCH,
-    AT_T0,
-    AT_U,
-    AT_V,
-    AT_X,
-    LANES,
     Medium,
     Scratch,
     accept_stage,
+    at,
     frame_stage,
-    idle,
+    idle_lanes,
     integrals_stage,
     load3,
     load9,
@@ -73,6 +47,7 @@ from foamprb.cloud.block import (
     straighten_stage,
     stretch_stage,
 )
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import (
     ACTIVE,
     PENDING,
@@ -92,39 +67,39 @@ _DENSE_STEPS = 25
 def traction_stage(block: Any, medium: Medium) -> None:
     """σ̃* of the old shape (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
     for i in range(LANES):
-        F, A, Q = load9(block, AT_F, i), load9(block, AT_A, i), load9(block, AT_Q, i)
-        l_f = to_frame(Q, load9(block, AT_L, i))
+        F, A, Q = load9(block, at.F, i), load9(block, at.A, i), load9(block, at.Q, i)
+        l_f = to_frame(Q, load9(block, at.l, i))
         l_s = to_frame(Q, dot(A, inverse(F)))
-        stress = traction(load3(block, AT_STRETCH, i), load_integrals(block, i), l_f, l_s)
-        own = viscous_stress(l_s, block[AT_ETA * LANES + i])
-        store9(block, AT_STRESS, i, add(scale(medium.mu, stress), scale(-1.0, own)))
-        store9(block, AT_PREDICTOR, i, dot(Q, add(F, scale(block[AT_DT * LANES + i], A))))
+        stress = traction(load3(block, at.stretch, i), load_integrals(block, i), l_f, l_s)
+        own = viscous_stress(l_s, block[at.eta * LANES + i])
+        store9(block, at.stress, i, add(scale(medium.mu, stress), scale(-1.0, own)))
+        store9(block, at.predictor, i, dot(Q, add(F, scale(block[at.dt * LANES + i], A))))
 
 
 def _kappa(block: Any, i: int) -> float:
-    return inertia_factor(block[AT_DT * LANES + i], block[AT_RHO * LANES + i], block[AT_R * LANES + i])  # type: ignore[no-any-return]
+    return inertia_factor(block[at.dt * LANES + i], block[at.rho * LANES + i], block[at.R * LANES + i])  # type: ignore[no-any-return]
 
 
 def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
     """Store Fⁿ⁺¹ = Qᵀ·G, Aⁿ⁺¹ = (Fⁿ⁺¹ − Fⁿ)/Δt (47) and what tells whether they are sound."""
-    F = load9(block, AT_F, i)
-    F_new = dot(transpose(load9(block, AT_Q, i)), G)
-    store9(block, AT_NEW_F, i, F_new)
-    store9(block, AT_NEW_A, i, scale(1.0 / block[AT_DT * LANES + i], add(F_new, scale(-1.0, F))))
-    block[AT_ERROR * LANES + i] = error
-    block[AT_J * LANES + i] = det(G)
+    F = load9(block, at.F, i)
+    F_new = dot(transpose(load9(block, at.Q, i)), G)
+    store9(block, at.new_F, i, F_new)
+    store9(block, at.new_A, i, scale(1.0 / block[at.dt * LANES + i], add(F_new, scale(-1.0, F))))
+    block[at.error * LANES + i] = error
+    block[at.J * LANES + i] = det(G)
 
 
 def newton_stage(block: Any) -> None:
     """The new deformation gradient."""
     for i in range(LANES):
         G, error = advance(
-            load9(block, AT_PREDICTOR, i),
-            load9(block, AT_STRESS, i),
+            load9(block, at.predictor, i),
+            load9(block, at.stress, i),
             _kappa(block, i),
-            block[AT_MU * LANES + i],
-            block[AT_LAME * LANES + i],
-            load9(block, AT_M, i),
+            block[at.mu * LANES + i],
+            block[at.lame * LANES + i],
+            load9(block, at.M, i),
         )
         _finish_shape(block, i, G, error)
 
@@ -132,23 +107,23 @@ def newton_stage(block: Any) -> None:
 def barycentre_stage(block: Any, medium: Medium) -> None:
     """The new velocity, with the drag of the new shape (36) to (43)."""
     for i in range(LANES):
-        k = drag(load3(block, AT_STRETCH, i), load_integrals(block, i))
-        R, rho = block[AT_R * LANES + i], block[AT_RHO * LANES + i]
+        k = drag(load3(block, at.stretch, i), load_integrals(block, i))
+        R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
         # μ_f K_a/m with K_a in units of R
         c = medium.mu / (4.0 / 3.0 * math.pi * R * R * rho)
         a, inertia = acceleration(
-            block[AT_J * LANES + i],
+            block[at.J * LANES + i],
             rho,
             medium.rho,
             medium.gravity,
             medium.pressure_gradient,
             medium.virtual_mass,
-            load3(block, AT_DUDT, i),
+            load3(block, at.DuDt, i),
         )
         c = c / inertia
         rate = (c * k[0], c * k[1], c * k[2])
-        v, u, Q = load3(block, AT_V, i), load3(block, AT_U, i), load9(block, AT_Q, i)
-        store3(block, AT_NEW_V, i, implicit_euler(v, u, Q, rate, a, block[AT_DT * LANES + i]))
+        v, u, Q = load3(block, at.v, i), load3(block, at.u, i), load9(block, at.Q, i)
+        store3(block, at.new_v, i, implicit_euler(v, u, Q, rate, a, block[at.dt * LANES + i]))
 
 
 def _eliminate(M: Any, n: int) -> bool:
@@ -174,9 +149,9 @@ def _eliminate(M: Any, n: int) -> bool:
 
 def dense_newton(block: Any, i: int, M: Any) -> None:
     """The new deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
-    predictor, stress = load9(block, AT_PREDICTOR, i), load9(block, AT_STRESS, i)
-    mu, lame, kappa = block[AT_MU * LANES + i], block[AT_LAME * LANES + i], _kappa(block, i)
-    rest = load9(block, AT_M, i)
+    predictor, stress = load9(block, at.predictor, i), load9(block, at.stress, i)
+    mu, lame, kappa = block[at.mu * LANES + i], block[at.lame * LANES + i], _kappa(block, i)
+    rest = load9(block, at.M, i)
     G = predictor
     size = math.inf
     for _ in range(_DENSE_STEPS):
@@ -239,12 +214,11 @@ def track_block(
     """
     recovered = 0
     block, status = scratch.block, scratch.status
-    for i in range(LANES):
-        idle(block, i, dt)
+    idle_lanes(block, dt)
     for i in range(len(members)):
         load_particle(p, members[i], scratch, i)
         if status[i] == ACTIVE:
-            block[AT_CLEARANCE * LANES + i], _, _ = clearance_of(flow, scratch, i)
+            block[at.clearance * LANES + i], _, _ = clearance_of(flow, scratch, i)
     resume_frames(block)
     integrals_stage(block)
 
@@ -252,16 +226,16 @@ def track_block(
         t_end = start + (n + 1) * dt
         moving = 0
         for i in range(len(members)):
-            block[AT_MOVING * LANES + i] = 0.0
-            t0 = block[AT_T0 * LANES + i]
+            block[at.moving * LANES + i] = 0.0
+            t0 = block[at.t0 * LANES + i]
             # A first step of no length would divide round-off by nothing in Aⁿ⁺¹.
             if status[i] == PENDING and t0 < t_end - SHORTEST_STEP * dt:
                 release(flow, patches, scratch, i)
             if status[i] == ACTIVE:
                 moving += 1
-                block[AT_MOVING * LANES + i] = 1.0
-                block[AT_DT * LANES + i] = t_end - max(start + n * dt, t0)
-                u, l_f, u_t = sample(flow, scratch.host[i], load3(block, AT_X, i), t_end)
+                block[at.moving * LANES + i] = 1.0
+                block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
+                u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
             elif status[i] == PENDING:
                 moving += 1
@@ -272,7 +246,7 @@ def track_block(
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):
-            if status[i] == ACTIVE and not block[AT_ERROR * LANES + i] <= RELATIVE_TOLERANCE:
+            if status[i] == ACTIVE and not block[at.error * LANES + i] <= RELATIVE_TOLERANCE:
                 dense_newton(block, i, scratch.matrix)
         new_frames(block)
         integrals_stage(block)
@@ -282,8 +256,8 @@ def track_block(
         for i in range(len(members)):
             if status[i] != ACTIVE or not is_sound(scratch, i):
                 continue
-            h = block[AT_DT * LANES + i]
-            x, v = load3(block, AT_X, i), load3(block, AT_V, i)
+            h = block[at.dt * LANES + i]
+            x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
             recovered += reach_end(flow, patches, scratch, i, goal, t_end, h)
     for i in range(len(members)):

@@ -15,8 +15,9 @@ from foamprb.body.material import finger as finger_of_ellipsoid
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.adaptive import (
-    ADAPTIVE_ROWS,
     ADAPTIVE_STAGES,
+    INERTIAL_LAYOUT,
+    INERTIALESS_LAYOUT,
     end_inertial,
     end_inertialess,
     first_inertial,
@@ -26,7 +27,8 @@ from foamprb.cloud.adaptive import (
     track_adaptive,
 )
 from foamprb.cloud.advance import STAGES, track_block, track_share
-from foamprb.cloud.block import LANES, ROWS, Medium, new_scratch
+from foamprb.cloud.block import Medium, at, new_scratch
+from foamprb.cloud.layout import LANES, Layout, layout
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
@@ -62,17 +64,25 @@ class Loop(NamedTuple):
     bindings: dict[str, Callable[..., Any]]
 
 
-def _second_order(**slopes: Callable[..., Any]) -> Loop:
-    return Loop(track_adaptive, (*ADAPTIVE_STAGES, *slopes.values()), ADAPTIVE_ROWS, True, slopes)
+def _bindings(layout: Layout) -> dict[str, Callable[..., Any]]:
+    return {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
+
+
+def _second_order(layout: Layout, **slopes: Callable[..., Any]) -> Loop:
+    stages: tuple[Callable[..., Any], ...] = (*ADAPTIVE_STAGES, *slopes.values())
+    return Loop(track_adaptive, stages, layout.rows, True, slopes | _bindings(layout))
 
 
 LOOPS: dict[str, Loop] = {
-    "paper": Loop(track_block, STAGES, ROWS, False, {}),
+    "paper": Loop(track_block, STAGES, layout(at).rows, False, {}),
     "rosenbrock": _second_order(
-        first_slope=first_inertial, second_slope=second_inertial, end_slope=end_inertial
+        INERTIAL_LAYOUT, first_slope=first_inertial, second_slope=second_inertial, end_slope=end_inertial
     ),
     "stokes": _second_order(
-        first_slope=first_inertialess, second_slope=second_inertialess, end_slope=end_inertialess
+        INERTIALESS_LAYOUT,
+        first_slope=first_inertialess,
+        second_slope=second_inertialess,
+        end_slope=end_inertialess,
     ),
 }
 """The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""

@@ -17,8 +17,9 @@ from paths import PIPE
 import foamprb
 from foamprb.cloud.adaptive import end_inertial
 from foamprb.cloud.advance import dense_newton
-from foamprb.cloud.block import LANES, Medium
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import LOOPS, Models
 from foamprb.compile import link as compiling
