@@ -309,3 +309,7 @@ def idle_lanes(block: Any, dt: float) -> None:
     idle(block)
     for i in range(LANES):
         block[at.dt * LANES + i] = dt
+
+
+BLOCK_STAGES = (frame_stage, stretch_stage, straighten_stage, integrals_stage, accept_stage)
+"""The stages that every integrator has."""

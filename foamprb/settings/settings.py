@@ -21,12 +21,12 @@ from typing import (
 )
 
 from foamprb.body.drag import DRAGS
-from foamprb.body.imex import INTEGRATORS
 from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution, Scaled, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
 from foamprb.cloud.injection.shapes import SHAPES, Ellipsoid, Shape, Sphere
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
 from foamprb.cloudfunctions.functions import FUNCTIONS, CloudFunction
 from foamprb.dictionary.constraints import (

@@ -9,16 +9,19 @@ from typing import Annotated, NamedTuple
 import numpy as np
 import pytest
 
-from foamprb.cloud import adaptive, measures
+from foamprb.cloud import measures
 from foamprb.cloud.block import ROWS, Rows, at, load_particle, new_scratch, save_particle
+from foamprb.cloud.integrators import rosenbrock, stokes
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.integrators.second_order import slope
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets, rows_of
 from foamprb.cloud.state import CHANGING, VARIABLES, Particles, empty
 from foamprb.compile.link import link
 
 PARTS = {
-    "common": (at,),
-    "with inertia": (at, adaptive.slope, adaptive.inertial),
-    "without inertia": (at, adaptive.slope, adaptive.inertialess),
+    "paper": (at,),
+    "rosenbrock": (at, slope, rosenbrock.own),
+    "stokes": (at, slope, stokes.own),
     "measures": (at, measures.result),
 }
 
@@ -42,15 +45,21 @@ def particles(n=2):
     return p
 
 
-@pytest.mark.parametrize("parts", PARTS.values(), ids=PARTS)
-def test_rows_cover_the_block_and_do_not_overlap(parts):
+@pytest.mark.parametrize("name", PARTS)
+def test_rows_cover_the_block_and_do_not_overlap(name):
+    parts = PARTS[name]
     taken = [
         first + c
         for part in parts
         for first, row in zip(part, rows_of(type(part)).values(), strict=True)
         for c in range(row.components)
     ]
-    assert taken == list(range(layout(*parts).rows))
+    rows = INTEGRATORS[name].layout.rows if name in INTEGRATORS else layout(*parts).rows
+    assert taken == list(range(rows))
+
+
+def test_rows_of_every_integrator_are_looked_at():
+    assert set(INTEGRATORS) <= set(PARTS)
 
 
 def test_rows_are_declared_as_the_arrays_of_the_cloud_are():
