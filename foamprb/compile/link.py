@@ -17,7 +17,7 @@ from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numba
@@ -186,7 +186,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
-            scope[name] = _constant(value, target)
+            scope[name] = _offsets(value, target) if _are_offsets(value) else _constant(value, target)
             digest.update(f"{name}={value!r};".encode())
     if target == "cuda":
         scope |= _for_cuda(scope)
@@ -205,6 +205,18 @@ def _constant(value: Any, target: Target) -> Any:
     """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
     # Sizes of local arrays on a device must be Python's.
     return np.int64(value) if type(value) is int and target == "cpu" else value
+
+
+def _are_offsets(value: Any) -> bool:
+    """Whether a constant is a named tuple of whole numbers, such as those at which a block's rows begin."""
+    return hasattr(value, "_fields") and all(type(item) is int for item in value)
+
+
+def _offsets(value: Any, target: Target) -> ModuleType:
+    """What stands for such a tuple: numba takes a module's attribute for the constant that it is."""
+    module = ModuleType(type(value).__name__)
+    vars(module).update({name: _constant(item, target) for name, item in value._asdict().items()})
+    return module
 
 
 def _link_select(target: Target) -> _Part:

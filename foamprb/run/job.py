@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Snapshot
@@ -27,6 +27,7 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import draw
 from foamprb.cloud.injection.models import release
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES, automatic
 from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
@@ -309,7 +310,7 @@ def describe(job: Job) -> list[str]:
              f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
-    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
+    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)
     if settings.solution.shape == "auto":
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",

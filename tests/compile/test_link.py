@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -206,3 +207,24 @@ def test_bound_of_the_stretches():
     prolate = turn @ np.diag([2.5, 0.7, 0.7])
     assert longest_stretch(tuple(prolate.ravel())) == pytest.approx(2.5, rel=1e-12)
     assert longest_stretch(tuple(1.5 * turn.ravel())) == pytest.approx(1.5, rel=1e-7)
+
+
+class Places(NamedTuple):
+    low: int
+    high: int
+
+
+places = Places(2, 3)
+
+
+def difference(values):
+    return element(values, places.high) - element(values, places.low)
+
+
+def test_named_numbers_are_constants_of_the_code_that_reads_them(kept):
+    """Other numbers are other code; a function that is given one is compiled once for all."""
+    values = np.array([1.0, 2.0, 4.0, 8.0])
+    assert link(difference)(values) == 4.0
+    assert link(difference, {"places": Places(0, 3)})(values) == 7.0
+    (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__name__ == "element"]
+    assert len(part.dispatcher.signatures) == 1
