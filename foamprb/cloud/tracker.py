@@ -24,7 +24,7 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
-from foamprb.flow.walk import LONG
+from foamprb.flow.meshflow import LONG
 
 __all__ = ["Models", "Tracker"]
 

@@ -32,8 +32,9 @@ from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.walk import sample_with
-from foamprb.output.vtk import PieceArray, Series, write_pieces, write_snapshot
+from foamprb.flow.meshflow import sample_with
+from foamprb.output.pvd import Series
+from foamprb.output.vtk import PieceArray, write_pieces, write_snapshot
 from foamprb.parallel.shared import Publisher, Windows
 from foamprb.parallel.team import View
 from foamprb.settings.libs import load_libs, loaded_libs

@@ -16,9 +16,9 @@ from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.compile.link import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walk import MeshFlow
 
 __all__ = ["compile_all"]
 

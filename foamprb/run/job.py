@@ -36,14 +36,14 @@ from foamprb.compile.link import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import Source, read_flow, read_transient_flow
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walk import MeshFlow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoints
+from foamprb.output.pvd import Series
 from foamprb.output.tables import Column, write_table
-from foamprb.output.vtk import Series
 from foamprb.parallel.team import Serial, Team, View
 from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.precompile import Ahead
@@ -113,7 +113,7 @@ def prepare(
         An OpenFOAM case folder.
     time
         Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
-        :func:`foamprb.flow.series.select_times` has them; all by default.
+        :func:`foamprb.flow.read.case.select_times` has them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads

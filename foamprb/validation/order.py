@@ -9,8 +9,9 @@ import numpy as np
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row
+from foamprb.validation.references.inertia import soft_sphere
+from foamprb.validation.references.shear import SHEAR, inertialess_history
 from foamprb.validation.runs import (
     DIAMETER,
     MU_F,
@@ -28,7 +29,7 @@ from foamprb.validation.runs import (
 def _with_inertia(name: str, steps: Floats) -> Floats:
     """Error of x/d and F against the reference in the pipe after 2 ms, for each step, s."""
     end, Ca = 2e-3, 0.5
-    own = ref.soft_sphere(
+    own = soft_sphere(
         DIAMETER / 2,
         RHO_S,
         MU_F * WALL_RATE / Ca,
@@ -49,7 +50,7 @@ def _with_inertia(name: str, steps: Floats) -> Floats:
 
 def _without_inertia(name: str, steps: Floats) -> Floats:
     """Error of F against the inertialess reference in simple shear at γ̇t = 2, for each step in 1/γ̇."""
-    own = ref.inertialess_history(ref.SHEAR, 0.4, np.array([2.0]))[-1]
+    own = inertialess_history(SHEAR, 0.4, np.array([2.0]))[-1]
     errors = []
     for dt in steps:
         cloud = unit_cloud(

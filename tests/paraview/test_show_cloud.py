@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from paths import ROOT
 
 from foamprb.cloud.state import Status
-from foamprb.output.vtk import PointCloud, Series
+from foamprb.output.pvd import Series
+from foamprb.output.vtk import PointCloud
 
 SCRIPT = ROOT / "tools" / "paraview" / "show_cloud.py"
 PIPE = ROOT / "cases" / "pipe"

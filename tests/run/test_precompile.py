@@ -12,8 +12,8 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walk import MeshFlow
 from foamprb.run.precompile import Ahead
 
 AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))

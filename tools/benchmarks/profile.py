@@ -17,7 +17,9 @@ from foamprb.cloud.block import frame_stage as medium_stage
 from foamprb.cloud.integrators import paper, stokes
 from foamprb.cloud.layout import LANES
 from foamprb.compile.link import link
-from foamprb.flow.walk import LONG, gap, sample, walk
+from foamprb.flow.meshflow import LONG
+from foamprb.flow.walk import sample, walk
+from foamprb.flow.walls import gap
 
 
 class Stage(NamedTuple):
