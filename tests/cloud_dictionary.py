@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from pathlib import Path
 
@@ -52,6 +53,22 @@ def case(tmp_path: Path) -> Path:
     (tmp_path / "constant/g").write_text("dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);")
     (tmp_path / "constant/positions").write_text("((0 0 0))")
     return tmp_path
+
+
+@pytest.fixture
+def notes(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What is logged from now on, whatever an earlier run of the command line has done to the log."""
+    found: list[str] = []
+
+    class Handler(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            found.append(record.getMessage())
+
+    log = logging.getLogger("foamprb")
+    monkeypatch.setattr(log, "handlers", [Handler()])
+    monkeypatch.setattr(log, "level", logging.INFO)
+    log.manager._clear_cache()
+    return found
 
 
 @pytest.fixture

@@ -53,6 +53,17 @@ class Only:
 
 
 @dataclass(frozen=True)
+class NoEffect:
+    """An entry of OpenFOAM's that changes nothing here, whatever its value; and why."""
+
+    why: str
+
+    def admits(self, value: object) -> bool:  # noqa: ARG002
+        """Whether ``value`` is allowed: any is."""
+        return True
+
+
+@dataclass(frozen=True)
 class Each:
     """Bounds of every component of a vector."""
 
@@ -68,7 +79,7 @@ class Each:
         return all(self.bounds.admits(component) for component in value)
 
 
-Rule: TypeAlias = Bounds | Choice | Only | Each
+Rule: TypeAlias = Bounds | Choice | Only | NoEffect | Each
 Vector3: TypeAlias = tuple[float, float, float]
 Constant = NewType("Constant", float)
 """A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""

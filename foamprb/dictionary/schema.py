@@ -1,12 +1,14 @@
 """A schema: a frozen dataclass that declares a dictionary's entries, their types, bounds and defaults.
 
 Its field names are the entries' own words, its type hints say what they hold:
-``rho0: Annotated[float, Positive]``.
+``rho0: Annotated[float, Positive]``. A field of type ``Annotated[None, NoEffect(why)]`` is an entry of
+OpenFOAM's that is accepted with any value, and of which a note says that it has no effect.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+import logging
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import MISSING, Field, fields
 from types import UnionType
 from typing import (
@@ -14,6 +16,7 @@ from typing import (
     Any,
     ClassVar,
     Literal,
+    NamedTuple,
     Protocol,
     TypeVar,
     Union,
@@ -22,12 +25,14 @@ from typing import (
     get_type_hints,
 )
 
-from foamprb.dictionary.constraints import Bounds, Choice, Constant, Each, Only, Rule
+from foamprb.dictionary.constraints import Bounds, Choice, Constant, Each, NoEffect, Only, Rule
+from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Entry, Stream, unquoted
 from foamprb.dictionary.values import READERS
-from foamprb.errors import InputError, suggestion
+from foamprb.errors import InputError, closest, suggestion
 
 __all__ = [
+    "Instead",
     "Schema",
     "allowed",
     "names_of",
@@ -38,8 +43,24 @@ __all__ = [
 ]
 
 
+log = logging.getLogger("foamprb")
+
+
+class Instead(NamedTuple):
+    """What to write for an entry of OpenFOAM's that does not exist here."""
+
+    entry: str
+    """The name of an entry that does."""
+    why: str
+    """How a message goes on behind ``use <entry>, ``."""
+
+
 class Schema(Protocol):
-    """Any dataclass."""
+    """Any dataclass.
+
+    It may have a static method ``instead(word)``, which returns :class:`Instead` for a word of OpenFOAM's
+    that has another name here, else None.
+    """
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
@@ -64,16 +85,22 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
     Raises
     ------
     InputError
-        If an entry is not known, missing, or does not hold what its hint says, or if the schema refuses what
-        its entries say together.
+        If entries are not known, missing, or do not hold what their hints say, all of them; or if the schema
+        refuses what its entries say together.
     """
     hints = get_type_hints(schema, include_extras=True)
-    refuse_unknown(dictionary, (*names_of(schema), *also))
-    values = {
-        entry.name: read_entry(dictionary, entry.name, hints[entry.name])
-        for entry in fields(schema)
-        if entry.name in dictionary.entries or not _has_default(entry)
-    }
+    known = {*names_of(schema), *also}
+    # Those are read, but not worth a suggestion.
+    idle = {name for name, hint in hints.items() if isinstance(_kind(hint)[1], NoEffect)}
+    mistakes = Mistakes()
+    with mistakes:
+        _refuse_unknown(dictionary, known, idle, getattr(schema, "instead", None))
+    values = {}
+    for entry in sorted(fields(schema), key=lambda field: _line(dictionary, field.name)):
+        with mistakes:
+            if entry.name in dictionary.entries or not _has_default(entry):
+                values[entry.name] = read_entry(dictionary, entry.name, hints[entry.name])
+    mistakes.raise_any()
     try:
         return schema(**values)
     except InputError as error:
@@ -93,11 +120,33 @@ def names_of(schema: type[Schema]) -> tuple[str, ...]:
 
 
 def refuse_unknown(dictionary: Dictionary, known: Collection[str]) -> None:
-    """Raise InputError, with a suggestion, for an entry whose name is not known."""
+    """Raise InputError, with suggestions, for entries whose names are not known."""
+    _refuse_unknown(dictionary, known, (), None)
+
+
+def _refuse_unknown(
+    dictionary: Dictionary,
+    known: Collection[str],
+    idle: Collection[str],
+    instead: Callable[[str], Instead | None] | None,
+) -> None:
+    """Do the same; what is ``idle`` is known, but no suggestion, and ``instead`` may have a better one."""
+    mistakes = Mistakes()
+    names = set(known).difference(idle)
     for key, entry in dictionary.entries.items():
         # A name that only serves as a macro's variable is the user's own.
-        if key not in known and not entry.used:
-            raise entry.mistake(f"is not known. {suggestion(key, known)}")
+        if key in known or entry.used:
+            continue
+        other = instead(key) if instead else None
+        if other and other.entry in idle:
+            _note(entry, other.why)
+        elif other:
+            mistakes.add(entry.mistake(f"is not known: use {other.entry}, {other.why}.", (other.entry,)))
+        else:
+            meant = closest(key, names)
+            text = f"is not known. {suggestion(key, names)}"
+            mistakes.add(entry.mistake(text, (meant,) if meant else ()))
+    mistakes.raise_any()
 
 
 def selected(registry: Mapping[str, type[S]], dictionary: Dictionary) -> type[S]:
@@ -120,6 +169,10 @@ def allowed(hint: Any, found: str = "") -> str:
     return f"Allowed: {READERS[kind if kind in READERS else Dictionary].text}."
 
 
+def _line(dictionary: Dictionary, key: str) -> int:
+    return dictionary.entries[key].line if key in dictionary.entries else 0
+
+
 def _has_default(entry: Field[Any]) -> bool:
     return entry.default is not MISSING or entry.default_factory is not MISSING
 
@@ -127,6 +180,9 @@ def _has_default(entry: Field[Any]) -> bool:
 def _convert(entry: Entry, hint: Any) -> Any:
     """Return what an entry holds, of the type that a hint says."""
     kind, rule = _kind(hint)
+    if isinstance(rule, NoEffect):
+        _note(entry, rule.why)
+        return None
     if isinstance(entry, Dictionary) and _may_be_dictionary(hint):
         return entry
     if kind is Dictionary:
@@ -137,12 +193,19 @@ def _convert(entry: Entry, hint: Any) -> Any:
         return entry
     if isinstance(entry, Stream) and any(token.startswith("#") for token in entry.tokens):
         raise entry.mistake(f"is {entry}, which is not evaluated: write the value itself.")
-    value = READERS[kind].read(entry) if isinstance(entry, Stream) else None
+    try:
+        value = READERS[kind].read(entry) if isinstance(entry, Stream) else None
+    except ValueError as error:
+        raise entry.mistake(f"is {entry}, {error}.") from error
     if value is None or not (rule is None or rule.admits(value)):
-        raise entry.mistake(
-            f"is {entry}. {allowed(hint, found=entry.text if isinstance(entry, Stream) else '')}"
-        )
+        # Without its semicolon an entry swallows those that follow.
+        text, tokens = (entry.text, entry.tokens) if isinstance(entry, Stream) else ("", ())
+        raise entry.mistake(f"is {entry}. {allowed(hint, found=text)}", tokens)
     return value
+
+
+def _note(entry: Entry, why: str) -> None:
+    log.info("%s, line %d: %s has no effect: %s.", entry.source, entry.line, entry.path, why)
 
 
 def _kind(hint: Any) -> tuple[Any, Rule | None]:

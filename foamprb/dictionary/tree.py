@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from foamprb.errors import InputError
+from foamprb.dictionary.mistakes import Mistake
 
 __all__ = ["DICTIONARY_TEXT", "Dictionary", "DictionaryList", "Entry", "Source", "Stream", "unquoted"]
 
@@ -25,9 +26,9 @@ class Source:
         path, case = self.path.resolve(), self.case.resolve()
         return str(path.relative_to(case) if path.is_relative_to(case) else self.path)
 
-    def mistake(self, line: int, what: str) -> InputError:
-        """Return the error for a line of the file."""
-        return InputError(f"{self}, line {line}: {what}")
+    def mistake(self, line: int, what: str, *, missing: str = "", meant: Iterable[str] = ()) -> Mistake:
+        """Return the error for a line of the file, or for the whole file if the line is 0."""
+        return Mistake(str(self), line, what, missing=missing, meant=meant)
 
 
 @dataclass(eq=False)
@@ -46,15 +47,24 @@ class Entry:
         above = self.parent.path if self.parent else ""
         return f"{above}/{unquoted(self.key)}" if above else unquoted(self.key)
 
-    def mistake(self, what: str) -> InputError:
-        """Return the error for this entry: file, line, path, and what is wrong."""
-        return self.source.mistake(self.line, f"{self.path} {what}")
+    def mistake(self, what: str, meant: Iterable[str] = ()) -> Mistake:
+        """Return the error for this entry: file, line, path, and what is wrong.
 
-    def missing(self, key: str, allowed: str) -> InputError:
+        Parameters
+        ----------
+        what
+            Goes on behind the path.
+        meant
+            Names of entries beside this one that were probably meant by it.
+        """
+        beside = f"{self.parent.path}/" if self.parent and self.parent.path else ""
+        paths = [beside + name for name in meant]
+        return self.source.mistake(self.line, f"{self.path} {what}", meant=paths)
+
+    def missing(self, key: str, allowed: str) -> Mistake:
         """Return the error for a key that this dictionary lacks."""
         path = f"{self.path}/{key}" if self.path else key
-        place = f", line {self.line}" if self.path else ""
-        return InputError(f"{self.source}{place}: {path} is missing. {allowed}")
+        return self.source.mistake(self.line, f"{path} is missing. {allowed}", missing=path)
 
     def dictionary(self) -> Dictionary:
         """Return this entry as a dictionary; a key without a value, such as ``gravity;``, is an empty one.

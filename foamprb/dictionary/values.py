@@ -9,9 +9,18 @@ from pathlib import Path
 from typing import Any, NamedTuple, NewType
 
 from foamprb.dictionary.constraints import Axes, Constant, Pairs, Vector3, Words
+from foamprb.dictionary.dimensions import (
+    ACCELERATION,
+    DENSITY,
+    KINEMATIC_VISCOSITY,
+    Dimensions,
+    described,
+    read_dimensions,
+    written,
+)
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
 
-__all__ = ["READERS", "Files", "Line", "Reader", "Viscosity"]
+__all__ = ["READERS", "Acceleration", "Density", "Files", "Line", "Reader", "Viscosity"]
 
 Line = NewType("Line", str)
 """An entry's whole text, of one word or more."""
@@ -19,19 +28,26 @@ Files = NewType("Files", tuple[Path, ...])
 """Names of existing files, in the case's ``constant`` folder or absolute."""
 Viscosity = NewType("Viscosity", float)
 """A kinematic viscosity, m2/s, that may be written with its name and dimensions."""
+Density = NewType("Density", float)
+"""A density, kg/m3, that may be written with its name and dimensions."""
+Acceleration = NewType("Acceleration", str)
+"""The dimensions of an acceleration."""
 
 
 class Reader(NamedTuple):
     """How the value of one type is read, and how a message calls it."""
 
     read: Callable[[Stream], Any]
-    """Returns the value of an entry, or None if its text is something else."""
+    """Returns the value of an entry, or None if its text is something else.
+
+    It may raise ValueError with what a message shall say of the text.
+    """
     text: str
 
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
-_VISCOSITY = re.compile(r"(?:(?:[^\W\d]\S* )?\[ 0 2 -1 0 0(?: 0 0)? \] )?(?P<value>\S+)")
+_DIMENSIONED = re.compile(r"(?:(?:[^\W\d]\S* )?(?P<dimensions>\[ .* \]) )?(?P<value>\S+)")
 _SWITCHES = {"yes": True, "on": True, "true": True, "no": False, "off": False, "false": False}
 
 
@@ -40,9 +56,30 @@ def _number(text: str) -> float | None:
     return number if math.isfinite(number) else None
 
 
-def _viscosity_value(entry: Stream) -> float | None:
-    match = _VISCOSITY.fullmatch(entry.text)
-    return _number(match["value"]) if match else None
+def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
+    """Return a reader of numbers with their name and dimensions, or with neither."""
+
+    def read(entry: Stream) -> float | None:
+        match = _DIMENSIONED.fullmatch(entry.text)
+        if match and match["dimensions"]:
+            _require(match["dimensions"], expected)
+        return _number(match["value"]) if match else None
+
+    return read
+
+
+def _require(text: str, expected: Dimensions) -> None:
+    """Raise ValueError, which says what they look like, for dimensions that are not those expected."""
+    dimensions = read_dimensions(text)
+    if dimensions is None:
+        raise ValueError("whose dimensions cannot be read")
+    if dimensions != expected:
+        raise ValueError(f"with the dimensions {described(dimensions)}, not {described(expected)}")
+
+
+def _dimensions_of_acceleration(entry: Stream) -> str:
+    _require(entry.text, ACCELERATION)
+    return entry.text
 
 
 def _constant(entry: Stream) -> float | None:
@@ -132,7 +169,11 @@ READERS: dict[Any, Reader] = {
     bool: Reader(lambda entry: _SWITCHES.get(entry.text), ", ".join(_SWITCHES)),
     str: Reader(_word, "a word"),
     Line: Reader(lambda entry: entry.text, "any text"),
-    Viscosity: Reader(_viscosity_value, "a number, with the dimensions [0 2 -1 0 0 0 0] or none"),
+    Viscosity: Reader(
+        _dimensioned(KINEMATIC_VISCOSITY), f"a number, or {written(KINEMATIC_VISCOSITY)} and a number"
+    ),
+    Density: Reader(_dimensioned(DENSITY), f"a number, or {written(DENSITY)} and a number"),
+    Acceleration: Reader(_dimensions_of_acceleration, written(ACCELERATION)),
     Path: Reader(_file, "the name of an existing file, in constant/ or absolute"),
     Files: Reader(_files, "a list (file file) of existing files, in constant/ or absolute"),
     Vector3: Reader(_vector, "a vector (x y z)"),

@@ -20,13 +20,15 @@ from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
     Fraction,
+    NoEffect,
     NonNegative,
     Only,
     PoissonsRatio,
     Positive,
 )
+from foamprb.dictionary.schema import Instead
 from foamprb.dictionary.tree import Dictionary
-from foamprb.dictionary.values import Files, Line
+from foamprb.dictionary.values import Density, Files, Line
 from foamprb.settings.patches import INTERACTION_MODELS
 from foamprb.settings.settings import StartFrom
 
@@ -42,11 +44,22 @@ __all__ = [
 ]
 
 
+_CONSTANT_FLUID = NoEffect("density and viscosity of the fluid are constants")
+
+
 @dataclass(frozen=True, kw_only=True)
 class InterpolationSchemes:
-    """``solution/interpolationSchemes``."""
+    """``solution/interpolationSchemes``; OpenFOAM's ``cellPoint`` is linear in the same tetrahedra."""
 
-    U: Literal["linear"] = "linear"
+    U: Literal["linear", "cellPoint"] = "linear"
+    rho: Annotated[None, _CONSTANT_FLUID] = None
+    mu: Annotated[None, _CONSTANT_FLUID] = None
+
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the name without that of a phase, as in ``U.air``."""
+        name, dot, _ = word.partition(".")
+        return Instead(name, "there is one fluid") if dot and name in ("U", "rho", "mu") else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,14 +72,15 @@ class IntegrationSchemes:
 
 
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
+_NO_SOURCES = NoEffect("the particles do not act on the flow")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solution:
     """``solution``."""
 
-    deltaT: Annotated[float, Positive]
-    endTime: Annotated[float, Positive]
+    deltaT: Annotated[float, Positive] | None = None
+    endTime: Annotated[float, Positive] | None = None
     writeInterval: Annotated[float, Positive] | None = None
     startFrom: StartFrom | None = None
     startTime: Annotated[float, Only(0.0, "a cloud begins at time 0")] = 0.0
@@ -78,6 +92,14 @@ class Solution:
     cellValueSourceCorrection: Annotated[bool, _NOT_COUPLED] = False
     interpolationSchemes: InterpolationSchemes = InterpolationSchemes()
     integrationSchemes: IntegrationSchemes = IntegrationSchemes()
+    maxCo: Annotated[
+        None, NoEffect("the tracking step is deltaT, and walks go through any number of cells")
+    ] = None
+    sourceTerms: Annotated[None, _NO_SOURCES] = None
+    averagingMethod: Annotated[None, _NO_SOURCES] = None
+    averagingMethods: Annotated[None, _NO_SOURCES] = None
+    calcFrequency: Annotated[None, _NO_SOURCES] = None
+    resetSourcesOnStartup: Annotated[None, _NO_SOURCES] = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,14 +132,29 @@ def parameters() -> dict[str, Any]:
     }
 
 
+_NO_MASS_TRANSFER = NoEffect("the mass of a particle does not change")
+
+
 @dataclass(frozen=True, kw_only=True)
 class ConstantProperties:
     """``constantProperties``."""
 
     rho0: Annotated[float, Positive] | Dictionary
-    rhoInf: Annotated[float, Positive]
+    rhoInf: Annotated[Density, Positive] | None = None
     solid: Dictionary | None = None
     shape: Dictionary | None = None
+    parcelTypeId: Annotated[None, NoEffect("particles are told apart by their injection model")] = None
+    constantVolume: Annotated[None, _NO_MASS_TRANSFER] = None
+    rhoMin: Annotated[None, _NO_MASS_TRANSFER] = None
+    minParcelMass: Annotated[None, _NO_MASS_TRANSFER] = None
+    minParticleMass: Annotated[None, _NO_MASS_TRANSFER] = None
+    alphaMax: Annotated[None, NoEffect("the suspension is dilute, particles do not meet")] = None
+
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the dictionary in which the moduli are."""
+        moduli = ("youngsModulus", "poissonsRatio", "shearModulus")
+        return Instead("solid", f"a dictionary with {word} and type") if word in moduli else None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -159,6 +196,12 @@ class ParticleForces:
     pressureGradient: PressureGradient | None = None
     virtualMass: VirtualMass | None = None
 
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the drag that stands for OpenFOAM's laws for spheres."""
+        why = "which for a rigid sphere is Stokes' drag"
+        return Instead("ellipsoidDrag", why) if word.endswith("Drag") else None
+
 
 _PARCELS = "particles are single, not parcels"
 _CONSTANT_RATE = Line("constant 1")
@@ -181,6 +224,13 @@ class InjectionModel:
     ] = _CONSTANT_RATE
 
 
+_NO_DISPERSION = Only(
+    "none", "particles follow the velocity field that was read, without turbulent dispersion"
+)
+_DILUTE = Only("none", "the suspension is dilute, particles do not meet")
+_NO_MODEL = NoEffect("there is no such model")
+
+
 @dataclass(frozen=True, kw_only=True)
 class SubModels:
     """``subModels``, without the coefficients of the patch interaction models."""
@@ -189,19 +239,28 @@ class SubModels:
     injectionModels: Dictionary
     patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
     tractionModel: Annotated[str, Choice(TRACTIONS)] = "roscoe"
-    dispersionModel: Literal["none"] = "none"
-    heatTransferModel: Literal["none"] = "none"
-    surfaceFilmModel: Literal["none"] = "none"
-    collisionModel: Literal["none"] = "none"
-    stochasticCollisionModel: Literal["none"] = "none"
+    dispersionModel: Annotated[str, _NO_DISPERSION] = "none"
+    heatTransferModel: Annotated[str, Only("none", "particles have no temperature")] = "none"
+    surfaceFilmModel: Annotated[str, Only("none", "there is no film on the walls")] = "none"
+    collisionModel: Annotated[str, _DILUTE] = "none"
+    stochasticCollisionModel: Annotated[str, _DILUTE] = "none"
+    packingModel: Annotated[str, _DILUTE] = "none"
+    dampingModel: Annotated[str, _DILUTE] = "none"
+    isotropyModel: Annotated[str, _DILUTE] = "none"
+    radiation: Annotated[bool, Only(False, "particles have no temperature")] = False
+    pairCollisionCoeffs: Annotated[None, _NO_MODEL] = None
+    explicitCoeffs: Annotated[None, _NO_MODEL] = None
+    implicitCoeffs: Annotated[None, _NO_MODEL] = None
+    relaxationCoeffs: Annotated[None, _NO_MODEL] = None
+    stochasticCoeffs: Annotated[None, _NO_MODEL] = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class CloudProperties:
-    """The whole file."""
+    """The whole file, the dictionaries of which have schemas of their own."""
 
-    solution: Solution
-    constantProperties: ConstantProperties
+    solution: Dictionary
+    constantProperties: Dictionary
     subModels: Dictionary
     cloudFunctions: Dictionary | None = None
     libs: Files | None = None

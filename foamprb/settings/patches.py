@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
-from foamprb.dictionary.constraints import Bounds
+from foamprb.dictionary.constraints import Bounds, Choice
+from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
@@ -62,18 +63,31 @@ Rule: TypeAlias = PatchRule | KindRule
 # Patch interaction models
 
 
-def read_patch_interaction(model: str, sub_models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
-    """Read the coefficients of a patch interaction model from ``subModels``.
+def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
+    """Read the coefficients of the ``patchInteractionModel`` of ``subModels``.
 
     Returns
     -------
     The rules for the patches, and what of a particle touches a wall.
+
+    Raises
+    ------
+    InputError
+        If there are mistakes, all of them.
     """
+    if "patchInteractionModel" not in sub_models.entries:
+        raise ReportedError("patchInteractionModel is missing")
+    model = read_entry(sub_models, "patchInteractionModel", Annotated[str, Choice(INTERACTION_MODELS)])
     coefficients: Dictionary = read_entry(sub_models, f"{model}Coeffs", Dictionary)
     touching: Touching = "ellipsoid"
-    if "touching" in coefficients.entries:
-        touching = read_entry(coefficients, "touching", Touching)
-    return INTERACTION_MODELS[model](coefficients), touching
+    mistakes = Mistakes()
+    with mistakes:
+        if "touching" in coefficients.entries:
+            touching = read_entry(coefficients, "touching", Touching)
+    with mistakes:
+        rules = INTERACTION_MODELS[model](coefficients)
+    mistakes.raise_any()
+    return rules, touching
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,8 +97,14 @@ class _LocalInteraction:
 
 def _local_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
     """Return a rule for each entry of ``patches``."""
-    entries = read_entries(_LocalInteraction, coefficients, also=("touching",))
-    return tuple(_patch_rule(entry) for entry in entries.patches.items)
+    mistakes, rules = Mistakes(), []
+    with mistakes:
+        entries = read_entries(_LocalInteraction, coefficients, also=("touching",))
+        for entry in entries.patches.items:
+            with mistakes:
+                rules.append(_patch_rule(entry))
+    mistakes.raise_any()
+    return tuple(rules)
 
 
 def _patch_rule(dictionary: Dictionary) -> PatchRule:
@@ -157,14 +177,22 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     Raises
     ------
     InputError
-        If a rule matches no patch, or a patch of another kind is left without a rule.
+        If rules match no patch, or patches of another kind are left without a rule; all of them.
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
+    names = [patch.name for patch in patches]
+    mistakes, interactions = Mistakes(), []
     for rule in rules:
         if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
-            names = [patch.name for patch in patches]
-            raise InputError(f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}")
-    return [_interaction(rules, patch, file, where) for patch in patches]
+            text = f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}"
+            mistakes.add(InputError(text))
+    # First: a rule that matches no patch may be meant for one that is left without.
+    mistakes.raise_any()
+    for patch in patches:
+        with mistakes:
+            interactions.append(_interaction(rules, patch, file, where))
+    mistakes.raise_any()
+    return interactions
 
 
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:

@@ -116,7 +116,7 @@ MISTAKES = [
     (
         "deltaT ",
         "interpolationSchemes { U cell; } deltaT ",
-        "interpolationSchemes/U is 'cell'. Allowed: linear.",
+        "interpolationSchemes/U is 'cell'. Did you mean 'cellPoint'? Allowed: cellPoint, linear.",
     ),
     ("deltaT ", "integrationSchemes { shape papre; } deltaT ", "Did you mean 'paper'?"),
     ("rhoInf          1.208;", "", "constantProperties/rhoInf is missing"),
@@ -133,7 +133,12 @@ MISTAKES = [
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
     ("shearModulus 1000", "Ca 1", "constantProperties/solid/referenceShearRate is missing"),
     ("ellipsoidDrag;", "", "subModels/particleForces/ellipsoidDrag is missing. Allowed: a dictionary"),
-    ("ellipsoidDrag;", "sphereDrag;", "subModels/particleForces/sphereDrag is not known."),
+    (
+        "ellipsoidDrag;",
+        "sphereDrag;",
+        "line 16: subModels/particleForces/sphereDrag is not known: use ellipsoidDrag, which for a rigid "
+        "sphere is Stokes' drag.",
+    ),
     (
         "ellipsoidDrag;",
         "ellipsoidDrag { type stokes; }",
@@ -174,7 +179,6 @@ MISTAKES = [
         "is 'table ((0 1) (1 2))'. Allowed: con",
     ),
     ("patch inlet;", "patch in let;", "inlet/patch is 'in let'. Allowed: a word."),
-    ("patchInjection", 'manualInjection; positionsFile "no"', "inlet/patch is not known"),
     ("value 5e-6;", "", "inlet/sizeDistribution/fixedValueDistribution/value is missing"),
     ("fixedValueDistribution { value 5e-6; }", "", "sizeDistribution/fixedValueDistribution is missing"),
     ("type fixedValue;", "type norml;", "inlet/sizeDistribution/type is 'norml'. Did you mean 'normal'?"),
@@ -199,8 +203,26 @@ MISTAKES = [
         "cloudFunctions/facePostProcessing/type is missing. Allowed: particleCollector, ",
     ),
     ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
-    ("solution\n{", "solution 3; other {", "line 3: other is not known"),
 ]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("dimensions [0 1 -1 0 0 0 0];", "line 1: dimensions is '[0 1 -1 0 0 0 0]', with the dimensions "
+         "[0 1 -1 0 0 0 0], those of a velocity, not [0 1 -2 0 0 0 0], those of an acceleration."),
+        ("dimensions [0 1];", "whose dimensions cannot be read"),
+    ],
+)  # fmt: skip
+def test_dimensions_of_gravity(case: Path, read: Reader, text: str, message: str) -> None:
+    (case / "constant/g").write_text(f"{text} value (0 -9.81 0);")
+    with pytest.raises(InputError) as caught:
+        read(("ellipsoidDrag;", "ellipsoidDrag; gravity;"))
+    assert str(caught.value).startswith("constant/g, line 1: ")
+    assert message in str(caught.value)
+    for sound in ("", "dimensions [0 1 -2 0 0 0 0];", "dimensions [0 1 -2 0 0];"):
+        (case / "constant/g").write_text(f"{sound} value (0 -9.81 0);")
+        assert read(("ellipsoidDrag;", "ellipsoidDrag; gravity;")).gravity == (0.0, -9.81, 0.0)
 
 
 @pytest.mark.parametrize(("old", "new", "message"), MISTAKES)
@@ -210,6 +232,69 @@ def test_a_mistake_gives_its_one_message(read: Reader, old: str, new: str, messa
     assert str(caught.value).startswith("constant/softCloudProperties, line ")
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+SEVERAL = [
+    (
+        [("patchInjection", 'manualInjection; positionsFile "no"')],
+        ["line 21: subModels/injectionModels/inlet/patch is not", "duration is not known", "parcelsPerSecond",
+         """positionsFile is '"no"'. Allowed: the name of an existing file"""],
+    ),
+    ([("solution\n{", "solution 3; other {")], ["other is not known", "solution is '3'. Allowed: a dict"]),
+    (
+        # One in each section, and of each kind: misspelt, missing, of the wrong type, out of bounds.
+        [("deltaT ", "deltat "), ("rho0 ", "rho "), ("ellipsoidDrag", "sphereDrag"), ("neoHooke", "neoHook"),
+         ("patch inlet;", ""), ("value 5e-6;", "value -1;"), ("type stick", "type stik"),
+         ("type escape", "kind escape"), ("FoamFile", "cloudFunctions { a; b { type c; } } FoamFile")],
+        ["line 2: cloudFunctions/a/type is missing", "line 2: cloudFunctions/b/type is 'c'",
+         "line 5: solution/deltat is not known. Did you mean 'deltaT'",
+         "line 10: constantProperties/rho is not known. Did you mean 'rho0'",
+         "line 12: constantProperties/solid/type is 'neoHook'. Did you mean 'neoHooke'",
+         "line 16: subModels/particleForces/sphereDrag is not known: use ellipsoidDrag",
+         "line 19: subModels/injectionModels/inlet/patch is missing",
+         "line 22: subModels/injectionModels/inlet/sizeDistribution/fixedValueDistribution begins at -1",
+         "line 28: subModels/localInteractionCoeffs/patches/wall/type is 'stik'. Did you mean 'stick'",
+         "line 28: subModels/localInteractionCoeffs/patches/(inlet|outlet)/type is missing"],
+    ),
+    ([("subModels\n{", "models {"), ("rhoInf          1.208;", "")],
+     ["line 8: constantProperties/rhoInf is missing", "models is not known. Did you mean 'subModels'"]),
+    ([("localInteractionCoeffs", "localInteractonCoeffs"), ("rhoInf ", "rhoinf ")],
+     ["line 11: constantProperties/rhoinf is not known. Did you mean 'rhoInf'",
+      "localInteractonCoeffs is not known. Did you mean 'localInteractionCoeffs'"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "expected"), SEVERAL)
+def test_all_mistakes_come_at_once(read: Reader, changes: list[tuple[str, str]], expected: list[str]) -> None:
+    with pytest.raises(InputError) as caught:
+        read(*changes)
+    first, *lines = str(caught.value).split("\n")
+    assert first == f"{len(expected)} mistakes:"
+    assert len(lines) == len(expected)
+    for text in expected:
+        assert sum(text in line for line in lines) == 1, text
+    assert all(line.startswith("    constant/softCloudProperties") for line in lines)
+    numbers = [int(found[1]) if (found := re.search(r", line (\d+):", line)) else 0 for line in lines]
+    assert numbers == sorted(numbers)
+
+
+def test_mistakes_of_several_files_come_together(case: Path, read: Reader) -> None:
+    (case / "constant/transportProperties").write_text("transportModel CrossPowerLaw;\nnu air;")
+    with pytest.raises(InputError) as caught:
+        read(("2e-05", "fast"))
+    assert [line.split(":")[0].strip() for line in str(caught.value).split("\n")[1:]] == [
+        "constant/softCloudProperties, line 5",
+        "constant/transportProperties, line 1",
+        "constant/transportProperties, line 2",
+    ]
+
+
+def test_a_mistake_that_all_injection_models_share_counts_once(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("    }\n    patchInter")]
+    two = text + text.replace("inlet\n", "second\n", 1)
+    with pytest.raises(InputError) as caught:
+        read((text, two), ("poissonsRatio 0.4", "poissonsRatio 1"), ("rhoInf          1.208;", "rhoInf 0;"))
+    assert str(caught.value).startswith("2 mistakes:")
 
 
 def test_no_injection_model(read: Reader) -> None:
@@ -273,7 +358,14 @@ def test_viscosity(case: Path, read: Reader, text: str) -> None:
     ("text", "message"),
     [
         ("nu 0;", "nu is '0'. Allowed: a number > 0."),
-        ("nu [0 1 -1 0 0 0 0] 1e-5;", "nu is '[0 1 -1 0 0 0 0] 1e-5'. Allowed: a number > 0."),
+        (
+            "nu [0 1 -1 0 0 0 0] 1e-5;",
+            "nu is '[0 1 -1 0 0 0 0] 1e-5', with the dimensions [0 1 -1 0 0 0 0], those of a velocity, not "
+            "[0 2 -1 0 0 0 0], those of a kinematic viscosity.",
+        ),
+        ("nu nu [1 -1 -1 0 0 0 0] 1e-3;", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity, not [0 2 -1"),
+        ("nu [1 0 0 0 0 0 2] 1e-5;", "with the dimensions [1 0 0 0 0 0 2], not [0 2 -1 0 0 0 0], those of"),
+        ("nu [0 2 -1] 1e-5;", "whose dimensions cannot be read"),
         ('nu #calc "1e-5";', "nu is '#calc \"1e-5\"', which is not evaluated: write the value itself."),
         ("transportModel Newtonian;", "transportProperties: nu is missing"),
         ("transportModel CrossPowerLaw; nu 1e-5;", "transportModel is 'CrossPowerLaw'. Allowed: Newtonian."),
