@@ -13,7 +13,7 @@ from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import LOOPS, Models
-from foamprb.compile.link import cache_directory
+from foamprb.compile.cache import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow

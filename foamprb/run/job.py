@@ -31,7 +31,7 @@ from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.functions import STATUS_NAMES, Functions, Look
-from foamprb.compile.link import cache_directory
+from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
