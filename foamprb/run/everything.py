@@ -14,7 +14,7 @@ from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
-from foamprb.compile.link import cache_directory
+from foamprb.compile.cache import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction

@@ -32,7 +32,7 @@ from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunctions, ObservedCloud
-from foamprb.compile.link import cache_directory
+from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
