@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from foamprb.flow import analytic
     from foamprb.flow.read.meshfile import read_mesh_file
     from foamprb.flow.read.openfoam import read_case
-    from foamprb.flow.series import read_series
+    from foamprb.flow.read.series import read_series
     from foamprb.run.job import execute, prepare
 
 __version__ = version("foamprb")
@@ -43,7 +43,7 @@ _HOMES = {
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_mesh_file": "foamprb.flow.read.meshfile",
-    "read_series": "foamprb.flow.series",
+    "read_series": "foamprb.flow.read.series",
     "set_rest_shape": "foamprb.cloud.state",
     "spheres": "foamprb.cloud.state",
 }

@@ -181,7 +181,7 @@ def _stopped_by_signals() -> Iterator[list[int]]:
 
 
 def _source(arguments: argparse.Namespace) -> Source:
-    from foamprb.flow.read.meshfile import Division
+    from foamprb.flow.read.division import Division
     from foamprb.flow.read.source import Source
 
     angle = arguments.featureAngle
@@ -200,8 +200,8 @@ def _source(arguments: argparse.Namespace) -> Source:
 
 def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.flow.read.decomposed import describe_decomposed, is_only_decomposed
+    from foamprb.flow.read.describe import describe
     from foamprb.flow.read.meshfile import describe_file
-    from foamprb.flow.read.openfoam import describe
 
     source = _source(arguments)
     if source.file is not None:

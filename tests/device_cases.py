@@ -22,7 +22,7 @@ from foamprb.cloud.state import Particles, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import RunStopped
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.walk import MeshFlow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.parallel.team import OnDevice
 from foamprb.run.job import execute, prepare
 

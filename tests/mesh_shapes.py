@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pyvista
 
-from foamprb.flow.mesh.mesh import PatchSurface, build_mesh
+from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.mesh import build_mesh
 
 HEXAHEDRON_FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
 KINDS = ("hexahedra", "tetrahedra", "prisms", "pyramids", "polyhedra", "mixed")

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.special import jv
 
 import foamprb
-from foamprb.flow.series import select_times
+from foamprb.flow.read.case import select_times
 
 Floats = NDArray[np.float64]
 

@@ -17,8 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
-from foamprb.flow.mesh.patch import Patch
+from foamprb.flow.base import Floats, Ints, Patch, PatchFaces, Tetrahedra
 
 _FREE = -1
 

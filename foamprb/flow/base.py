@@ -1,4 +1,4 @@
-"""What the particle loop asks of a flow."""
+"""What the particle loop asks of a flow, and what bounds it."""
 
 from __future__ import annotations
 
@@ -8,10 +8,21 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foamprb.flow.mesh.patch import Patch
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
+
+
+WALLS = frozenset({"wall", "mappedWall"})
+"""The types of patches that are walls: also those to which another region's wall fits."""
+
+
+class Patch(NamedTuple):
+    """A named piece of the boundary, with its OpenFOAM type: wall, patch, symmetryPlane, wedge, …."""
+
+    name: str
+    type: str
+    neighbour: str = ""
+    """The patch to which a particle goes on that meets this one, if the two are coupled."""
 
 
 class PatchFaces(NamedTuple):

@@ -1,17 +1,15 @@
-"""A flow that changes in time: fields written at some times, linear in time between them.
+"""A flow that changes in time: fields known at some times, linear in time between them.
 
-Only the times about the present one are in memory; the next is read and reconstructed in the background while
-particles advance. The mesh does not move.
+Only the times about the present one are in memory; the next is read in the background while particles
+advance. The mesh does not move.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,37 +17,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import PatchFaces, Tetrahedra
+from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.locator import MeshArrays, locate, no_mesh
-from foamprb.flow.mesh.mesh import Floats, Ints, Mesh
-from foamprb.flow.read.foamfile import existing
-from foamprb.flow.read.openfoam import (
-    PRECISION_NOTE,
-    VelocityReader,
-    available_times,
-    pick_time,
-    read_case,
-    read_fields,
-    select_time,
-)
-from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.walk import MeshFlow, corners, interpolate, inward, sample_with, shape
-from foamprb.flow.walk import cross as still_cross
-from foamprb.flow.walk import gap as still_gap
-from foamprb.flow.walk import walk as still_walk
-
-__all__ = ["SeriesArrays", "SeriesFlow", "choose_times", "read_series", "select_times", "stream"]
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.meshflow import MeshFlow, sample_with
+from foamprb.flow.walk import corners, interpolate, inward, shape
+from foamprb.flow.walk import cross as cross_mesh
+from foamprb.flow.walk import walk as walk_mesh
+from foamprb.flow.walls import gap as gap_mesh
 
 _SLACK = 1e-6
 """Share of the shortest interval by which two times may differ and still be the same."""
-_MOST_KEPT = 1 << 28
-"""Bytes up to which all times of a periodic flow stay in memory."""
-_OPEN_LOOP = 2.0
-"""How much longer than any other interval the last one of a period may be."""
+_LONGEST_END = 2.0
+"""How many times longer than any other interval the last one of a period may be."""
 
 
 class SeriesArrays(NamedTuple):
-    """What the kernels know of a flow on a mesh at the times that are loaded."""
+    """What the kernels read of a flow on a mesh at the times that are loaded."""
 
     mesh: MeshArrays
     times: Floats
@@ -87,12 +71,12 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """:func:`foamprb.flow.walk.walk` on the mesh, which does not move."""
-    return still_walk(flow.mesh, host, x0, x1)
+    return walk_mesh(flow.mesh, host, x0, x1)
 
 
 def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """:func:`foamprb.flow.walk.gap`."""
-    return still_gap(flow.mesh, host, x, F, R)
+    return gap_mesh(flow.mesh, host, x, F, R)
 
 
 def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
@@ -102,7 +86,7 @@ def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG
 
 def cross(flow: SeriesArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
     """:func:`foamprb.flow.walk.cross`."""
-    return still_cross(flow.mesh, triangle, x)
+    return cross_mesh(flow.mesh, triangle, x)
 
 
 def recover(flow: SeriesArrays, x: Vector) -> int:
@@ -163,18 +147,18 @@ class SeriesFlow:
         self.period = period
         self.mesh = mesh
         nodes = mesh.n_points + mesh.n_cells
-        self._still = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
-        self.patches, self.notes, self.bounds = self._still.patches, self._still.notes, self._still.bounds
+        self._steady = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
+        self.patches, self.notes, self.bounds = self._steady.patches, self._steady.notes, self._steady.bounds
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
         self._fields = np.empty((0, nodes, 12))
-        self._held: dict[int, int] = {}
+        self._in_memory: dict[int, int] = {}
         """Place in ``_fields`` of each time in memory, by its index, the longest unused first."""
         self._levels = range(0)
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
-        self._ahead: tuple[int, Future[tuple[Floats, Floats]]] | None = None
+        self._prefetched: tuple[int, Future[tuple[Floats, Floats]]] | None = None
 
     @staticmethod
     def nothing() -> SeriesArrays:
@@ -182,7 +166,11 @@ class SeriesFlow:
         return SeriesArrays(no_mesh(), np.empty(0), np.empty(0, dtype=np.int64), np.empty((0, 12)), 0.0)
 
     def load(self, start: float, end: float) -> float:
-        """Hold the times from the last one up to ``start`` to the first one from ``end`` on, and return that.
+        """Bring the times from the last one up to ``start`` to the first one from ``end`` on into memory.
+
+        Returns
+        -------
+        The last of these times, s.
 
         Raises
         ------
@@ -202,19 +190,19 @@ class SeriesFlow:
         wanted = [self._index(level) for level in levels]
         self._make_room(wanted)
         for index in wanted:
-            self._hold(index)
+            self._fetch(index)
         self._levels = levels
         following = self._index(last + 1)
-        if self._is_level(last + 1) and following not in self._held:
-            self._read_ahead(following)
+        if self._is_level(last + 1) and following not in self._in_memory:
+            self._prefetch(following)
         return self._time(last)
 
     def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> SeriesArrays:
         """What the kernels read, at the times that were loaded last; see :meth:`MeshFlow.arrays`."""
         nodes = self._fields.shape[1]
-        places = [self._held[self._index(level)] for level in self._levels]
+        places = [self._in_memory[self._index(level)] for level in self._levels]
         return SeriesArrays(
-            self._still.arrays(reach, touchable),
+            self._steady.arrays(reach, touchable),
             np.array([self._time(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, 12),
@@ -222,19 +210,19 @@ class SeriesFlow:
         )
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """As :meth:`MeshFlow.move`; the fields change, and stay."""
-        self._still.move(place)
-        self.mesh = self._still.mesh
+        """As :meth:`MeshFlow.move`; the fields, which change, are not moved."""
+        self._steady.move(place)
+        self.mesh = self._steady.mesh
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, times, and velocities at the first of them, by name."""
         self.load(self.times[0], self.times[0])
-        first = self._fields[self._held[0]]
-        return {**self._still.traits(), "times": self.times, "period": self.period or 0.0, "fields": first}
+        first = self._fields[self._in_memory[0]]
+        return {**self._steady.traits(), "times": self.times, "period": self.period or 0.0, "fields": first}
 
     def locate(self, points: Floats) -> Ints:
         """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
-        return self._still.locate(points)
+        return self._steady.locate(points)
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s.
@@ -249,11 +237,11 @@ class SeriesFlow:
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Cube root of the volume of the hosts' cells, (n,), m."""
-        return self._still.cell_size(hosts)
+        return self._steady.cell_size(hosts)
 
     def cell_zone(self, name: str) -> Tetrahedra:
         """Tetrahedra of a zone of cells; InputError when there is no such zone."""
-        return self._still.cell_zone(name)
+        return self._steady.cell_zone(name)
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Triangles of the patch ``name`` at time t, s.
@@ -263,12 +251,13 @@ class SeriesFlow:
         InputError
             There is no such patch; or as :meth:`load`.
         """
-        faces = self._still.patch_faces(name, t)
+        faces = self._steady.patch_faces(name, t)
         corners = faces.vertices.reshape(-1, 3)
         velocity, _ = self.sample(corners, np.repeat(faces.hosts, 3), t)
         return faces._replace(velocity=velocity.reshape(-1, 3, 3))
 
-    # A level is a time counted on through all periods; its index is that of the field it has.
+    # A level is the number of a time, counted on from period to period; its index that of the time in the
+    # first period, whose field it has.
 
     def _index(self, level: int) -> int:
         return level if self.period is None else level % len(self.times)
@@ -293,7 +282,7 @@ class SeriesFlow:
         return cycle * len(self.times) + min(bisect_left(self._ends, rest - self._slack), len(self._ends) - 1)
 
     def _cycle(self, t: float) -> tuple[int, float]:
-        """The period in which t lies, and the time in the first that corresponds to t."""
+        """The number of the period in which t lies, and the time of the first that corresponds to t."""
         if self.period is None:
             return 0, t
         cycle = math.floor((t - self.times[0]) / self.period)
@@ -306,31 +295,31 @@ class SeriesFlow:
             fields[: len(self._fields)] = self._fields
             self._fields = fields
         for index in wanted:
-            if index in self._held:
-                self._held[index] = self._held.pop(index)
+            if index in self._in_memory:
+                self._in_memory[index] = self._in_memory.pop(index)
 
-    def _hold(self, index: int) -> None:
-        if index in self._held:
+    def _fetch(self, index: int) -> None:
+        if index in self._in_memory:
             return
-        u, l = self._result(index)
-        if len(self._held) < len(self._fields):
-            place = len(self._held)
+        u, l = self._read_now(index)
+        if len(self._in_memory) < len(self._fields):
+            place = len(self._in_memory)
         else:
-            place = self._held.pop(next(iter(self._held)))
+            place = self._in_memory.pop(next(iter(self._in_memory)))
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:] = l.reshape(-1, 9)
-        self._held[index] = place
+        self._in_memory[index] = place
 
-    def _result(self, index: int) -> tuple[Floats, Floats]:
-        if self._ahead is None or self._ahead[0] != index:
-            self._ahead = index, self._reader.submit(self._read, index)
-        future = self._ahead[1]
-        self._ahead = None
+    def _read_now(self, index: int) -> tuple[Floats, Floats]:
+        if self._prefetched is None or self._prefetched[0] != index:
+            self._prefetched = index, self._reader.submit(self._read, index)
+        future = self._prefetched[1]
+        self._prefetched = None
         return future.result()
 
-    def _read_ahead(self, index: int) -> None:
-        if self._ahead is None or self._ahead[0] != index:
-            self._ahead = index, self._reader.submit(self._read, index)
+    def _prefetch(self, index: int) -> None:
+        if self._prefetched is None or self._prefetched[0] != index:
+            self._prefetched = index, self._reader.submit(self._read, index)
 
 
 def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
@@ -338,165 +327,9 @@ def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
     end = times[0] + period
     first = tuple(t for t in times if t < end - _SLACK * period)
     steps = np.diff([*first, end])
-    if len(first) < 2 or steps[-1] > _OPEN_LOOP * steps[:-1].max():
+    if len(first) < 2 or steps[-1] > _LONGEST_END * steps[:-1].max():
         raise InputError(
             f"the period {period:g} s asks for fields up to nearly {end:g} s, but of the {len(times)} times "
             f"from {times[0]:g} s on the last before that is {first[-1]:g} s."
         )
     return first
-
-
-_RANGE = re.compile(r"([^:]*):([^:]*)")
-
-
-def select_times(case: Path, selection: str | None = None, region: str = "") -> tuple[str, ...]:
-    """Names of the time directories of a case that ``selection`` means, as :func:`choose_times`.
-
-    Raises
-    ------
-    InputError
-        The case cannot be read; or as :func:`choose_times`.
-    """
-    select_time(case, region=region)
-    return choose_times(case, available_times(case), selection)
-
-
-def choose_times(source: Path, names: Sequence[str], selection: str | None = None) -> tuple[str, ...]:
-    """The names of times that OpenFOAM's option ``-time`` would select, in the order of time.
-
-    Parameters
-    ----------
-    source
-        What has these times, for the messages.
-    names
-        The names of all times, in their order; at least one.
-    selection
-        Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), with commas or blanks between them;
-        ``latestTime``; None for all.
-
-    Raises
-    ------
-    InputError
-        A value or a range selects nothing.
-    """
-    if selection is None:
-        return tuple(names)
-    chosen: set[str] = set()
-    for word in re.split(r"[,\s]+", selection.strip()):
-        if match := _RANGE.fullmatch(word):
-            low, high = _bound(source, word, match[1], -math.inf), _bound(source, word, match[2], math.inf)
-            found = {name for name in names if low <= float(name) <= high}
-            if not found:
-                raise InputError(f"{source}: no time in {word}; the times go from {names[0]} to {names[-1]}.")
-            chosen |= found
-        else:
-            chosen.add(names[pick_time(source, names, word)])
-    return tuple(name for name in names if name in chosen)
-
-
-def _bound(source: Path, word: str, text: str, default: float) -> float:
-    try:
-        value = float(text or default)
-    except ValueError:
-        value = math.nan
-    if math.isnan(value):
-        raise InputError(f"{source}: '{word}' is no range of times, such as 0.1:0.5, 0.1: or :0.5.")
-    # Names of times are rounded.
-    return value + math.copysign(1e-9 * abs(value), default) if text else value
-
-
-def read_series(
-    case: Path | str,
-    times: str | None = None,
-    period: float | None = None,
-    velocity: str = "U",
-    region: str = "",
-    gradient: str = "",
-    prepare: Callable[[str], None] | None = None,
-) -> SeriesFlow | MeshFlow:
-    """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
-
-    Parameters
-    ----------
-    case
-        The case's folder.
-    times
-        As :func:`choose_times`.
-    period
-        Duration after which the flow repeats itself, s.
-    velocity, region, gradient
-        As :func:`foamprb.flow.read.openfoam.read_case`.
-    prepare
-        Called with the name of a time directory before it is read.
-
-    Raises
-    ------
-    InputError
-        What is missing, broken or inconsistent: the case, a time, a field, the mesh or a patch; a mesh that
-        moves; times that do not fill the period.
-    """
-    case = Path(case)
-    names = select_times(case, times, region)
-    if prepare is not None:
-        prepare(names[0])
-    if len(names) == 1:
-        return read_case(case, names[0], velocity, region, gradient)
-    _refuse_moving(case, names, region)
-    mesh, *_ = read_fields(case, names[0], velocity, region)
-    reconstruct = Reconstruction(mesh)
-    reader = VelocityReader(case, names[0], velocity, region, gradient)
-
-    def read(name: str) -> tuple[Floats, Floats]:
-        if prepare is not None:
-            prepare(name)
-        return reconstruct(*reader(name))
-
-    return stream(case, mesh, names, read, period, [PRECISION_NOTE], reader.zones)
-
-
-def stream(
-    source: Path,
-    mesh: Mesh,
-    names: Sequence[str],
-    read: Callable[[str], tuple[Floats, Floats]],
-    period: float | None,
-    notes: Sequence[str],
-    zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
-) -> SeriesFlow:
-    """Make a flow of the times of a case or a file, in memory as few as needed, or all of a short period.
-
-    Parameters
-    ----------
-    source
-        What it comes from, for the messages.
-    mesh
-        The mesh, of all times.
-    names
-        The names of the times, rising.
-    read
-        Gives u and l at the nodes of the time with a given name, as :class:`SeriesFlow`'s.
-    period, notes, zones
-        As :class:`SeriesFlow`'s.
-
-    Raises
-    ------
-    InputError
-        The times do not rise, or do not fill the period.
-    """
-    note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
-    note += "." if period is None else f", and repeats itself every {period:g} s."
-    a_time = 96 * (mesh.n_points + mesh.n_cells)
-    keep = _MOST_KEPT // a_time if period is not None else 0
-    times = [float(name) for name in names]
-    try:
-        return SeriesFlow(mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
-
-
-def _refuse_moving(case: Path, names: Sequence[str], region: str) -> None:
-    for name in names[1:]:
-        for part in ("points", "faces"):
-            path = existing(case / name / region / "polyMesh" / part)
-            if path is not None:
-                raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")

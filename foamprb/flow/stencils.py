@@ -7,15 +7,10 @@ derivatives stand in the order xx, yy, zz, xy, xz, yz.
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
-
-Floats: TypeAlias = NDArray[np.float64]
-Ints: TypeAlias = NDArray[np.int32]
+from foamprb.flow.base import Floats, Ints
 
 __all__ = ["group", "mean_series", "sum_differences"]
 

@@ -1,4 +1,4 @@
-"""Files that exist whole or not at all."""
+"""Files that are written in one step: they exist whole or not at all."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """Give a temporary file to write; on leaving without an error it becomes ``path`` in one step.
+    """Give a temporary file to write; when the context ends without an error it becomes ``path`` in one step.
 
-    Whatever happens meanwhile, a full disk or a killed process included, ``path`` holds either what it held
-    before or all of what was written. The folder of ``path`` is made if it is absent. An error inside the
-    context removes the temporary file; a killed process leaves it behind, for :func:`remove_unfinished`.
+    Even after a full disk or a killed process ``path`` holds either what it held before or all of what was
+    written. The folder of ``path`` is made if it is absent. An error inside the context removes the temporary
+    file; a killed process leaves it behind, and :func:`remove_unfinished` removes it.
 
     Yields
     ------
@@ -59,12 +59,12 @@ def remove_unfinished(folder: Path) -> None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Keep other processes from writing to a folder, which is made if it is absent; a killed one lets go.
+    """Lock a folder, which is made if it is absent, for this process; the lock ends with the process.
 
     Raises
     ------
     InputError
-        If another process holds the folder.
+        If another process has locked the folder.
     OSError
         If there can be no such folder.
     """

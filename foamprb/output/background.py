@@ -1,4 +1,4 @@
-"""Work on files that goes on while the particles do."""
+"""Files that are written in a second thread while the particles advance."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from typing import Self
 class Writer:
     """A thread that does one piece of work at a time, in the order in which they come.
 
-    Never more than one piece is unfinished, so that what they need of memory is bounded: whoever has the next
-    waits for it. What went wrong in the thread is raised where the next word with the writer is had, once.
+    Never more than one piece is unfinished, which bounds the memory that they need: :meth:`begin` waits for
+    the piece before. An error in the thread is raised by the next call of any method, once.
 
-    It is a context: on leaving it without an error the last piece is finished, or its error raised; on
-    leaving it with an error, that is the one that counts.
+    It is a context: at its end the last piece is finished, or its error raised; if the context ends with an
+    error of its own, that one is raised.
     """
 
     def __init__(self) -> None:
@@ -23,17 +23,17 @@ class Writer:
         self._unfinished: Future[object] | None = None
 
     def begin(self, work: Callable[[], object]) -> None:
-        """Begin with a piece of work, once the one before is done."""
+        """Begin a piece of work, once the one before is done."""
         self.finish()
         self._unfinished = self._thread.submit(work)
 
     def check(self) -> None:
-        """Raise what has gone wrong so far, without waiting."""
+        """Raise the error of the last piece if there was one, without waiting."""
         if self._unfinished is not None and self._unfinished.done():
             self.finish()
 
     def finish(self) -> None:
-        """Wait until nothing is left to do."""
+        """Wait until the last piece is done."""
         if self._unfinished is not None:
             unfinished, self._unfinished = self._unfinished, None
             unfinished.result()
@@ -48,5 +48,5 @@ class Writer:
             if error is None:
                 self.finish()
         finally:
-            # Nobody may find the folder in the hands of a thread whose run is over.
+            # After the run no thread may write to its folder.
             self._thread.shutdown(wait=True)

@@ -1,8 +1,8 @@
-"""Checkpoints: a header and arrays in files that tell whether they are whole.
+"""Checkpoints: files of a header and arrays, with a checksum.
 
 A file is one line that names format and version, the header as one line of JSON, the arrays as numpy's
 ``.npy`` one after the other in the order of the header's ``arrays``, and the SHA-256 of all that. The last
-two files are kept, so that there is one to go on from when the other is damaged.
+two files stay on disk, so that a run can resume when one of them is damaged.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ from foamprb.output.atomic import atomic_write, remove_unfinished
 log = logging.getLogger("foamprb")
 
 VERSION = 2
-KEPT = 2
+MOST_FILES = 2
+"""Checkpoints that stay on disk."""
 
 _FORMAT = b"foamprb checkpoint "
 _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
@@ -45,7 +46,7 @@ class Checkpoint:
 
 
 class DamagedError(Exception):
-    """A file that is not, or no longer, a whole checkpoint; the message says how it shows."""
+    """A file that is not, or no longer, a whole checkpoint; the message says by what it is known."""
 
 
 class Checkpoints:
@@ -77,7 +78,7 @@ class Checkpoints:
         """
         path = self.folder / f"{checkpoint.time:.12g}.checkpoint"
         write_checkpoint(path, checkpoint)
-        for file in list(self.files().values())[:-KEPT]:
+        for file in list(self.files().values())[:-MOST_FILES]:
             file.unlink(missing_ok=True)
         return path
 
@@ -154,7 +155,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
 
 class _Digest:
-    """Writes to a file and sums up what went through."""
+    """Writes to a file, and computes the checksum of what was written."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self.file = file

@@ -1,14 +1,11 @@
-"""Clouds as ParaView reads them: one ``.vtp`` per time, or a ``.pvtp`` with pieces, and a ``.pvd``."""
+"""Clouds and tracks as VTK PolyData: a ``.vtp`` file, or a ``.pvtp`` of several pieces."""
 
 from __future__ import annotations
 
-import re
-import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
@@ -21,8 +18,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, remove_unfinished
+from foamprb.output.atomic import atomic_write
 
 _BLOCK_BYTES = 1 << 20
 """Compressed at a time: VTK's own 32 kB would cost a quarter more time."""
@@ -70,14 +66,14 @@ class PointCloud:
 
 
 class Parts(NamedTuple):
-    """A cloud bit by bit, so that a large one need never be in memory as a whole."""
+    """A cloud part by part, so that a large one need never be in memory as a whole."""
 
     time: float
     """Time of all, s."""
     number: int
     """At least one."""
     snapshots: Iterator[PointCloud]
-    """So many, with the same arrays, units and names."""
+    """As many as ``number`` says, with the same arrays, units and names."""
 
 
 def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, ...]:
@@ -114,7 +110,7 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
 
 
 class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """Gives VTK's writer, which asks for piece after piece, the parts of a cloud."""
+    """Gives the parts of a cloud to VTK's writer, which asks for piece after piece."""
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
@@ -161,7 +157,7 @@ def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
 
 
 def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path]) -> None:
-    """Write the file by which several ``.vtp`` are one cloud, in one step.
+    """Write the file that makes several ``.vtp`` one cloud, in one step.
 
     Parameters
     ----------
@@ -195,30 +191,22 @@ def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path
         temporary.write_text(text, encoding="utf-8")
 
 
-def files_of(path: Path) -> tuple[Path, ...]:
-    """A cloud's file and those of its pieces, if it has any, whether they are there or not."""
-    if path.suffix != ".pvtp" or not path.exists():
-        return (path,)
-    root = ElementTree.fromstring(path.read_bytes())
-    return (path, *(path.parent / piece.attrib["Source"] for piece in root.iter("Piece")))
-
-
 def _type_name(dtype: np.dtype[Any]) -> str:
     kind = {"f": "Float", "i": "Int", "u": "UInt", "b": "Int"}[dtype.kind]
     return f"{kind}{8 * dtype.itemsize}"
 
 
 def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
-    """Write PolyData in one step; VTK lets other threads go on meanwhile."""
+    """Write PolyData in one step; other threads run while VTK writes."""
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
     # Mantissas of doubles hardly compress: zlib would gain 8 % in size for 25 times the time.
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(_BLOCK_BYTES)
-    # Observed errors go unprinted; the error code tells what happened.
+    # VTK does not print errors that are observed; the error code tells what happened.
     sources = () if source is None else (source, source.GetExecutive())
-    for spoken in (writer, writer.GetExecutive(), *sources):
-        spoken.AddObserver("ErrorEvent", lambda *_: None)
+    for part in (writer, writer.GetExecutive(), *sources):
+        part.AddObserver("ErrorEvent", lambda *_: None)
     with atomic_write(path) as temporary:
         writer.SetFileName(str(temporary))
         written = writer.Write()
@@ -279,153 +267,6 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     _write(path, writer)
-
-
-class Entry(NamedTuple):
-    """One line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
-
-    time: float
-    file: str
-
-
-class Series:
-    """The files ``<name>_<index>.vtp`` of one cloud and the ``<name>.pvd`` that lists them with their times.
-
-    A cloud that several processes write is a ``.pvtp``, with pieces in a folder of the same name. At any
-    moment the ``.pvd`` on disk names whole files only.
-
-    Parameters
-    ----------
-    folder
-        Where the files are; made when the first is written.
-    name
-        The cloud's name.
-    after
-        Time, s, from which the run goes on: what was written for a later time is dropped, as it will be
-        written anew. By default everything: the run is a new one. Files named like those of the series that
-        its ``.pvd`` does not list, left behind by killed runs, are removed as well.
-
-    Raises
-    ------
-    InputError
-        If there is a ``.pvd`` that cannot be read.
-    OSError
-        If the list cannot be rewritten, or old files not removed.
-    """
-
-    def __init__(self, folder: Path, name: str, *, after: float = -np.inf) -> None:
-        self.folder = folder
-        self.name = name
-        self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
-        kept = tuple(entry for entry in self.entries if entry.time <= after)
-        if not kept:
-            self.pvd.unlink(missing_ok=True)
-            self.entries = ()
-        elif len(kept) < len(self.entries):
-            self._list(kept)
-        self._remove_unlisted()
-
-    @property
-    def pvd(self) -> Path:
-        """The file that ParaView opens."""
-        return self.folder / f"{self.name}.pvd"
-
-    def append(self, cloud: PointCloud | Parts) -> Path:
-        """Write a cloud and list it.
-
-        Returns
-        -------
-        The ``.vtp`` file.
-
-        Raises
-        ------
-        ValueError
-            If the time is not later than that of the cloud before.
-        OSError
-            If a file cannot be written.
-        """
-        file = self.next(cloud.time).with_suffix(".vtp")
-        write_snapshot(file, cloud)
-        self.add(cloud.time, file)
-        return file
-
-    def next(self, time: float) -> Path:
-        """The file for the cloud of a time, s, but for its suffix.
-
-        Raises
-        ------
-        ValueError
-            If the time is not later than that of the cloud before.
-        """
-        if self.entries and not time > self.entries[-1].time:
-            raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
-        last = re.search(r"_(\d+)\.p?vtp$", self.entries[-1].file) if self.entries else None
-        index = int(last[1]) + 1 if last else len(self.entries)
-        return self.folder / f"{self.name}_{index:06d}"
-
-    def add(self, time: float, file: Path) -> None:
-        """List a file that is whole, named by :meth:`next`.
-
-        Raises
-        ------
-        OSError
-            If the list cannot be written.
-        """
-        self._list((*self.entries, Entry(float(time), file.name)))
-
-    def _remove_unlisted(self) -> None:
-        """Remove the files that the list does not name, and those that killed processes were writing."""
-        listed = {entry.file for entry in self.entries}
-        own = re.compile(re.escape(self.name) + r"_\d{6,}(\.p?vtp)?")
-        for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
-            if not own.fullmatch(file.name) or file.name in listed:
-                continue
-            if file.suffix:
-                file.unlink(missing_ok=True)
-            elif f"{file.name}.pvtp" not in listed:
-                shutil.rmtree(file)
-        remove_unfinished(self.folder)
-
-    def _list(self, entries: tuple[Entry, ...]) -> None:
-        with atomic_write(self.pvd) as temporary:
-            temporary.write_text(_pvd_text(entries), encoding="utf-8")
-        self.entries = entries
-
-
-def read_pvd(path: Path) -> tuple[Entry, ...]:
-    """Read the times and files that a ``.pvd`` lists.
-
-    Returns
-    -------
-    The entries in order of time.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not such a list, or names a file outside its own folder.
-    """
-    try:
-        root = ElementTree.fromstring(path.read_bytes())
-        entries = [Entry(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
-    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
-        raise InputError(
-            f"{path}: not a readable list of VTK files ({error}). Remove it to begin anew."
-        ) from error
-    for entry in entries:
-        if Path(entry.file).name != entry.file or not entry.file.endswith((".vtp", ".pvtp")):
-            raise InputError(
-                f"{path}: names '{entry.file}', which is not a .vtp or .pvtp file in its own folder."
-            )
-    return tuple(sorted(entries))
-
-
-def _pvd_text(entries: Sequence[Entry]) -> str:
-    lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
-    return (
-        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
-        f"{''.join(lines)}"
-        "  </Collection>\n</VTKFile>\n"
-    )
 
 
 def _poly_data(snapshot: PointCloud) -> vtkPolyData:

@@ -24,16 +24,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.block import LANES
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.executor import AT_ONCE, longest_semi_axis
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.measures import injected
 from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.walk import sample_with
-from foamprb.output.vtk import PieceArray, Series, write_pieces, write_snapshot
+from foamprb.flow.meshflow import sample_with
+from foamprb.output.pvd import Series
+from foamprb.output.vtk import PieceArray, write_pieces, write_snapshot
 from foamprb.parallel.shared import Publisher, Windows
 from foamprb.parallel.team import View
 from foamprb.settings.libs import load_libs, loaded_libs

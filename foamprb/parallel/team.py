@@ -28,7 +28,8 @@ from foamprb.cloud.measures import (
 from foamprb.cloud.state import Particles
 from foamprb.errors import InputError
 from foamprb.flow.base import Sampled
-from foamprb.output.vtk import Parts, PointCloud, Series
+from foamprb.output.pvd import Series
+from foamprb.output.vtk import Parts, PointCloud
 
 log = logging.getLogger("foamprb")
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Snapshot
@@ -27,22 +27,23 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import draw
 from foamprb.cloud.injection.models import release
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES, automatic
 from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunctions, ObservedCloud
-from foamprb.compile.link import cache_directory
+from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import Source, read_flow, read_transient_flow
 from foamprb.flow.series import SeriesFlow
-from foamprb.flow.walk import MeshFlow
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoints
+from foamprb.output.pvd import Series
 from foamprb.output.tables import Column, write_table
-from foamprb.output.vtk import Series
 from foamprb.parallel.team import Serial, Team, View
 from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.precompile import Ahead
@@ -112,7 +113,7 @@ def prepare(
         An OpenFOAM case folder.
     time
         Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
-        :func:`foamprb.flow.series.select_times` has them; all by default.
+        :func:`foamprb.flow.read.case.select_times` has them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads
@@ -309,7 +310,7 @@ def describe(job: Job) -> list[str]:
              f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
-    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
+    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)
     if settings.solution.shape == "auto":
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",

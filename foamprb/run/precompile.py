@@ -20,8 +20,8 @@ from foamprb.cloud.tracker import Tracker
 
 if TYPE_CHECKING:
     # The process that compiles should soon begin to.
+    from foamprb.flow.meshflow import MeshFlow
     from foamprb.flow.series import SeriesFlow
-    from foamprb.flow.walk import MeshFlow
 
 __all__ = ["Ahead"]
 

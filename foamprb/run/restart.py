@@ -23,7 +23,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.output.checkpoint import Checkpoint
-from foamprb.output.vtk import Entry, files_of, read_pvd
+from foamprb.output.pvd import Entry, files_of, read_pvd
 from foamprb.settings.settings import Settings
 
 Sums: TypeAlias = list[list[float]]

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from foamprb.body.drag import DRAGS
-from foamprb.body.imex import INTEGRATORS
 from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.models import INJECTIONS
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,

@@ -18,7 +18,7 @@ from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.mesh.patch import WALLS, Patch
+from foamprb.flow.base import WALLS, Patch
 
 __all__ = [
     "INTERACTION_MODELS",

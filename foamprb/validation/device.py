@@ -10,14 +10,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from foamprb import Medium
 from foamprb.body.tensor import Tensor, Vector
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
-from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references import soft
 
 TABLE = Path(__file__).with_name("extension_axis.csv")
 """The flow on the axis that OpenFOAM computes for cases/extension, by its axis.py."""

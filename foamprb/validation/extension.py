@@ -6,8 +6,9 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Outcome, Panel, Row
+from foamprb.validation.references.extension import EXTENSIONS, steady_compressible_extension
+from foamprb.validation.references.extension import steady_extension as exact_steady_extension
 from foamprb.validation.runs import (
     NEARLY_INCOMPRESSIBLE,
     advance_to,
@@ -24,12 +25,12 @@ def steady_extension(quick: bool) -> Outcome:
     """Steady axes in uniaxial, planar and biaxial extension."""
     largest = {"uniaxial": 0.30, "planar": 0.24, "biaxial": 0.13}
     rows, panels = [], []
-    for name, rates in ref.EXTENSIONS.items():
+    for name, rates in EXTENSIONS.items():
         Ca = largest[name] * (np.array([0.2, 0.6]) if quick else np.linspace(0.1, 1.0, 10))
         cloud = unit_cloud(analytic.linear(np.diag(rates)), Ca, 2e-3, 4e-4, Models(integrator="paper"))
         advance_to(cloud, 10.0 if quick else 60.0)
         ours = np.linalg.norm(cloud.particles.F.reshape(-1, 3, 3), axis=2)
-        expected = np.array([ref.steady_extension(rates, c) for c in Ca])
+        expected = np.array([exact_steady_extension(rates, c) for c in Ca])
         shown = range(len(Ca)) if quick else (0, 4, 9)
         rows += [
             Row(
@@ -43,7 +44,7 @@ def steady_extension(quick: bool) -> Outcome:
             for k in range(3)
         ]
         fine = np.linspace(largest[name] / 30.0, largest[name], 12)
-        markers = np.array([ref.steady_extension(rates, c) for c in fine])
+        markers = np.array([exact_steady_extension(rates, c) for c in fine])
         curves = []
         for k in range(3):
             curves.append(
@@ -92,7 +93,7 @@ def volume(quick: bool) -> Outcome:
         rows.append(Row(f"shear, Ca = {c:g}, integrator stokes: J at γ̇t = 10", float(j), 1.0, CLOSED, 1e-10))
     for nu in (0.49, 0.499):
         cloud = unit_cloud(
-            analytic.linear(np.diag(ref.EXTENSIONS["planar"])),
+            analytic.linear(np.diag(EXTENSIONS["planar"])),
             [0.1],
             2e-3,
             4e-4,
@@ -100,7 +101,7 @@ def volume(quick: bool) -> Outcome:
             nu,
         )
         advance_to(cloud, 10.0)
-        axes = ref.steady_compressible_extension(ref.EXTENSIONS["planar"], 0.1, nu)
+        axes = steady_compressible_extension(EXTENSIONS["planar"], 0.1, nu)
         rows.append(
             Row(
                 f"planar extension, Ca = 0.1, ν = {nu}: J − 1",

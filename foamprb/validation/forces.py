@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from foamprb import Medium
 from foamprb.body.tensor import Tensor, Vector
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models

@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references_rigid as rigid
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
-from foamprb.validation.references import SHEAR
+from foamprb.validation.references import rigid
+from foamprb.validation.references.shear import SHEAR
 from foamprb.validation.runs import IDENTITY, principal_axes, unit_cloud
 
 PERIOD = "Jeffery (1922): 2π (r + 1/r)"

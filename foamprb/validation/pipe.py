@@ -10,8 +10,8 @@ import numpy as np
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
 from foamprb.flow.base import Flow
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references.inertia import RigidHistory, SoftHistory, rigid_sphere, soft_sphere
 from foamprb.validation.runs import (
     DIAMETER,
     MU_F,
@@ -50,7 +50,7 @@ def rigid(quick: bool) -> Outcome:
     )
     times = np.round(times / dt) * dt
     ours = history(pipe_cloud(1e-4, dt, _models()), times)
-    own = ref.rigid_sphere(DIAMETER / 2.0, RHO_S, air_around(), START, np.append(0.0, times))
+    own = rigid_sphere(DIAMETER / 2.0, RHO_S, air_around(), START, np.append(0.0, times))
     # The half axis that starts along x₁ turns about x₃; ours is the first column of F, all but rigid.
     axis = ours.F[:, 0, :2, 0]
     cosines = axis / np.linalg.norm(axis, axis=1, keepdims=True)
@@ -124,20 +124,18 @@ def rigid(quick: bool) -> Outcome:
 
 
 @cache
-def _soft(Ca: float, drag: str, end: float = _END) -> ref.SoftHistory:
+def _soft(Ca: float, drag: str, end: float = _END) -> SoftHistory:
     times = np.linspace(0.0, end, 81)
     mu = MU_F * WALL_RATE / Ca
     floor = -PIPE_RADIUS
-    return ref.soft_sphere(
+    return soft_sphere(
         DIAMETER / 2.0, RHO_S, mu, POISSONS_RATIO, air_around(), START, times, drag, floor, 1e-6
     )
 
 
 @cache
-def _rigid_fall() -> ref.RigidHistory:
-    return ref.rigid_sphere(
-        DIAMETER / 2.0, RHO_S, air_around(), START, np.linspace(0.0, _END, 81), -PIPE_RADIUS
-    )
+def _rigid_fall() -> RigidHistory:
+    return rigid_sphere(DIAMETER / 2.0, RHO_S, air_around(), START, np.linspace(0.0, _END, 81), -PIPE_RADIUS)
 
 
 def _spin(F: Floats, A: Floats) -> Floats:

@@ -7,11 +7,11 @@ import html
 import logging
 import time
 from collections.abc import Mapping, Sequence
+from importlib.metadata import version
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import foamprb
 from foamprb.errors import InputError, suggestion
 from foamprb.validation.case import Case, Curve, Figure, Outcome, Panel, Row
 
@@ -171,7 +171,7 @@ def write(sections: Sequence[Section], folder: Path, quick: bool, plt: Any) -> N
 def _introduction(sections: Sequence[Section], quick: bool) -> list[str]:
     form = "the quick form of `foamprb validate`" if quick else "`foamprb validate`"
     return [
-        f"Made by {form}, version {foamprb.__version__}. {summary(sections)}",
+        f"Made by {form}, version {version('foamprb')}. {summary(sections)}",
         "Each reference is independent of what it checks. A difference in per cent is relative to the "
         "reference. Rows without an allowed difference only inform.",
     ]

@@ -6,8 +6,8 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Outcome, Panel, Row, worst
+from foamprb.validation.references.inertia import Surroundings, rigid_sphere, uniform_gradient
 from foamprb.validation.runs import advance_to, history, measures, unit_cloud
 
 FLUID = "spin of the fluid, which a body without inertia shares"
@@ -24,8 +24,8 @@ def spin_up(quick: bool) -> Outcome:
     cloud = unit_cloud(analytic.rotation(1.0), 1e-4, tau, dt, Models(integrator="paper"), 0.49)
     ours = history(cloud, times)
     gradient = np.array([[0.0, 0.5, 0.0], [-0.5, 0.0, 0.0], [0.0, 0.0, 0.0]])
-    around = ref.Surroundings(1.0, 15.0 * tau, np.zeros(3), ref.uniform_gradient(gradient))
-    rigid = ref.rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, times))
+    around = Surroundings(1.0, 15.0 * tau, np.zeros(3), uniform_gradient(gradient))
+    rigid = rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, times))
     # M/(μ_f γ̇ d³) with d = 2.
     torque, expected = abs(ours.torque[:, 0]) / 8.0, abs(rigid.torque[1:]) / 8.0
     spin, expected_spin = abs(ours.spin[:, 0]), abs(rigid.spin[1:])
@@ -39,7 +39,7 @@ def spin_up(quick: bool) -> Outcome:
     models = Models(integrator="rosenbrock", tolerance=1e-6)
     cloud = unit_cloud(analytic.rotation(1.0), 1e-4, tau, tau / 4.0, models, 0.49)
     coarse = history(cloud, tau * np.arange(1.0, 9.0))
-    own = ref.rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, coarse.t))
+    own = rigid_sphere(1.0, 15.0 * tau, around, np.zeros(3), np.append(0.0, coarse.t))
     name = "|ω_s3|/γ̇, rosenbrock, worst of all times"
     rows.append(worst(name, abs(coarse.spin[:, 0]), abs(own.spin[1:]), RIGID, 1e-3))
     cloud = unit_cloud(analytic.rotation(1.0), 1e-4, tau, 0.05, Models(integrator="stokes"), 0.49)

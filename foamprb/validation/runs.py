@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from foamprb import Medium
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.tensor import Tensor, det, dot, from_frame, inverse, to_frame
 from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Escape, Stick
@@ -18,8 +18,9 @@ from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
-from foamprb.validation import references
 from foamprb.validation.case import Floats
+from foamprb.validation.references.inertia import Surroundings, poiseuille
+from foamprb.validation.references.shear import shear_shape
 
 NEARLY_INCOMPRESSIBLE = 0.499999
 """Poisson's ratio of the runs that are compared with incompressible solutions."""
@@ -92,9 +93,9 @@ def principal_axes(p: Particles) -> tuple[Floats, Floats]:
 
 
 def shear_shapes(cloud: Cloud) -> Floats:
-    """Rows of :class:`references.ShearShape`, (n, 5), of particles in a shear of rate 1."""
+    """Rows (n, 5) of what :func:`shear_shape` gives, of particles in a shear of rate 1."""
     F, l_s = gradients(cloud.particles)
-    return np.array([references.shear_shape(f, g) for f, g in zip(F, l_s, strict=True)])
+    return np.array([shear_shape(f, g) for f, g in zip(F, l_s, strict=True)])
 
 
 def without_inertia(coarse: Floats, fine: Floats) -> Floats:
@@ -148,10 +149,10 @@ def pipe_cloud(Ca: ArrayLike, dt: float, models: Models, flow: Flow | None = Non
     return Cloud(p, flow, Medium(MU_F, RHO_F, (0.0, -GRAVITY, 0.0)), walls, dt, models)
 
 
-def air_around() -> references.Surroundings:
+def air_around() -> Surroundings:
     """The air in the exact pipe, for the references."""
-    flow = references.poiseuille(PIPE_RADIUS, MEAN_VELOCITY)
-    return references.Surroundings(MU_F, RHO_F, np.array([0.0, -GRAVITY, 0.0]), flow)
+    flow = poiseuille(PIPE_RADIUS, MEAN_VELOCITY)
+    return Surroundings(MU_F, RHO_F, np.array([0.0, -GRAVITY, 0.0]), flow)
 
 
 class History(NamedTuple):

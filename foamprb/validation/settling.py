@@ -5,15 +5,21 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from foamprb import Medium
 from foamprb.body.drag import DRAGS
 from foamprb.body.ellipsoid import integrals
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import set_rest_shape, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references.ellipsoid import prolate_resistances, resistances
+from foamprb.validation.references.extension import (
+    EXTENSIONS,
+    settling_in_extension,
+    steady_compressible_extension,
+)
+from foamprb.validation.references.inertia import DRAGS as REFERENCE_DRAGS
 from foamprb.validation.runs import (
     DIAMETER,
     GRAVITY,
@@ -58,7 +64,7 @@ def _ellipsoids(quick: bool) -> tuple[list[Row], list[Figure]]:
     turns = Rotation.random(ORIENTATIONS * len(SHAPES), rng=np.random.default_rng(20)).as_matrix()
     ratios = np.repeat(np.array(SHAPES), ORIENTATIONS, axis=0)
     semi_axes = ratios / np.cbrt(ratios.prod(axis=1, keepdims=True))
-    expected = _expected(np.array([ref.resistances(a) for a in semi_axes]), turns)
+    expected = _expected(np.array([resistances(a) for a in semi_axes]), turns)
     for integrator in ("stokes",) if quick else ("stokes", "rosenbrock", "paper"):
         v = _terminal(integrator, ratios, turns)
         for i, shape in enumerate(SHAPES):
@@ -82,7 +88,7 @@ def _ellipsoids(quick: bool) -> tuple[list[Row], list[Figure]]:
         bodies = np.broadcast_to((r, 1.0, 1.0), (len(angles), 3))
         v = _terminal("stokes", bodies, turned.as_matrix().transpose(0, 2, 1))
         drift = np.degrees(np.arctan2(abs(v[:, 0]), -v[:, 1]))
-        along, across, _ = ref.prolate_resistances(np.array([r, 1.0, 1.0]))
+        along, across, _ = prolate_resistances(np.array([r, 1.0, 1.0]))
         a = np.radians(angles)
         exact = np.degrees(
             np.arctan2((1 / along - 1 / across) * np.sin(a) * np.cos(a),
@@ -123,11 +129,11 @@ def settling(quick: bool) -> Outcome:
 
     # A planar extension keeps the body triaxial; gravity acts along one of its axes after the other.
     Ca, rate, t = 0.2, 300.0, 2e-3
-    axes = ref.steady_compressible_extension(ref.EXTENSIONS["planar"], Ca, 0.499)
-    rates = rate * ref.EXTENSIONS["planar"]
+    axes = steady_compressible_extension(EXTENSIONS["planar"], Ca, 0.499)
+    rates = rate * EXTENSIONS["planar"]
     mass = 4.0 / 3.0 * np.pi * R**3 * RHO_S
-    for drag in ["oberbeck"] if quick else ref.DRAGS:
-        K = ref.DRAGS[drag](axes) * R
+    for drag in ["oberbeck"] if quick else REFERENCE_DRAGS:
+        K = REFERENCE_DRAGS[drag](axes) * R
         for k in range(3):
             g = np.zeros(3)
             g[k] = -GRAVITY
@@ -141,13 +147,13 @@ def settling(quick: bool) -> Outcome:
                 advance_to(cloud, t)
                 found.append(float(p.v[0, k]))
             a = (1.0 - float(np.prod(axes)) * RHO_F / RHO_S) * g
-            expected = ref.settling_in_extension(K, mass, MU_F, rates, a, t)[1][k]
+            expected = settling_in_extension(K, mass, MU_F, rates, a, t)[1][k]
             name = f"deformed body, gravity along axis {k + 1}, {drag}: velocity [m/s]"
             # Δt → 0 from two steps of a first-order scheme.
             rows.append(Row(name, 2.0 * found[1] - found[0], float(expected), QUADRATURE, 1e-4, True))
     for shape in ((5.0, 3.0, 1.0), (2.0, 1.0, 1.0)):
         ours = np.array(DRAGS["oberbeck"](shape, integrals(shape))) / np.pi
-        expected_k = ref.resistances(np.array(shape)) / np.pi
+        expected_k = resistances(np.array(shape)) / np.pi
         rows += [
             Row(
                 "resistance {:g}:{:g}:{:g}, K_{}/(π r_min)".format(*shape, k + 1),

@@ -6,8 +6,19 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references.extension import EXTENSIONS, steady_extension
+from foamprb.validation.references.roscoe import roscoe_at, roscoe_frequency
+from foamprb.validation.references.shear import (
+    SHEAR,
+    STEADY_SHAPES,
+    TRANSIENT_SHAPES,
+    inertialess_history,
+    inertialess_rate,
+    shear_shape,
+    steady_shear,
+    tank_treading_rate,
+)
 from foamprb.validation.runs import advance_to, gradients, shear_shapes, unit_cloud, without_inertia
 
 ROSCOE = "Roscoe (1967), steady algebraic solution"
@@ -36,13 +47,13 @@ def steady(quick: bool) -> Outcome:
     if not quick:
         # Twice as soft takes five times as long to become steady.
         Ca, ours = np.append(Ca, 2.0), np.vstack([ours, _limit(np.array([2.0]), 250.0)])
-    roscoe = np.array([ref.roscoe_at(c) for c in Ca])
+    roscoe = np.array([roscoe_at(c) for c in Ca])
     rows = [
         Row(f"Ca = {c:g}: {name}", float(ours[i, k]), float(roscoe[i, k]), ROSCOE, ALLOWED[k])
         for i, c in enumerate(Ca)
         for k, name in enumerate(NAMES)
     ]
-    for c, shape in ref.TABLE.items():
+    for c, shape in STEADY_SHAPES.items():
         i = int(np.flatnonzero(Ca == c)[0])
         rows += [
             Row(f"Ca = {c:g}: {name}", float(ours[i, k]), shape[k], TABLE, ALLOWED[k])
@@ -63,7 +74,7 @@ def steady(quick: bool) -> Outcome:
     jeffery = _limit(Ca_j, 20.0 if quick else 150.0, "jeffery")
     # Without d_s and in a steady state the symmetric part of s̃ balances the elastic stress only if d_f is
     # coaxial with the body: at 45°, in a planar extension of rate γ̇/2.
-    planar = np.array([ref.steady_extension(ref.EXTENSIONS["planar"], 0.5 * c) for c in Ca_j])
+    planar = np.array([steady_extension(EXTENSIONS["planar"], 0.5 * c) for c in Ca_j])
     D_j = (planar[:, 0] - planar[:, 1]) / (planar[:, 0] + planar[:, 1])
     for i, c in enumerate(Ca_j):
         rows.append(
@@ -80,12 +91,12 @@ def steady(quick: bool) -> Outcome:
     )
 
     fine = np.linspace(0.01, float(Ca.max()), 40)
-    curve = np.array([ref.roscoe_at(c) for c in fine])
+    curve = np.array([roscoe_at(c) for c in fine])
     dense = Ca if quick else np.linspace(0.02, 1.0, 33)
     line = ours if quick else _limit(dense, 60.0)
 
     def panel(k: int, label: str) -> Panel:
-        known = np.array([[c, shape[k]] for c, shape in ref.TABLE.items()])
+        known = np.array([[c, shape[k]] for c, shape in STEADY_SHAPES.items()])
         shown = fine <= 1.0
         return Panel(
             "Ca",
@@ -133,12 +144,12 @@ def formulas(quick: bool) -> Outcome:
     )
     rows = []
     for Ca, ratio in pairs:
-        solved, algebra = ref.steady_shear(Ca, ratio), ref.roscoe_at(Ca, ratio)
+        solved, algebra = steady_shear(Ca, ratio), roscoe_at(Ca, ratio)
         for k in (1, 2, 3):
             name = f"Ca = {Ca:g}, η_s/μ_f = {ratio:g}: {NAMES[k]}"
             rows.append(Row(name, solved[k], algebra[k], ROSCOE, (1e-4, 1e-4, 1e-4, 0.01)[k]))
-    for Ca, shape in ref.TABLE.items():
-        algebra = ref.roscoe_at(Ca)
+    for Ca, shape in STEADY_SHAPES.items():
+        algebra = roscoe_at(Ca)
         for k in (1, 2, 3):
             rows.append(
                 Row(f"Ca = {Ca:g}: {NAMES[k]}", algebra[k], shape[k], TABLE, (1e-5, 1e-5, 1e-5, 1e-3)[k])
@@ -163,8 +174,8 @@ def transient(quick: bool) -> Outcome:
             shapes.append(shear_shapes(cloud)[0])
         found.append(np.array(shapes))
     ours = without_inertia(*found)
-    F = ref.inertialess_history(ref.SHEAR, 0.4, times)
-    expected = np.array([ref.shear_shape(f, ref.inertialess_rate(f, ref.SHEAR, 0.4)) for f in F])
+    F = inertialess_history(SHEAR, 0.4, times)
+    expected = np.array([shear_shape(f, inertialess_rate(f, SHEAR, 0.4)) for f in F])
     # Two extrapolated levels leave errors of second order in the Stokes number, largest at the start.
     allowed = (2e-4, 2e-4, 2e-4, 0.02, 2e-4)
     rows = [
@@ -195,7 +206,7 @@ def transient(quick: bool) -> Outcome:
             )
             for k, name in enumerate(NAMES)
         ]
-    for t, shape in ref.TRANSIENT_TABLE.items():
+    for t, shape in TRANSIENT_SHAPES.items():
         i = int(np.argmin(abs(times - t)))
         for k, value in zip((1, 2, 3), shape, strict=True):
             rows.append(Row(f"γ̇t = {t:g}: {NAMES[k]}", float(ours[i, k]), value, TABLE, allowed[k]))
@@ -229,12 +240,12 @@ def tank_treading(quick: bool) -> Outcome:
         points.append(np.array(path))
         periods.append(_period(times, points[-1]))
     period = 2.0 * periods[1] - periods[0]
-    exact = ref.roscoe_at(Ca)
+    exact = roscoe_at(Ca)
     a = (exact.b_over_a * exact.c_over_a) ** (-1.0 / 3.0)
-    nu = ref.roscoe_frequency(a, a * exact.b_over_a, exact.angle)
+    nu = roscoe_frequency(a, a * exact.b_over_a, exact.angle)
     marks = np.arange(0.5, 16.0, 0.5)
-    solution = ref.inertialess_history(ref.SHEAR, Ca, np.append(marks, 60.0))
-    own_nu = ref.tank_treading_rate(ref.inertialess_rate(solution[-1], ref.SHEAR, Ca))
+    solution = inertialess_history(SHEAR, Ca, np.append(marks, 60.0))
+    own_nu = tank_treading_rate(inertialess_rate(solution[-1], SHEAR, Ca))
     rows = [
         Row("period γ̇T", period, 2.0 * np.pi / nu, "Roscoe's frequency ν of his steady ellipse", 1e-3),
         Row("period γ̇T", period, 2.0 * np.pi / own_nu, "eigenvalues of l_s, inertialess solve_ivp", 1e-3),

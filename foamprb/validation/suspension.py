@@ -8,10 +8,9 @@ from scipy.spatial.transform import Rotation
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
-from foamprb.validation import references_rigid as rigid
-from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references import rigid, soft
+from foamprb.validation.references.shear import SHEAR
 from foamprb.validation.runs import advance_to, measures, principal_axes, unit_cloud
 
 EINSTEIN = "Einstein (1906, 1911)"
@@ -51,9 +50,7 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
             ours.append(stresslets(cloud))
             # Of the body as it lies: an orbit's small error in time is not one of the stress.
             p = principal_axes(cloud.particles)[1][:, 2]
-            own.append(
-                [rigid.spheroid_stresslet(r, a, ref.SHEAR) for r, a in zip(shapes[:, 0], p, strict=True)]
-            )
+            own.append([rigid.spheroid_stresslet(r, a, SHEAR) for r, a in zip(shapes[:, 0], p, strict=True)])
         runs.append(np.array(ours))
     # Δt → 0: of a stiff body the stress is of first order in the step.
     found, expected = 2.0 * runs[1] - runs[0], np.array(own)
@@ -72,7 +69,7 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
         )
         if i < 3:
             exact = rigid.jeffery_axis(np.array([1.0, 0.0, 0.0]), shapes[i, 0], times)
-            closed = [rigid.spheroid_stresslet(shapes[i, 0], a, ref.SHEAR)[0, 1] for a in exact]
+            closed = [rigid.spheroid_stresslet(shapes[i, 0], a, SHEAR)[0, 1] for a in exact]
             curves.append(Curve(times, found[:, i, 0, 1], f"foamprb, r = {shapes[i, 0]:g}", colour=i))
             curves.append(Curve(times[::4], np.array(closed)[::4], "closed form", "reference", i))
     figure = Figure(
@@ -102,7 +99,7 @@ def _average(quick: bool) -> list[Row]:
         psi = 2.0 * np.pi * np.arange(n) / n
         axes = np.stack([r * np.sin(psi), np.cos(psi), np.zeros(n)], axis=1)
         axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-        own = np.mean([rigid.spheroid_stresslet(r, a, ref.SHEAR)[0, 1] for a in axes])
+        own = np.mean([rigid.spheroid_stresslet(r, a, SHEAR)[0, 1] for a in axes])
         name = f"rigid spheroid, r = {r:g}, in the plane of shear: [η] over a period"
         rows.append(Row(name, total, float(own), SPHEROID, 1e-3, True))
     return rows
@@ -157,9 +154,7 @@ def stress(quick: bool) -> Outcome:
 
     times = np.linspace(0.5, 6.0 if quick else 20.0, 12 if quick else 40)
     body = soft.Body(0.2, soft.stretched((2.0, 1.0, 1.0)))
-    own = np.array(
-        [soft.particle_stress(F, ref.SHEAR, body) for F in soft.deformation(ref.SHEAR, body, times)]
-    )
+    own = np.array([soft.particle_stress(F, SHEAR, body) for F in soft.deformation(SHEAR, body, times)])
     cloud = unit_cloud(
         analytic.shear(1.0),
         0.2,

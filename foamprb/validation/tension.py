@@ -6,9 +6,9 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
-from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references import soft
+from foamprb.validation.references.shear import SHEAR, shear_shape
 from foamprb.validation.runs import advance_to, gradients, shear_shapes, unit_cloud
 
 ODE = "inertialess equations by solve_ivp, mean surface stress by quadrature"
@@ -65,8 +65,8 @@ def _recovery(quick: bool) -> tuple[list[Row], list[Curve]]:
 def _shear_shape(number: float, ratio: float) -> Floats:
     """D, b/a, c/a and θ of the steady reference at μ_f γ̇ R/γ = ``number``."""
     body = soft.Body(WEAK, viscosity_ratio=ratio, tension=1.0 / number)
-    F = soft.steady(ref.SHEAR, body)
-    return np.array(ref.shear_shape(F, np.zeros((3, 3))))[:4]
+    F = soft.steady(SHEAR, body)
+    return np.array(shear_shape(F, np.zeros((3, 3))))[:4]
 
 
 def drops(quick: bool) -> Outcome:

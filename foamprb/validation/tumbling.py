@@ -11,9 +11,9 @@ from scipy.optimize import minimize_scalar
 from foamprb.cloud.executor import available_threads
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
-from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from foamprb.validation.references import soft
+from foamprb.validation.references.shear import SHEAR
 from foamprb.validation.runs import unit_cloud
 
 ODE = "inertialess equations by solve_ivp, dense force balance"
@@ -45,7 +45,7 @@ def small_deformation(ratio: Floats) -> Floats:
 def _paths(
     ratio: Floats, Ca: Floats, end: float = END, tolerance: float = 2e-6
 ) -> tuple[Floats, Floats, Floats]:
-    """Times (m,), and the curves (m, n) of :func:`references_soft.in_plane`; released along the flow."""
+    """Times (m,), and the curves (m, n) of :func:`references.soft.in_plane`; released along the flow."""
     shapes = np.column_stack([ratio, np.ones_like(ratio), np.ones_like(ratio)])
     models = Models(integrator="stokes", tolerance=tolerance)
     cloud = unit_cloud(analytic.shear(1.0), Ca, 1e-6, _STEP, models, ratios=shapes)
@@ -59,7 +59,7 @@ def _paths(
 
 
 def _passages(times: Floats, along: Floats, across: Floats) -> soft.Passages:
-    """As :func:`references_soft.passages`, of the curve of one body, (m,) each."""
+    """As :func:`references.soft.passages`, of the curve of one body, (m,) each."""
     late = times > 0.5 * END
     t, x, y = times[late], CubicSpline(times[late], along[late]), CubicSpline(times[late], across[late])
     k = int(np.argmin(np.hypot(along[late], across[late])[1:-1])) + 1
@@ -122,7 +122,7 @@ def _histories(quick: bool) -> tuple[list[Row], list[Curve], list[Curve]]:
     theta, size = _angles(along, across), np.hypot(along, across)
     marks = np.arange(0, len(times), 10)
     for i, (c, motion) in enumerate(zip(Ca, ("tumbling", "trembling", "swinging"), strict=True)):
-        F = soft.deformation(ref.SHEAR, soft.Body(c, soft.stretched((2.0, 1.0, 1.0))), times[marks][1:])
+        F = soft.deformation(SHEAR, soft.Body(c, soft.stretched((2.0, 1.0, 1.0))), times[marks][1:])
         x, y = soft.in_plane(np.concatenate([soft.stretched((2.0, 1.0, 1.0))[None], F]))
         name = f"r = 2, Ca = {c:g}, {motion}: "
         rows += [

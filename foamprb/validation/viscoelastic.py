@@ -6,8 +6,9 @@ import numpy as np
 
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
-from foamprb.validation import references as ref
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, worst
+from foamprb.validation.references.roscoe import roscoe_at
+from foamprb.validation.references.shear import SHEAR, inertialess_history, inertialess_rate, shear_shape
 from foamprb.validation.runs import advance_to, shear_shapes, unit_cloud
 
 ROSCOE = "Roscoe (1967), viscoelastic sphere, steady algebraic solution"
@@ -33,7 +34,7 @@ def steady(quick: bool) -> Outcome:
     shapes: list[Curve] = []
     Ca = CAPILLARY[[2, 4]] if quick else CAPILLARY
     for colour, ratio in enumerate((0.5, 5.0) if quick else RATIOS):
-        roscoe = np.array([ref.roscoe_at(c, ratio) for c in Ca])
+        roscoe = np.array([roscoe_at(c, ratio) for c in Ca])
         # The shape swings about the steady one, damped as exp(−t/τ), τ = Ca (3/2 + η_s/μ_f).
         end = 20.0 * (1.5 + ratio) * float(Ca.max())
         for integrator in ("stokes", "rosenbrock"):
@@ -59,8 +60,8 @@ def steady(quick: bool) -> Outcome:
     Ca_t, ratio_t = 0.4, 5.0
     expected = np.array(
         [
-            ref.shear_shape(F, ref.inertialess_rate(F, ref.SHEAR, Ca_t, ratio_t))
-            for F in ref.inertialess_history(ref.SHEAR, Ca_t, times, ratio_t)
+            shear_shape(F, inertialess_rate(F, SHEAR, Ca_t, ratio_t))
+            for F in inertialess_history(SHEAR, Ca_t, times, ratio_t)
         ]
     )
     history: list[Curve] = [Curve(times, expected[:, 0], "solve_ivp", "reference")]

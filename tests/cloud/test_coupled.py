@@ -10,7 +10,8 @@ from foamprb import Cloud, Medium, Models, Rebound, Status, analytic, spheres
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.compile.link import link
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.walk import MeshFlow, gap
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.walls import gap
 
 AIR = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0))
 F0 = np.array([[1.1, 0.2, 0.1], [0.0, 0.9, 0.3], [0.05, 0.0, 1.0]])

@@ -23,9 +23,10 @@ from mesh_shapes import (
 )
 from scipy.spatial import KDTree
 
-from foamprb.flow.mesh.mesh import Patch, build_mesh
+from foamprb.flow.base import Patch
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction, from_points
-from foamprb.flow.walk import MeshFlow
 
 vectors = st.lists(st.floats(-3.0, 3.0), min_size=12, max_size=12)
 

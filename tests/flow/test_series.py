@@ -17,7 +17,8 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.series import SeriesFlow, select_times
+from foamprb.flow.read.case import select_times
+from foamprb.flow.series import SeriesFlow
 
 WATER = Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
 INTEGRATORS = ("paper", "rosenbrock", "stokes")

@@ -12,7 +12,9 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.locator import build_tree, cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.walk import FAILED, REACHED, MeshFlow, gap, near_walls, normal, recover, walk
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.walk import FAILED, REACHED, normal, recover, walk
+from foamprb.flow.walls import gap, near_walls
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 ROOM = 1.0 - 1e-9
@@ -288,11 +290,11 @@ def test_bodies_many_cells_wide_are_refused_before_memory_is_full(monkeypatch):
     pairs = len(flow.arrays(0.2).near)
     assert pairs > 8**3
     flow.arrays(0.1)
-    monkeypatch.setattr("foamprb.flow.walk._MOST_NEAR", pairs - 1)
+    monkeypatch.setattr("foamprb.flow.walls._MOST_ENTRIES", pairs - 1)
     with pytest.raises(InputError, match=r"within 0.2 m .* but cells are 0\.12\d* m wide") as refused:
         flow.arrays(0.2)
     assert f"more than {pairs - 1} entries" in str(refused.value)
-    monkeypatch.setattr("foamprb.flow.walk._MOST_NEAR", pairs)
+    monkeypatch.setattr("foamprb.flow.walls._MOST_ENTRIES", pairs)
     assert len(flow.arrays(0.2).near) == pairs
 
 

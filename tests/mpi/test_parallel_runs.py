@@ -21,7 +21,7 @@ from transient_case import write_transient_case
 
 from foamprb.cli import main
 from foamprb.output.pieces import XMLPPolyDataReader
-from foamprb.output.vtk import read_pvd
+from foamprb.output.pvd import read_pvd
 
 pytestmark = [
     pytest.mark.mpi,

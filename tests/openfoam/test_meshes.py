@@ -14,7 +14,7 @@ from paths import ROOT
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
-from foamprb.flow.read.openfoam import describe
+from foamprb.flow.read.describe import describe
 from foamprb.flow.read.source import Source, read_flow
 
 pytestmark = pytest.mark.openfoam

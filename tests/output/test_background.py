@@ -14,9 +14,9 @@ from pipe_case import results, short_case
 from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
-from foamprb.output import vtk
+from foamprb.output import pvd
 from foamprb.output.background import Writer
-from foamprb.output.vtk import Series
+from foamprb.output.pvd import Series
 
 PATIENCE = 60.0
 """Seconds after which what is waited for will not come."""
@@ -132,7 +132,7 @@ def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypa
 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     job = prepare(case, threads=1)
-    write, begun = vtk.write_snapshot, []
+    write, begun = pvd.write_snapshot, []
 
     def full(path, cloud):
         begun.append(path.name)
@@ -140,7 +140,7 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
         return write(path, cloud)
 
-    monkeypatch.setattr(vtk, "write_snapshot", full)
+    monkeypatch.setattr(pvd, "write_snapshot", full)
     # As slow as more particles would be.
     monkeypatch.setattr("foamprb.run.job._next_chunk", lambda *_: time.sleep(0.01) or 1)
     with pytest.raises(RunStopped, match=r"No space .*softCloud_000001\.vtp'\. To go on .*-resume"):
@@ -148,5 +148,5 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp"]
     assert 100 < job.cloud.step < 150
     folder = case / "postProcessing/softCloud"
-    assert [entry.time for entry in vtk.read_pvd(folder / "softCloud.pvd")] == [0.001]
+    assert [entry.time for entry in pvd.read_pvd(folder / "softCloud.pvd")] == [0.001]
     assert [f.name for f in (folder / "checkpoint").iterdir()] == ["0.001.checkpoint"]

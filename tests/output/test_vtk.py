@@ -13,17 +13,8 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.output.pieces import XMLPPolyDataReader
-from foamprb.output.vtk import (
-    Entry,
-    Parts,
-    PointCloud,
-    Series,
-    files_of,
-    layout,
-    read_pvd,
-    write_pieces,
-    write_snapshot,
-)
+from foamprb.output.pvd import Entry, Series, files_of, read_pvd
+from foamprb.output.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
 
 
 @pytest.mark.parametrize("n", [0, 1, 4])

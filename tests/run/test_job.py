@@ -18,7 +18,7 @@ from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
-from foamprb.output.vtk import read_pvd
+from foamprb.output.pvd import read_pvd
 from foamprb.run.job import prepare
 
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"

@@ -24,7 +24,7 @@ from foamprb.cli import main
 from foamprb.cloud.cloud import Snapshot
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
-from foamprb.output.vtk import Series
+from foamprb.output.pvd import Series
 from foamprb.parallel.team import Serial, View
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"

@@ -13,10 +13,11 @@ import pyvista
 from transient_case import SCALE, write_transient_case
 
 from foamprb.cli import main
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.series import SeriesFlow, read_series
-from foamprb.flow.walk import MeshFlow
-from foamprb.output.vtk import read_pvd
+from foamprb.flow.read.series import read_series
+from foamprb.flow.series import SeriesFlow
+from foamprb.output.pvd import read_pvd
 from foamprb.run.job import prepare
 
 

@@ -7,7 +7,7 @@ from cloud_dictionary import CLOUD, Reader
 
 from foamprb.cloud.patches import Cyclic, Escape, Mirror, Rebound, Stick
 from foamprb.errors import InputError
-from foamprb.flow.mesh.patch import Patch
+from foamprb.flow.base import Patch
 from foamprb.settings import patches as module
 from foamprb.settings.patches import PatchRule
 

@@ -23,7 +23,7 @@ from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
-from foamprb.flow.mesh.patch import Patch
+from foamprb.flow.base import Patch
 from foamprb.settings import entries, patches
 from foamprb.settings.patches import INTERACTION_MODELS, KindRule, PatchRule, match_patches
 from foamprb.settings.reading import read_settings

@@ -8,10 +8,32 @@ import pytest
 
 from foamprb.cli import main
 from foamprb.validation import device, report, tumbling
-from foamprb.validation import references as ref
-from foamprb.validation import references_rigid as rigid
-from foamprb.validation import references_soft as soft
 from foamprb.validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
+from foamprb.validation.references import rigid, soft
+from foamprb.validation.references.ellipsoid import (
+    integrals,
+    prolate_resistances,
+    resistances,
+    traction_stress,
+)
+from foamprb.validation.references.extension import (
+    EXTENSIONS,
+    settling_in_extension,
+    steady_compressible_extension,
+    steady_extension,
+)
+from foamprb.validation.references.inertia import Surroundings, poiseuille, rigid_sphere
+from foamprb.validation.references.roscoe import roscoe, roscoe_at
+from foamprb.validation.references.shear import (
+    SHEAR,
+    STEADY_SHAPES,
+    TRANSIENT_SHAPES,
+    inertialess_history,
+    inertialess_rate,
+    shear_shape,
+    steady_shear,
+    tank_treading_rate,
+)
 from foamprb.validation.registry import CASES
 
 
@@ -39,7 +61,7 @@ class TestReferences:
                 )
             )
 
-        g = ref.integrals(np.array(axes))
+        g = integrals(np.array(axes))
         assert g.first[0] == pytest.approx(integral(lambda x: 1 / (a + x)), rel=1e-9)
         assert g.ring[0] == pytest.approx(integral(lambda x: 1 / ((b + x) * (c + x))), rel=1e-9)
         assert g.star[1] == pytest.approx(integral(lambda x: x / ((c + x) * (a + x))), rel=1e-9)
@@ -48,15 +70,15 @@ class TestReferences:
         assert g.first.sum() == pytest.approx(2 / np.prod(axes), rel=1e-12)
 
     def test_spheres_have_the_known_traction_and_resistance(self):
-        np.testing.assert_allclose(ref.resistances(np.ones(3)), 6 * np.pi, rtol=1e-12)
+        np.testing.assert_allclose(resistances(np.ones(3)), 6 * np.pi, rtol=1e-12)
         np.testing.assert_allclose(
-            ref.prolate_resistances(np.array([1.0, 3.0, 1.0])),
-            ref.resistances(np.array([1.0, 3.0, 1.0])),
+            prolate_resistances(np.array([1.0, 3.0, 1.0])),
+            resistances(np.array([1.0, 3.0, 1.0])),
             rtol=1e-9,
         )
         l_f = np.array([[1.0, 2.0, 0.0], [0.5, -3.0, 0.3], [0.0, 1.0, 2.0]])
         d, w = 0.5 * (l_f + l_f.T), 0.5 * (l_f - l_f.T)
-        found = ref.traction_stress(np.eye(3), l_f, np.zeros((3, 3)))
+        found = traction_stress(np.eye(3), l_f, np.zeros((3, 3)))
         np.testing.assert_allclose(found, 5 * d + 3 * w, atol=1e-12)
 
     def test_inertialess_rate_balances_traction_and_stress(self, random):
@@ -65,63 +87,63 @@ class TestReferences:
         l_f = random.normal(size=(3, 3))
         l_f -= np.trace(l_f) / 3 * np.eye(3)
         Ca, ratio = 0.3, 0.7
-        l_s = ref.inertialess_rate(F, l_f, Ca, ratio)
+        l_s = inertialess_rate(F, l_f, Ca, ratio)
         assert np.trace(l_s) == pytest.approx(0.0, abs=1e-12)
-        rest = ref.traction_stress(F, l_f, l_s) - F @ F.T / Ca - ratio * (l_s + l_s.T)
+        rest = traction_stress(F, l_f, l_s) - F @ F.T / Ca - ratio * (l_s + l_s.T)
         # What is left is a pressure.
         np.testing.assert_allclose(rest, rest[0, 0] * np.eye(3), atol=1e-10)
 
-    @pytest.mark.parametrize("Ca", ref.TABLE)
+    @pytest.mark.parametrize("Ca", STEADY_SHAPES)
     def test_roscoes_algebra_agrees_with_the_table(self, Ca):
-        np.testing.assert_allclose(ref.roscoe_at(Ca)[:3], ref.TABLE[Ca][:3], atol=6e-6)
-        np.testing.assert_allclose(ref.roscoe_at(Ca)[3:], ref.TABLE[Ca][3:], atol=6e-4)
+        np.testing.assert_allclose(roscoe_at(Ca)[:3], STEADY_SHAPES[Ca][:3], atol=6e-6)
+        np.testing.assert_allclose(roscoe_at(Ca)[3:], STEADY_SHAPES[Ca][3:], atol=6e-4)
 
     @pytest.mark.parametrize(
         ("Ca", "ratio"), [(0.1, 0.0), (0.4, 0.0), (1.0, 0.0), (0.4, 0.5), (0.4, 1.0), (1.0, 3.0)]
     )
     def test_roscoes_algebra_is_the_steady_state_of_the_equations(self, Ca, ratio):
         """Elastic and viscoelastic."""
-        np.testing.assert_allclose(ref.steady_shear(Ca, ratio), ref.roscoe_at(Ca, ratio), rtol=1e-7)
+        np.testing.assert_allclose(steady_shear(Ca, ratio), roscoe_at(Ca, ratio), rtol=1e-7)
 
     def test_a_viscous_solid_stretches_only_so_far(self):
-        assert ref.roscoe(3.0, 3.0).Ca == np.inf
+        assert roscoe(3.0, 3.0).Ca == np.inf
 
     def test_transient_agrees_with_the_table(self):
-        times = np.array(list(ref.TRANSIENT_TABLE))
+        times = np.array(list(TRANSIENT_SHAPES))
         for F, expected in zip(
-            ref.inertialess_history(ref.SHEAR, 0.4, times), ref.TRANSIENT_TABLE.values(), strict=True
+            inertialess_history(SHEAR, 0.4, times), TRANSIENT_SHAPES.values(), strict=True
         ):
-            shape = ref.shear_shape(F, np.zeros((3, 3)))
+            shape = shear_shape(F, np.zeros((3, 3)))
             # Printed to four digits, and at 3/γ̇ in a steep overshoot.
             np.testing.assert_allclose(shape[1:3], expected[:2], atol=1e-4)
             assert shape[3] == pytest.approx(expected[2], abs=5e-3)
 
     def test_tank_treading_rate_is_roscoes_frequency(self):
-        F = ref.inertialess_history(ref.SHEAR, 0.1, np.array([30.0]))[0]
-        nu = ref.tank_treading_rate(ref.inertialess_rate(F, ref.SHEAR, 0.1))
+        F = inertialess_history(SHEAR, 0.1, np.array([30.0]))[0]
+        nu = tank_treading_rate(inertialess_rate(F, SHEAR, 0.1))
         assert nu == pytest.approx(0.49692, abs=1e-5)
 
     def test_small_extension_is_linear(self):
         """r − 1 = 5/2 Ca d̂."""
-        for rates in ref.EXTENSIONS.values():
-            axes = ref.steady_extension(rates, 1e-4)
+        for rates in EXTENSIONS.values():
+            axes = steady_extension(rates, 1e-4)
             np.testing.assert_allclose((axes - 1) / 1e-4, 2.5 * rates, atol=5e-3)
             np.testing.assert_allclose(
-                ref.steady_compressible_extension(rates, 0.1, 0.4999999),
-                ref.steady_extension(rates, 0.1),
+                steady_compressible_extension(rates, 0.1, 0.4999999),
+                steady_extension(rates, 0.1),
                 atol=1e-6,
             )
 
     def test_too_strong_an_extension_has_no_steady_shape(self):
         with pytest.raises(ValueError, match="no steady shape"):
-            ref.steady_extension(ref.EXTENSIONS["uniaxial"], 0.5)
+            steady_extension(EXTENSIONS["uniaxial"], 0.5)
 
     def test_rigid_sphere_lands_where_the_closed_form_says(self):
         radius = 2.1e-3
-        air = ref.Surroundings(
-            1.491e-5 * 1.208, 1.208, np.array([0.0, -9.81, 0.0]), ref.poiseuille(radius, 923.8 * radius / 4)
+        air = Surroundings(
+            1.491e-5 * 1.208, 1.208, np.array([0.0, -9.81, 0.0]), poiseuille(radius, 923.8 * radius / 4)
         )
-        fall = ref.rigid_sphere(
+        fall = rigid_sphere(
             2.5e-6, 2560.0, air, np.array([0.0, -1.65e-3, 0.0]), np.array([0.0, 0.3]), -radius
         )
         assert fall.t[-1] == pytest.approx(0.2327, abs=5e-5)
@@ -130,8 +152,8 @@ class TestReferences:
     def test_settling_in_extension_solves_its_equation(self):
         K, rates, a = np.array([5.0, 4.0, 6.0]), np.array([1.0, -1.0, 0.0]), np.array([0.3, 0.2, -0.1])
         t, h = 0.7, 1e-4
-        x = [ref.settling_in_extension(K, 2.0, 3.0, rates, a, t + s)[0] for s in (-h, 0.0, h)]
-        v = ref.settling_in_extension(K, 2.0, 3.0, rates, a, t)[1]
+        x = [settling_in_extension(K, 2.0, 3.0, rates, a, t + s)[0] for s in (-h, 0.0, h)]
+        v = settling_in_extension(K, 2.0, 3.0, rates, a, t)[1]
         np.testing.assert_allclose((x[2] - x[0]) / (2 * h), v, rtol=1e-6)
         k = 3.0 * K / 2.0
         np.testing.assert_allclose((x[2] - 2 * x[1] + x[0]) / h**2, k * (rates * x[1] - v) + a, atol=1e-6)
@@ -152,7 +174,7 @@ class TestRigidReferences:
         g, squares = Q.T @ l @ Q, a**2
         slip = (squares[None] - squares[:, None]) / (squares[None] + squares[:, None])
         turn = Q @ (0.5 * (g - g.T) + slip * 0.5 * (g + g.T)) @ Q.T
-        s = ref.traction_stress(Q @ np.diag(a), l, turn)
+        s = traction_stress(Q @ np.diag(a), l, turn)
         np.testing.assert_allclose(s, s.T, atol=1e-9)
         expected = rigid.spheroid_stresslet(ratio, Q[:, 0], l)
         np.testing.assert_allclose(s - np.trace(s) / 3 * np.eye(3), expected, atol=1e-9)
@@ -166,7 +188,7 @@ class TestRigidReferences:
         Q = np.linalg.qr(np.column_stack([start, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))[0].T
         Q[0] *= np.sign(Q[0] @ start)
         times = np.linspace(0.0, 25.0, 6)
-        axes = rigid.rigid_axes(np.array([ratio, 1.0, 1.0]), Q, ref.SHEAR, times)
+        axes = rigid.rigid_axes(np.array([ratio, 1.0, 1.0]), Q, SHEAR, times)
         np.testing.assert_allclose(axes[:, 0], rigid.jeffery_axis(start, ratio, times), atol=1e-10)
         np.testing.assert_allclose(axes @ axes.transpose(0, 2, 1), np.tile(np.eye(3), (6, 1, 1)), atol=1e-10)
         C = rigid.orbit_constant(axes[:, 0], ratio)
@@ -185,7 +207,7 @@ class TestSoftReferences:
         F /= np.cbrt(np.linalg.det(F))
         l = random_gradient(random)
         found = soft.velocity_gradient(F, l, soft.Body(0.3, viscosity_ratio=0.7))
-        np.testing.assert_allclose(found, ref.inertialess_rate(F, l, 0.3, 0.7), atol=1e-12)
+        np.testing.assert_allclose(found, inertialess_rate(F, l, 0.3, 0.7), atol=1e-12)
 
     def test_body_at_rest_stays_at_rest(self):
         body = soft.Body(0.3, soft.stretched((3.0, 2.0, 1.0)))
@@ -213,10 +235,10 @@ class TestSoftReferences:
     def test_stress_of_the_solid_is_the_far_field_of_the_fluid(self, ratio):
         """And Roscoe's ellipsoid carries it."""
         body = soft.Body(0.4, viscosity_ratio=ratio)
-        F = soft.steady(ref.SHEAR, body)
-        S = soft.particle_stress(F, ref.SHEAR, body)
-        l_s = soft.velocity_gradient(F, ref.SHEAR, body)
-        far = ref.traction_stress(F, ref.SHEAR, l_s) - (l_s + l_s.T)
+        F = soft.steady(SHEAR, body)
+        S = soft.particle_stress(F, SHEAR, body)
+        l_s = soft.velocity_gradient(F, SHEAR, body)
+        far = traction_stress(F, SHEAR, l_s) - (l_s + l_s.T)
         np.testing.assert_allclose(S, far - np.trace(far) / 3 * np.eye(3), atol=1e-9)
         np.testing.assert_allclose(soft.rheology(S), soft.roscoe_rheology(0.4, ratio), atol=1e-6)
 

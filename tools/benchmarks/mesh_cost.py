@@ -16,8 +16,8 @@ import numpy as np
 import pyvista
 
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.walk import MeshFlow
 
 
 def block(n: int) -> pyvista.UnstructuredGrid:

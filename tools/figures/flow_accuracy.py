@@ -19,9 +19,10 @@ import pyvista
 from numpy.typing import NDArray
 
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.read.openfoam import read_fields, select_time
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import select_time
+from foamprb.flow.read.openfoam import read_fields
 from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.walk import MeshFlow
 
 Floats = NDArray[np.float64]
 Sampler = Callable[[Floats], tuple[Floats, Floats]]

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.mesh.patch import Patch
-
-Floats: TypeAlias = NDArray[np.float64]
-_Index: TypeAlias = NDArray[np.intp]
+from foamprb.flow.base import Floats, Patch
+from foamprb.flow.mesh.lists import Index
 
 __all__ = ["Coupling", "couple"]
 
@@ -28,9 +25,9 @@ class Coupling(NamedTuple):
 
     patch: int
     other: int
-    faces: _Index
+    faces: Index
     """(n,) boundary faces of the first patch."""
-    partners: _Index
+    partners: Index
     """(n,) the boundary faces of the second that continue them."""
     turn: Floats
     """(3, 3), a rotation."""
@@ -45,7 +42,7 @@ class Coupling(NamedTuple):
 
 
 def couple(
-    patches: Sequence[Patch], patch_start: _Index, centres: Floats, areas: Floats, source: str
+    patches: Sequence[Patch], patch_start: Index, centres: Floats, areas: Floats, source: str
 ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
     """Match the faces of cyclic patches with those of their neighbours, and of wedges with each other.
 
@@ -112,7 +109,7 @@ def couple(
     return tuple(named), tuple(found)
 
 
-def _cyclic(i: int, j: int, a: _Index, b: _Index, centres: Floats, areas: Floats) -> Coupling | None:
+def _cyclic(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:
     """The rigid motion of best fit (Kabsch, Acta Cryst. A32, 1976, 922) of centres and normals."""
     if len(a) != len(b):
         return None
@@ -137,7 +134,7 @@ def _cyclic(i: int, j: int, a: _Index, b: _Index, centres: Floats, areas: Floats
     return coupling if _fits(coupling, centres, areas) else None
 
 
-def _wedge(i: int, j: int, a: _Index, b: _Index, centres: Floats, areas: Floats) -> Coupling | None:
+def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:
     """The rotation about the line in which the planes of two wedge patches meet."""
     if len(a) != len(b):
         return None

@@ -6,15 +6,11 @@ A list of faces is given by ``start`` (n + 1,) and ``lists``: the points of face
 
 from __future__ import annotations
 
-from typing import TypeAlias
-
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
-
-Floats: TypeAlias = NDArray[np.float64]
-Ints: TypeAlias = NDArray[np.int32]
+from foamprb.flow.base import Floats, Ints
 
 __all__ = [
     "OPEN",

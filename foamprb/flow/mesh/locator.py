@@ -8,7 +8,8 @@ import numpy as np
 
 from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
-from foamprb.flow.mesh.mesh import Floats, Ints, Mesh
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.mesh import Mesh
 
 __all__ = ["TOLERANCE", "MeshArrays", "build_tree", "cell_boxes", "frame", "locate", "weights"]
 
@@ -23,7 +24,7 @@ the round-off of a weight in double precision is then below 1e-9.
 
 
 class MeshArrays(NamedTuple):
-    """What the kernels know of a flow on a mesh; SI units, indices int32."""
+    """What the kernels read of a flow on a mesh; SI units, indices int32."""
 
     nodes: Floats
     """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, one spare: two cache lines a node."""

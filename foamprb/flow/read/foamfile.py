@@ -1,41 +1,20 @@
-"""OpenFOAM's own files of lists and fields, ascii or binary, compressed or not, in double precision."""
+"""OpenFOAM's own files of lists, ascii or binary, compressed or not, in double precision."""
 
 from __future__ import annotations
 
 import gzip
 import re
 import zlib
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.constraints import NonNegative
-from foamprb.dictionary.grammar import read_dictionary_list
-from foamprb.dictionary.schema import read_entries
-from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError
+from foamprb.flow.base import Floats
 
-Floats: TypeAlias = NDArray[np.float64]
 Labels: TypeAlias = NDArray[np.int64]
-
-__all__ = [
-    "Field",
-    "PatchInfo",
-    "existing",
-    "header",
-    "read_boundary",
-    "read_bytes",
-    "read_cell_zones",
-    "read_faces",
-    "read_field",
-    "read_labels",
-    "read_vectors",
-    "require_lists",
-    "require_room",
-]
 
 _HEADER_BYTES = 4096
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
@@ -44,37 +23,12 @@ _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"\d+")
 _NUMBERS = re.compile(rb"[^()]*")
-_COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
-_FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
-_NONUNIFORM = re.compile(rb"\bnonuniform\s+List<(?P<inner>%b)>\s*(?=\d)" % b"|".join(_COMPONENTS))
-_NO_DICTIONARY = re.compile(rb"\bboundaryField\b(?!\s*\{)")
+COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
+FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
 _MOST_ENTRIES = 1 << 31
 
 
-class PatchInfo(NamedTuple):
-    """A patch as ``polyMesh/boundary`` lists it."""
-
-    name: str
-    type: str
-    faces: int
-    start: int
-    """Its first face."""
-    neighbour: str
-    """The patch that a coupled patch leads to."""
-    entries: dict[str, str]
-    """All its entries but for dictionaries."""
-
-
-class Field(NamedTuple):
-    """A ``volVectorField`` of 3 components, or a ``volTensorField`` of 9."""
-
-    cells: Floats
-    """(n_cells, components), or (1, components) if they are all alike."""
-    patches: dict[str, tuple[str, Floats | None]]
-    """Type, and the values if there are any: (n_faces, components), or one row if they are all alike."""
-
-
-class _File:
+class FoamFile:
     """A file's bytes, and how far they have been read."""
 
     def __init__(self, path: Path) -> None:
@@ -84,20 +38,22 @@ class _File:
         self.path, self.data = found, read_bytes(found)
         entries = header(found)
         self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
-        self._inner = _FIELDS.get(self.kind, b"vector")
+        self._inner = FIELDS.get(self.kind, b"vector")
         arch = entries.get("arch", "")
         order = ">" if arch.startswith("MSB") else "<"
-        self._label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
+        self.label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
         self._scalar = np.dtype(f"{order}f{4 if 'scalar=32' in arch else 8}")
         end = re.search(rb"FoamFile\s*\{.*?\}", self.data, re.DOTALL)
         self.at = end.end() if end else 0
         self.skip()
 
     def broken(self, what: str) -> InputError:
+        """The error that something else was expected here; with the line."""
         line = self.data.count(b"\n", 0, self.at) + 1
         return InputError(f"{self.path}: line {line}: {what} expected; the file is broken or cut short.")
 
     def skip(self) -> None:
+        """Pass blanks and comments."""
         match = _BLANK.match(self.data, self.at)
         self.at = match.end() if match else self.at
 
@@ -110,10 +66,12 @@ class _File:
         return found
 
     def need(self, text: bytes) -> None:
+        """Pass the text; InputError if it does not come next."""
         if not self.take(text):
             raise self.broken(f"'{text.decode()}'")
 
     def word(self) -> bytes:
+        """The word that comes next; it is then passed."""
         match = _WORD.match(self.data, self.at)
         if match is None:
             raise self.broken("a word")
@@ -133,7 +91,7 @@ class _File:
 
     def labels(self) -> Labels:
         """A list of labels (n,), its number of entries first."""
-        values: Labels = self.list(1, self._label)[:, 0]
+        values: Labels = self.list(1, self.label)[:, 0]
         return values
 
     def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
@@ -191,14 +149,14 @@ class _File:
     def value(self) -> Floats | None:
         """The field's values after ``uniform`` or ``nonuniform``; None for anything else, which is passed."""
         found = None
-        wide = _COMPONENTS[self._inner]
+        wide = COMPONENTS[self._inner]
         while not self.take(b";"):
             if self.take(b"nonuniform"):
                 kind = self.word() if not _COUNT.match(self.data, self.at) else b"List<%b>" % self._inner
                 inner = kind[5:-1]
-                if inner not in _COMPONENTS:
+                if inner not in COMPONENTS:
                     raise self.broken(f"List<{self._inner.decode()}>")
-                read = self.list(_COMPONENTS[inner], self._label if inner == b"label" else None)
+                read = self.list(COMPONENTS[inner], self.label if inner == b"label" else None)
                 found = read if inner == self._inner else None
             elif self.take(b"uniform") and self.take(b"("):
                 found = (
@@ -236,25 +194,10 @@ class _File:
 
 def require_room(path: Path) -> None:
     """Raise InputError if a file is too short for the entries that its list is said to have."""
-    file = _File(path)
+    file = FoamFile(path)
     n = file.count()
     if n > len(file.data):
         raise file.broken(f"a number of entries that the file has room for, not {n},")
-
-
-def require_lists(path: Path) -> None:
-    """Raise InputError if a binary field is broken in ways on which VTK's reader crashes.
-
-    Each list must be as long as it says, and ``boundaryField`` a dictionary.
-    """
-    file = _File(path)
-    if file.binary and (bare := _NO_DICTIONARY.search(file.data, file.at)) is not None:
-        file.at = bare.end()
-        raise file.broken("'{'")
-    while file.binary and (match := _NONUNIFORM.search(file.data, file.at)) is not None:
-        file.at = match.end()
-        inner = match["inner"]
-        file.list(_COMPONENTS[inner], file._label if inner == b"label" else None)
 
 
 def read_labels(path: Path) -> Labels:
@@ -265,12 +208,12 @@ def read_labels(path: Path) -> Labels:
     InputError
         The file is missing or broken.
     """
-    return _File(path).labels()
+    return FoamFile(path).labels()
 
 
 def read_vectors(path: Path) -> Floats:
     """Read a ``vectorField``, (n, 3); raise InputError if it is missing or broken."""
-    values: Floats = _File(path).list(3)
+    values: Floats = FoamFile(path).list(3)
     return values
 
 
@@ -282,7 +225,7 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     InputError
         The file is missing or broken.
     """
-    file = _File(path)
+    file = FoamFile(path)
     if file.kind == "faceCompactList":
         start, points = file.labels(), file.labels()
         if len(start) == 0 or start[0] != 0 or start[-1] != len(points) or np.any(np.diff(start) < 0):
@@ -304,53 +247,9 @@ def read_faces(path: Path) -> tuple[Labels, Labels]:
     if at != len(numbers):
         raise file.broken(f"a list of {n} faces")
     start = np.concatenate([[0], np.cumsum(sizes)])
-    kept = np.ones(len(numbers), dtype=bool)
-    kept[start[:-1] + np.arange(n)] = False
-    return start, numbers[kept]
-
-
-@dataclass(frozen=True, kw_only=True)
-class _BoundaryEntry:
-    """What is read of a patch in ``polyMesh/boundary``."""
-
-    type: str
-    nFaces: Annotated[int, NonNegative]
-    startFace: Annotated[int, NonNegative]
-    neighbourPatch: str = ""
-
-
-def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
-    """Read the patches of ``polyMesh/boundary``.
-
-    Raises
-    ------
-    InputError
-        The file is missing or broken, a patch occurs twice, or does not begin where the one before it ends.
-    """
-    found = existing(path)
-    if found is None:
-        raise InputError(f"{path}: no such file.")
-    try:
-        return _patches(found, case)
-    except InputError as error:
-        raise InputError(f"{case}: {error}") from None
-
-
-def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
-    patches: list[PatchInfo] = []
-    for dictionary in read_dictionary_list(path, case).items:
-        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
-        name = unquoted(dictionary.key)
-        if any(name == patch.name for patch in patches):
-            raise dictionary.mistake("occurs twice.")
-        if patches and read.startFace != patches[-1].start + patches[-1].faces:
-            expected = patches[-1].start + patches[-1].faces
-            raise dictionary.mistake(
-                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
-            )
-        entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
-        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, entries))
-    return tuple(patches)
+    is_point = np.ones(len(numbers), dtype=bool)
+    is_point[start[:-1] + np.arange(n)] = False
+    return start, numbers[is_point]
 
 
 def read_cell_zones(path: Path) -> dict[str, Labels]:
@@ -361,7 +260,7 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
     InputError
         The file is missing or broken.
     """
-    file = _File(path)
+    file = FoamFile(path)
     n = file.count()
     file.skip()
     file.need(b"(")
@@ -384,48 +283,6 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
     if len(zones) != n:
         raise InputError(f"{file.path}: only {len(zones)} of {n} zones could be read.")
     return zones
-
-
-def read_field(path: Path, kind: str = "volVectorField") -> Field:
-    """Read a ``volVectorField`` or a ``volTensorField``.
-
-    Raises
-    ------
-    InputError
-        The file is missing, broken, or another field.
-    """
-    file = _File(path)
-    if file.kind != kind:
-        raise InputError(f"{file.path}: the class is {file.kind or '(none)'}, not {kind}.")
-    cells: Floats | None = None
-    patches: dict[str, tuple[str, Floats | None]] | None = None
-    while file.at < len(file.data):
-        key = file.word()
-        if key == b"boundaryField":
-            patches = _patch_fields(file)
-        elif file.take(b"{"):
-            file.dictionary()
-        elif key == b"internalField":
-            cells = file.value()
-        else:
-            file.value()
-    if cells is None or patches is None:
-        raise InputError(
-            f"{file.path}: no internalField of {_FIELDS[kind].decode()}s and boundaryField; the file is cut "
-            "short."
-        )
-    return Field(cells, patches)
-
-
-def _patch_fields(file: _File) -> dict[str, tuple[str, Floats | None]]:
-    file.need(b"{")
-    patches = {}
-    while not file.take(b"}"):
-        name = file.word().decode("utf-8", "replace").strip('"')
-        file.need(b"{")
-        entries, fields = file.dictionary()
-        patches[name] = entries.get("type", ""), fields.get("value")
-    return patches
 
 
 def header(path: Path) -> dict[str, str]:

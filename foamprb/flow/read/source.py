@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
-from foamprb.flow.read.meshfile import Division, read_mesh_file, read_mesh_series
+from foamprb.flow.read.division import Division
+from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
 from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.series import SeriesFlow, read_series
-from foamprb.flow.walk import MeshFlow
+from foamprb.flow.read.series import read_series
+from foamprb.flow.series import SeriesFlow
 
 __all__ = ["Source", "read_flow", "read_transient_flow"]
 
@@ -63,7 +65,7 @@ def read_transient_flow(
     Raises
     ------
     InputError
-        As :func:`~foamprb.flow.series.read_series` and
+        As :func:`~foamprb.flow.read.series.read_series` and
         :func:`~foamprb.flow.read.meshfile.read_mesh_series`; or the
         source asks for what its kind does not have.
     """

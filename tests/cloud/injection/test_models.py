@@ -20,9 +20,9 @@ from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, Pat
 from foamprb.cloud.injection.room import BYTES, free_memory
 from foamprb.errors import InputError
 from foamprb.flow import analytic
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.walk import MeshFlow
 
 CONE = {
     "positionAxis": (((0.1, 0.0, 0.0), (1.0, 1.0, 0.0)), ((0.2, 0.0, 0.0), (0.0, 0.0, -3.0))),

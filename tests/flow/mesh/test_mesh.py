@@ -19,9 +19,11 @@ from mesh_shapes import (
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import Patch, PatchSurface, build_mesh
+from foamprb.flow.base import Patch
+from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
-from foamprb.flow.walk import MeshFlow
 
 
 def volumes(mesh):

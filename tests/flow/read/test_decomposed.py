@@ -18,16 +18,18 @@ from foam_writer import decompose, header, rows, write_case
 
 from foamprb.cli import main
 from foamprb.errors import InputError
+from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.decomposed import (
-    Rebuilt,
+    ReconstructedCase,
     is_only_decomposed,
-    processors,
     read_decomposed_case,
     read_decomposed_series,
 )
-from foamprb.flow.read.foamfile import read_boundary, read_faces, read_field, read_labels, read_vectors
+from foamprb.flow.read.field import read_field
+from foamprb.flow.read.foamfile import read_faces, read_labels, read_vectors
 from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.series import read_series
+from foamprb.flow.read.processors import processors
+from foamprb.flow.read.series import read_series
 
 TIMES = ("0", "0.5", "1e1")
 
@@ -154,7 +156,7 @@ def test_compressed_files_are_read_alike(case):
 
 def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    whole = Rebuilt(written)
+    whole = ReconstructedCase(written)
     folder = whole.folder
     assert (folder / "constant/polyMesh/points").is_file()
     del whole
@@ -167,13 +169,14 @@ def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch)
 
 def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    of_others = [tmp_path / "foamprb-benchmark-1", tmp_path / "foamprb-scratch-mine"]
+    of_others = [tmp_path / "foamprb-benchmark-1", tmp_path / "foamprb-temporary-mine"]
     for folder in of_others:
         folder.mkdir()
         (folder / "results.csv").write_text("of a day's work")
     script = (
-        "import os, signal, sys\nfrom pathlib import Path\nfrom foamprb.flow.read.decomposed import Rebuilt\n"
-        "whole = Rebuilt(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
+        "import os, signal, sys\nfrom pathlib import Path\n"
+        "from foamprb.flow.read.decomposed import ReconstructedCase\n"
+        "whole = ReconstructedCase(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
         "os.kill(os.getpid(), signal.SIGKILL)"
     )
     command = [sys.executable, "-c", script, str(written)]
@@ -186,12 +189,12 @@ def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monke
     )
     with other:
         left = Path(other.stdout.readline().strip())
-        first = Rebuilt(written)
+        first = ReconstructedCase(written)
         assert left.is_dir()
         other.communicate("x")
     assert other.returncode == -signal.SIGKILL
     assert left.is_dir()
-    second = Rebuilt(written)
+    second = ReconstructedCase(written)
     assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder, *of_others])
     assert all((folder / "results.csv").exists() for folder in of_others)
 

@@ -13,10 +13,12 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import Patch, build_mesh
-from foamprb.flow.read import trial
-from foamprb.flow.read.meshfile import Division, describe_file, read_mesh_file, read_mesh_series
-from foamprb.flow.walk import MeshFlow
+from foamprb.flow.base import Patch
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read import vtk_guard
+from foamprb.flow.read.division import Division
+from foamprb.flow.read.meshfile import describe_file, read_mesh_file, read_mesh_series
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
@@ -392,7 +394,7 @@ def test_a_file_that_vtk_does_not_survive_is_refused(tmp_path):
 
 def test_a_file_that_vtk_never_ends_with_is_refused(tmp_path, monkeypatch):
     """It counts up to a number of components that is none."""
-    monkeypatch.setattr(trial, "_LEAST_TIME", 1)
+    monkeypatch.setattr(vtk_guard, "_LEAST_TIME", 1)
     path = tmp_path / "flow.vtu"
     flowing().save(path)
     text = path.read_text()

@@ -12,9 +12,12 @@ from mesh_shapes import block, box_patches, corners, grid, pipe
 from paths import PIPE
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import Patch, build_mesh
+from foamprb.flow.base import Patch
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.read.case import available_times, select_time
+from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
-from foamprb.flow.read.openfoam import available_times, describe, read_case, read_fields, select_time
+from foamprb.flow.read.openfoam import read_case, read_fields
 
 POLY = "constant/polyMesh/"
 

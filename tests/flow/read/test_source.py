@@ -12,7 +12,7 @@ from paths import PIPE
 
 from foamprb.cli import main
 from foamprb.errors import InputError
-from foamprb.flow.read.meshfile import Division
+from foamprb.flow.read.division import Division
 from foamprb.flow.read.source import Source, read_flow
 
 

@@ -1,7 +1,7 @@
-"""Tries whether VTK survives a file: some damaged ones it ends the whole process on, with no error to catch.
+"""Guards against files on which VTK crashes: some damaged ones end the process, with no error to catch.
 
-A process apart, started when it is first needed, reads each file in a copy of itself and tells how the copy
-ended.
+A second process, started when it is first needed, reads each file first, in a copy of itself, and reports how
+the copy ended.
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ __all__ = ["read_vtk", "require_survival", "times_of"]
 _LEAST_TIME = 20
 _MOST_FILES = 10_000
 _LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
-"""Files that are read with others beside them."""
+"""Files that name others, which are read with them."""
 _lock = threading.Lock()
 _server: Any = None
 
 
 def times_of(path: Path) -> list[float]:
-    """The times that a file of VTK's has, rising; none if it knows of no time."""
+    """The times of a file of VTK's, rising; none if it has no time."""
     import pyvista
 
     return _times(pyvista.get_reader(path))
 
 
 def read_vtk(path: Path, step: int | None = None) -> Any:
-    """Read a file of VTK's, at the time of a position among its times if it has any."""
+    """Read a file of VTK's, at the ``step``-th of its times if it has any."""
     import pyvista
 
     reader = pyvista.get_reader(path)
@@ -61,12 +61,12 @@ def _times(reader: Any) -> list[float]:
 
 
 def require_survival(path: Path, step: int | None = None) -> None:
-    """Refuse a file that VTK does not survive, at the time of a position among its times if it has any.
+    """Raise InputError for a file that VTK does not survive, at the ``step``-th of its times if it has any.
 
     Raises
     ------
     InputError
-        Reading the file ended the process that tried, by which signal; or it never ended.
+        Reading the file ended the process that tried, by which signal; or it did not come to an end.
     """
     with _lock:
         number = _ask(path, step)
@@ -81,17 +81,17 @@ def require_survival(path: Path, step: int | None = None) -> None:
 
 
 def _limit(path: Path) -> int:
-    """Processor time after which reading a file is given up, s: at a megabyte a second, and never soon."""
+    """Processor time after which reading a file is given up, s: 20 s, and a second more per megabyte."""
     # The folder may be one in which much else lies.
     files = islice(path.parent.rglob("*"), _MOST_FILES) if path.suffix in _LISTS else [path]
     return _LEAST_TIME + sum(file.stat().st_size for file in files if file.is_file()) // 1_000_000
 
 
 def _ask(path: Path, step: int | None) -> int:
-    """The signal that ended the copy which read the file, 0 if none did."""
+    """The signal that ended the copy that read the file, 0 if none did."""
     global _server
     if _server is None or _server.poll() is not None:
-        command = [sys.executable, "-W", "ignore", "-m", "foamprb.flow.read.trial"]
+        command = [sys.executable, "-W", "ignore", "-m", "foamprb.flow.read.vtk_guard"]
         _server = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )

@@ -13,15 +13,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from foamprb.validation.references import (
-    SHEAR,
-    Floats,
-    Integrals,
-    diagonal_response,
-    integrals,
-    roscoe,
-    roscoe_frequency,
-)
+from foamprb.validation.references import Floats
+from foamprb.validation.references.ellipsoid import Integrals, diagonal_response, integrals
+from foamprb.validation.references.roscoe import roscoe, roscoe_frequency
+from foamprb.validation.references.shear import SHEAR
 
 IDENTITY = np.eye(3)
 

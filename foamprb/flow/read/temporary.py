@@ -1,4 +1,4 @@
-"""Temporary folders that do not outlive their process by long, however it ends."""
+"""Temporary folders that are removed even if their process is killed: by the next one."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ import tempfile
 import weakref
 from pathlib import Path
 
-__all__ = ["scratch_folder"]
+__all__ = ["temporary_folder"]
 
-_PREFIX = "foamprb-scratch-"
+_PREFIX = "foamprb-temporary-"
 _LOCK = ".lock"
 """A file in each such folder, by which it is known and held."""
 
 
-def scratch_folder(owner: object) -> Path:
-    """A new temporary folder that goes with its owner.
+def temporary_folder(owner: object) -> Path:
+    """A new temporary folder, which is removed when its owner is.
 
     A process that is killed leaves its folder behind. But a file in it is locked as long as the process
-    lives: folders with such a file that nobody holds any more are removed here, and no others.
+    lives: folders with such a file that no process locks any more are removed here, and no others.
     """
     _remove_left()
     while True:
         folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
         descriptor = os.open(folder / _LOCK, os.O_RDWR | os.O_CREAT, 0o600)
-        # Before it was locked another process may have taken it for one left behind.
+        # Before it was locked, another process may have removed it as one left behind.
         if _lock(descriptor) and (folder / _LOCK).exists():
             weakref.finalize(owner, _remove, folder, descriptor)
             return folder

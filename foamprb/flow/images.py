@@ -1,0 +1,125 @@
+"""Images of cells beyond the patches over which a field goes on: mirrors, wedges and cyclic patches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from foamprb.flow.base import Floats
+from foamprb.flow.mesh.coupling import Coupling
+from foamprb.flow.mesh.lists import Index
+from foamprb.flow.mesh.mesh import Mesh
+
+_MIRRORS = frozenset({"symmetry", "symmetryPlane", "empty", "wedge"})
+
+
+def _unchanged(values: Floats) -> Floats:
+    return values
+
+
+class Images:
+    """Cells beyond the patches where the field goes on; each is the image of a cell inside the mesh."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        owner = mesh.owner[mesh.n_internal :].astype(np.intp)
+        areas = mesh.boundary_areas
+        normals = areas / np.maximum(np.linalg.norm(areas, axis=1), 1e-300)[:, None]
+        coupled = {coupling.patch for coupling in mesh.couplings}
+        faces, cells, places, turns = [], [], [], []
+        self._planes, self._seams = [], []
+        for index, patch in enumerate(mesh.patches):
+            own = np.arange(mesh.patch_start[index], mesh.patch_start[index + 1])
+            if patch.type not in _MIRRORS or index in coupled or len(own) == 0:
+                continue
+            n = normals[own]
+            away = np.einsum("fi,fi->f", mesh.boundary_centres[own] - mesh.centres[owner[own]], n)
+            faces.append(own)
+            cells.append(owner[own])
+            places.append(mesh.centres[owner[own]] + 2.0 * away[:, None] * n)
+            mirror = np.eye(3) - 2.0 * n[:, :, None] * n[:, None, :]
+            # On a plane mesh the flow is the same at every height.
+            turns.append(np.broadcast_to(np.eye(3), mirror.shape) if patch.type == "empty" else mirror)
+            if patch.type != "empty":
+                self._planes.append(_mean_normals(mesh, own, n))
+        for coupling in mesh.couplings:
+            faces.append(coupling.faces)
+            cells.append(owner[coupling.partners])
+            # Backwards: what lies beyond the first patch is what lies before the second.
+            places.append((mesh.centres[cells[-1]] - coupling.shift) @ coupling.turn)
+            turns.append(np.broadcast_to(coupling.turn.T, (len(coupling.faces), 3, 3)))
+            if coupling.patch < coupling.other and len(coupling.faces):
+                self._seams.append(_seam(mesh, coupling))
+        self.faces: Index = np.concatenate([np.empty(0, dtype=np.intp), *faces])
+        self.cells: Index = np.concatenate([np.empty(0, dtype=np.intp), *cells])
+        self.places: Floats = np.concatenate([np.empty((0, 3)), *places])
+        self._turns: Floats = np.concatenate([np.empty((0, 3, 3)), *turns])
+
+    def turned(self, values: Floats, read: Callable[[Floats], Floats] = _unchanged) -> Floats:
+        """Tensors of the images (n, 3, …, 3), from those that ``read`` makes of the cells' ``values``."""
+        return _turned(self._turns, read(values[self.cells]))
+
+    def agree(self, points: Floats) -> None:
+        """Make tensors at the mesh points (n_points, 3, …, 3) agree with their images."""
+        for rows, mirrors in self._planes:
+            points[rows] = 0.5 * (points[rows] + _turned(mirrors, points[rows]))
+        for here, there, turn in self._seams:
+            turns = np.broadcast_to(turn, (len(here), 3, 3))
+            mean = 0.5 * (_turned(turns, points[here]) + points[there])
+            points[here], points[there] = _turned(turns.transpose(0, 2, 1), mean), mean
+            axis = here[here == there]
+            if len(axis) and np.any(turn != np.eye(3)):
+                points[axis] = _unturned(turn, points[axis])
+
+
+def _turned(turns: Floats, values: Floats) -> Floats:
+    """Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T (n, 3, …, 3)."""
+    rank = values.ndim - 1
+    old, new = "abc"[:rank], "ijk"[:rank]
+    factors = ",".join(f"n{i}{a}" for i, a in zip(new, old, strict=True))
+    turned: Floats = np.einsum(f"{factors},n{old}->n{new}", *[turns] * rank, values, optimize=True)
+    return turned
+
+
+def _unturned(turn: Floats, values: Floats) -> Floats:
+    """The part of vectors (n, 3) or tensors (n, 3, 3) that no rotation about the axis of ``turn`` changes."""
+    axis = np.linalg.svd(turn - np.eye(3))[2][2]
+    # Round-off must not tilt an axis that lies along a coordinate: across it there is exactly no velocity.
+    axis[np.abs(axis) < 1e-12] = 0.0
+    along = np.outer(axis, axis)
+    part_of_values = np.zeros_like(values)
+    if values.ndim == 2:
+        part_of_values += values @ along
+        return part_of_values
+    for part in (along, np.eye(3) - along, np.cross(np.eye(3), axis)):
+        part_of_values += np.einsum("nij,ij->n", values, part)[:, None, None] * part / np.sum(part * part)
+    return part_of_values
+
+
+def _mean_normals(mesh: Mesh, faces: Index, normals: Floats) -> tuple[Index, Floats]:
+    """Points of a patch of mirrors, and for each the mirror about the mean plane of its faces."""
+    rows, columns = points_of_faces(mesh, faces)
+    points, place = np.unique(rows, return_inverse=True)
+    total = np.stack([np.bincount(place, normals[columns, i], len(points)) for i in range(3)], axis=1)
+    mean = total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+    return points, np.eye(3) - 2.0 * mean[:, :, None] * mean[:, None, :]
+
+
+def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
+    """Points of a coupled patch, those of the other patch that continue them, and the rotation between."""
+    here, there = (np.unique(points_of_faces(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
+    images = mesh.points[here] @ coupling.turn.T + coupling.shift
+    size = np.sqrt(np.linalg.norm(mesh.boundary_areas[coupling.faces], axis=1).min())
+    distance, nearest = KDTree(mesh.points[there]).query(images, distance_upper_bound=0.05 * size)
+    near = np.isfinite(distance)
+    return here[near], there[np.asarray(nearest)[near]], coupling.turn
+
+
+def points_of_faces(mesh: Mesh, faces: Index) -> tuple[Index, Index]:
+    """Points of boundary faces, and for each point the position of its face in ``faces``."""
+    begin = mesh.face_start[mesh.n_internal + faces].astype(np.intp)
+    count = np.diff(mesh.face_start)[mesh.n_internal + faces].astype(np.intp)
+    owner = np.repeat(np.arange(len(faces)), count)
+    within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    return mesh.face_points[begin[owner] + within].astype(np.intp), owner

@@ -1,0 +1,120 @@
+"""VTK's cells → the faces of each cell, and the pairs of them that are one face between two cells."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from foamprb.compile.link import link
+from foamprb.errors import InputError
+from foamprb.flow.base import Ints
+from foamprb.flow.mesh.faces import list_faces, pair_faces
+from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, int32
+
+_POLYHEDRON = 42
+# Faces of VTK's cell types by local vertex.
+_CELL_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
+    10: ((0, 1, 3), (1, 2, 3), (2, 0, 3), (0, 2, 1)),
+    12: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
+    13: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+    14: ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+}
+_CORNERS = np.zeros(256, dtype=np.intp)
+for _kind, _faces in _CELL_FACES.items():
+    _CORNERS[_kind] = 1 + max(map(max, _faces))
+CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _POLYHEDRON: "polyhedron"}
+
+
+class HalfFaces(NamedTuple):
+    """The faces of each cell, cell after cell: an interior face appears twice."""
+
+    first: Ints
+    """(n_cells + 1,): the first face of each cell."""
+    start: Ints
+    points: Ints
+
+    def cells(self) -> Ints:
+        """The cell of each face."""
+        return np.repeat(np.arange(len(self.first) - 1, dtype=np.int32), np.diff(self.first))
+
+
+def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
+    """List the faces of the cells of a ``pyvista.UnstructuredGrid``, cell after cell.
+
+    Returns
+    -------
+    half, cell_point_start, cell_points
+        The faces; where each cell's points begin, (n_cells + 1,), and the points.
+
+    Raises
+    ------
+    InputError
+        Cells of a type that cannot be read, lists that name what is not there, or too many of them.
+    """
+    types = np.ascontiguousarray(grid.celltypes, dtype=np.uint8)
+    unknown = sorted(set(np.flatnonzero(np.bincount(types)).tolist()) - set(CELL_KINDS))
+    if unknown:
+        raise InputError(
+            f"{source}: cells of VTK type {', '.join(map(str, unknown))}; allowed are "
+            + ", ".join(f"{kind} ({number})" for number, kind in CELL_KINDS.items())
+            + "."
+        )
+    if len(types) == 0:
+        raise InputError(f"{source}: the mesh has no cells.")
+    offset, connectivity = cell_array(grid.GetCells())
+    polyhedra = [*cell_array(grid.GetPolyhedronFaceLocations()), *cell_array(grid.GetPolyhedronFaces())]
+    for lists in (connectivity, polyhedra[3]):
+        if len(lists) and (lists.min() < 0 or lists.max() >= len(grid.points)):
+            raise InputError(
+                f"{source}: a cell names point {max(lists.max(), -lists.min())}, "
+                f"but there are {len(grid.points)} points."
+            )
+        if len(lists) > MOST_INDICES:
+            raise InputError(f"{source}: {len(types)} cells are too many for 32-bit indices.")
+    short = np.flatnonzero(np.diff(offset) < _CORNERS[types])
+    if len(short):
+        raise InputError(
+            f"{source}: cell {short[0]} has {np.diff(offset)[short[0]]} points, but its type is "
+            f"{CELL_KINDS[types[short[0]]]}."
+        )
+    locations, ids, face_start, _ = polyhedra
+    own = np.diff(locations)[types[: len(locations) - 1] == _POLYHEDRON].sum()
+    if own != len(ids) or (len(ids) and not 0 <= ids.min() <= ids.max() < len(face_start) - 1):
+        raise InputError(f"{source}: the faces of the polyhedra do not fit its cells; the mesh is damaged.")
+    cells, shapes, kinds = (
+        (int32(offset), int32(connectivity)),
+        _shapes(),
+        np.bincount(types, minlength=256),
+    )
+    n_faces = int(kinds @ np.count_nonzero(shapes[:, :, 0], axis=1)) + len(ids)
+    n_entries = int(kinds @ shapes[:, :, 0].sum(axis=1) + np.diff(face_start)[ids].sum())
+    given = (types, *cells, shapes, *map(int32, polyhedra))
+    if n_entries > MOST_INDICES:
+        raise InputError(f"{source}: {n_entries} points of faces are too many for 32-bit indices.")
+    half = HalfFaces(*(np.empty(n, dtype=np.int32) for n in (len(types) + 1, n_faces + 1, n_entries)))
+    link(list_faces)(*given, *half)
+    least = np.diff(half.start).min()
+    if least < 3:
+        raise InputError(f"{source}: a face of {least} vertices; at least 3 are needed.")
+    return half, *cells
+
+
+def _shapes() -> Ints:
+    """The faces of VTK's types of cells as :func:`list_faces` reads them."""
+    shapes = np.zeros((256, 6, 5), dtype=np.int32)
+    for number, faces in _CELL_FACES.items():
+        for k, face in enumerate(faces):
+            shapes[number, k, : len(face) + 1] = (len(face), *face)
+    return shapes
+
+
+def match_half_faces(half: HalfFaces, source: str) -> Ints:
+    """The other half of each interior face; a half without a mate has itself."""
+    n = len(half.start) - 1
+    head, following, mate = np.full(n, -1, dtype=np.int32), *np.empty((2, n), dtype=np.int32)
+    third = link(pair_faces)(half.start, half.points, head, following, mate)
+    if third >= 0:
+        at = np.searchsorted(half.first, third, side="right") - 1
+        raise InputError(f"{source}: a face of cell {at} belongs to three or more cells.")
+    return mate

@@ -1,0 +1,265 @@
+"""A steady flow on a mesh: the arrays that the compiled functions of ``walk`` and ``walls`` read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from foamprb.compile.link import link
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
+from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall
+
+LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, locate)
+"""Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
+
+
+def _across(mesh: Mesh) -> Ints:
+    """See :class:`MeshArrays`."""
+    count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
+    start = np.concatenate([[0], np.cumsum(count)])
+    partner = np.full(len(mesh.boundary_centres), -1)
+    for coupling in mesh.couplings:
+        partner[coupling.faces] = coupling.partners
+    other = partner[mesh.triangle_face]
+    across = np.stack([start[other], start[other + 1]], axis=1)
+    across[other < 0] = 0
+    return across.astype(np.int32)
+
+
+def _motions(mesh: Mesh) -> Floats:
+    """See :class:`MeshArrays`."""
+    motions = np.zeros((len(mesh.patches), 12))
+    motions[:, [0, 4, 8]] = 1.0
+    for coupling in mesh.couplings:
+        motions[coupling.patch] = [*coupling.turn.ravel(), *coupling.shift]
+    return motions
+
+
+class MeshFlow:
+    """A flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
+
+    Parameters
+    ----------
+    mesh
+        The mesh.
+    u, l
+        (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres.
+    notes
+        What the user should know about the flow, sentence by sentence.
+    zones
+        Reads the cells of each zone of cells, by name, when somebody asks for one.
+    """
+
+    kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
+        "sample": sample,
+        "walk": walk,
+        "gap": gap,
+        "normal": normal,
+        "cross": cross,
+        "recover": recover,
+    }
+    """The functions that a particle loop calls, by the names under which it calls them."""
+
+    def __init__(
+        self,
+        mesh: Mesh,
+        u: Floats,
+        l: Floats,
+        notes: Iterable[str] = (),
+        zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+    ) -> None:
+        self.mesh = mesh
+        self._zones = zones
+        self.patches = mesh.patches
+        self.notes = tuple(notes)
+        if mesh.inverted:
+            self.notes += (
+                f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
+                "far from convex there, and paths through them are less certain.",
+            )
+        self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        nodes = np.zeros((len(u), 16))
+        nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
+        nodes[:, 3:6] = u
+        nodes[:, 6:15] = l.reshape(-1, 9)
+        self.span = (-np.inf, np.inf)
+        self._near: tuple[Any, MeshArrays] | None = None
+        self._tree = build_tree(cell_boxes(mesh))
+        self._arrays = MeshArrays(
+            nodes=nodes,
+            n_points=mesh.n_points,
+            tets=mesh.tets,
+            neighbours=mesh.neighbours,
+            cell_start=mesh.cell_start,
+            tree_boxes=self._tree[0],
+            tree_cells=self._tree[1],
+            triangles=mesh.triangles,
+            triangle_patch=mesh.triangle_patch,
+            triangle_normals=mesh.triangle_normals,
+            triangle_tet=mesh.triangle_tet,
+            across=_across(mesh),
+            motions=_motions(mesh),
+            near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
+            near=np.empty(0, dtype=np.int32),
+        )
+
+    @staticmethod
+    def nothing() -> MeshArrays:
+        """What the kernels read where there is no flow, for which they can be compiled."""
+        return no_mesh()
+
+    def load(self, start: float, end: float) -> float:  # noqa: ARG002
+        """Return infinity: the flow is the same at all times."""
+        return float(np.inf)
+
+    def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> MeshArrays:
+        """What the kernels read; bodies of semi-axes up to ``reach`` (m) find what they touch.
+
+        The ``touchable`` patches are given by their indices; by default they are those of type wall.
+        """
+        if touchable is None:
+            touchable = [index for index, patch in enumerate(self.patches) if patch.type in WALLS]
+        if reach <= 0.0 or len(touchable) == 0:
+            return self._arrays
+        key = reach, tuple(touchable)
+        if self._near is None or self._near[0] != key:
+            self._near = key, self._with_walls(reach, touchable)
+        return self._near[1]
+
+    def _with_walls(self, reach: float, touchable: Sequence[int]) -> MeshArrays:
+        """The arrays with the walls that bodies can touch, and with their images beyond coupled patches."""
+        mesh, boxes, arrays = self.mesh, cell_boxes(self.mesh), self._arrays
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, list(touchable))).astype(np.int32)
+        corners = mesh.points[mesh.triangles[names]]
+        if mesh.couplings:
+            walls = Walls(corners, mesh.triangle_normals[names], mesh.triangle_patch[names])
+            images = images_of_walls(mesh, walls, reach)
+            n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
+            beyond = np.zeros((3 * n, 16))
+            beyond[:, :3] = images.corners.reshape(-1, 3)
+            names = np.concatenate([names, np.arange(triangles, triangles + n, dtype=np.int32)])
+            corners = np.concatenate([corners, images.corners])
+            arrays = arrays._replace(
+                nodes=np.concatenate([arrays.nodes, beyond]),
+                triangles=np.concatenate(
+                    [arrays.triangles, np.arange(nodes, nodes + 3 * n, dtype=np.int32).reshape(-1, 3)]
+                ),
+                triangle_patch=np.concatenate([arrays.triangle_patch, images.patches]),
+                triangle_normals=np.concatenate([arrays.triangle_normals, images.normals]),
+            )
+        start, near = near_walls(mesh, boxes, self._tree, reach, names, corners)
+        return arrays._replace(near_start=start, near=near)
+
+    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
+        """Put what the kernels read, but for the lists of walls nearby, where ``place`` copies it."""
+        fixed: dict[str, Any] = {
+            name: place(array)
+            for name, array in self._arrays._asdict().items()
+            if isinstance(array, np.ndarray) and not name.startswith("near")
+        }
+        self._arrays = self._arrays._replace(**fixed)
+        self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
+        held = {field.name for field in fields(self.mesh)}
+        self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
+    def traits(self) -> Mapping[str, ArrayLike]:
+        """Mesh and velocities, by name."""
+        return self._arrays._asdict()
+
+    def locate(self, points: Floats) -> Ints:
+        """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
+        points = np.ascontiguousarray(points, dtype=np.float64)
+        hosts = np.empty(len(points), dtype=np.int32)
+        link(_locate_all)(self._arrays, points, hosts)
+        return hosts
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
+        return sample_with(sample, self._arrays, points, hosts, t)
+
+    def cell_of(self, hosts: Ints) -> Ints:
+        """Cells to which the tetrahedra belong, (n,)."""
+        cells: Ints = self.mesh.tets[hosts, 0] - np.int32(self.mesh.n_points)
+        return cells
+
+    def cell_size(self, hosts: Ints) -> Floats:
+        """Cube root of the volume of the hosts' cells, (n,), m."""
+        return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
+
+    def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
+        """Triangles of the patch ``name``.
+
+        Raises
+        ------
+        InputError
+            There is no such patch.
+        """
+        names = [patch.name for patch in self.patches]
+        if name not in names:
+            raise InputError(f"patch {name} is not in the mesh. {suggestion(name, names)}")
+        mesh = self.mesh
+        at = np.flatnonzero(mesh.triangle_patch == names.index(name))
+        triangles = mesh.triangles[at]
+        vertices = mesh.points[triangles]
+        edges = vertices[:, 1:] - vertices[:, :1]
+        return PatchFaces(
+            vertices=vertices,
+            areas=0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1),
+            normals=mesh.triangle_normals[at],
+            velocity=self._arrays.nodes[triangles, 3:6],
+            hosts=mesh.triangle_tet[at],
+        )
+
+    def cell_zone(self, name: str) -> Tetrahedra:
+        """Tetrahedra of the zone of cells ``name``, cell after cell.
+
+        Raises
+        ------
+        InputError
+            There is no such zone, or it names cells that the mesh does not have.
+        """
+        zones = self._zones()
+        if name not in zones:
+            raise InputError(f"cellZone {name} is not in the mesh. {suggestion(name, zones)}")
+        cells = zones[name]
+        if len(cells) and not (cells.min() >= 0 and cells.max() < self.mesh.n_cells):
+            raise InputError(f"cellZone {name} names cells beyond the mesh's {self.mesh.n_cells}.")
+        start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
+        hosts = np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
+        vertices = self._arrays.nodes[self.mesh.tets[hosts], :3]
+        edges = vertices[:, 1:] - vertices[:, :1]
+        return Tetrahedra(vertices, np.linalg.det(edges) / 6.0, hosts)
+
+
+def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
+    for i in range(points.shape[0]):
+        hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
+
+
+def sample_with(
+    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
+) -> tuple[Floats, Floats]:
+    """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    values = np.empty((len(points), 12))
+    sampler = link(_sample_all, {"sample": kernel})
+    sampler(arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
+    return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+
+
+def _sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
+    """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
+    for i in range(points.shape[0]):
+        u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
+        for k in range(3):
+            values[i, k] = u[k]
+        for k in range(9):
+            values[i, 3 + k] = l[k]

@@ -1,0 +1,72 @@
+"""The patches that ``polyMesh/boundary`` lists."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+from foamprb.dictionary.constraints import NonNegative
+from foamprb.dictionary.grammar import read_dictionary_list
+from foamprb.dictionary.schema import read_entries
+from foamprb.dictionary.tree import Stream, unquoted
+from foamprb.errors import InputError
+from foamprb.flow.read.foamfile import existing
+
+
+class PatchInfo(NamedTuple):
+    """A patch as ``polyMesh/boundary`` lists it."""
+
+    name: str
+    type: str
+    faces: int
+    start: int
+    """Its first face."""
+    neighbour: str
+    """The patch that a coupled patch leads to."""
+    entries: dict[str, str]
+    """All its entries but for dictionaries."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _BoundaryEntry:
+    """What is read of a patch in ``polyMesh/boundary``."""
+
+    type: str
+    nFaces: Annotated[int, NonNegative]
+    startFace: Annotated[int, NonNegative]
+    neighbourPatch: str = ""
+
+
+def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    """Read the patches of ``polyMesh/boundary``.
+
+    Raises
+    ------
+    InputError
+        The file is missing or broken, a patch occurs twice, or does not begin where the one before it ends.
+    """
+    found = existing(path)
+    if found is None:
+        raise InputError(f"{path}: no such file.")
+    try:
+        return _patches(found, case)
+    except InputError as error:
+        raise InputError(f"{case}: {error}") from None
+
+
+def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+    patches: list[PatchInfo] = []
+    for dictionary in read_dictionary_list(path, case).items:
+        read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
+        name = unquoted(dictionary.key)
+        if any(name == patch.name for patch in patches):
+            raise dictionary.mistake("occurs twice.")
+        if patches and read.startFace != patches[-1].start + patches[-1].faces:
+            expected = patches[-1].start + patches[-1].faces
+            raise dictionary.mistake(
+                f"starts at face {read.startFace}, but the patch before it ends at {expected}."
+            )
+        entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
+        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, entries))
+    return tuple(patches)

@@ -1,0 +1,146 @@
+"""A boundary without named patches, divided into patches by an array on its faces or at its edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyvista
+from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
+
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.read.times import listed
+
+BOUNDARY = "boundary"
+_MOST_PATCHES = 1000
+
+
+@dataclass(frozen=True)
+class Division:
+    """How a boundary without named patches is divided into patches; not at all by default."""
+
+    array: str = ""
+    """Integer array on the surface cells of the file: each value is a patch."""
+    feature_angle: float | None = None
+    """Angle in degrees: patches end at edges where the boundary turns by more."""
+
+
+def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh, str]:
+    """The mesh with its boundary divided as asked, and what the user should know."""
+    mesh = build_mesh(grid, None, source=str(path))
+    if division.array:
+        labels, names = _by_array(mesh, whole, division.array, path)
+    elif division.feature_angle is not None:
+        labels = _by_angle(mesh, division.feature_angle)
+        names = [f"{BOUNDARY}{k}" for k in range(labels.max() + 1)]
+    else:
+        return mesh, " ".join(
+            ["The file names no patches: the whole boundary is one wall, named boundary.", *_crossings(mesh)]
+        )
+    if len(names) > _MOST_PATCHES:
+        raise InputError(f"{path}: the boundary falls into {len(names)} patches; at most {_MOST_PATCHES}.")
+    sizes = np.diff(mesh.face_start)[mesh.n_internal :]
+    surfaces = []
+    for label, name in enumerate(names):
+        faces = np.flatnonzero(labels == label)
+        stream = [
+            np.concatenate([[sizes[f]], mesh.face_points[slice(*mesh.face_start[mesh.n_internal + f :][:2])]])
+            for f in faces
+        ]
+        if stream:
+            surfaces.append(
+                PatchSurface(name, "wall", pyvista.PolyData(mesh.points, faces=np.concatenate(stream)))
+            )
+    exact = grid.copy()
+    exact.points = mesh.points
+    mesh = build_mesh(exact, surfaces, source=str(path))
+    return mesh, " ".join([f"The boundary is divided into {patch_names(mesh)}.", *_crossings(mesh)])
+
+
+def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[np.intp], list[str]]:
+    """The patch of each boundary face by an array on the surface cells, and the patches' names."""
+    if array not in whole.cell_data:
+        raise InputError(f"{path}: no cell array {array}. {suggestion(array, whole.cell_data.keys())}")
+    values = np.asarray(whole.cell_data[array])
+    if values.ndim != 1 or values.dtype.kind not in "iu":
+        raise InputError(f"{path}: cell array {array} is not one of whole numbers, one for each cell.")
+    flat = [kind for kind in np.unique(whole.celltypes).tolist() if pyvista.CellType(kind).dimension == 2]
+    rows = np.flatnonzero(np.isin(whole.celltypes, flat))
+    if len(rows) == 0:
+        raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")
+    names = {int(value[0]): name for name, value in _groups(whole) if int(value[1]) == 2}
+    found = {
+        frozenset(
+            map(tuple, np.asarray(whole.points, dtype=np.float64)[whole.get_cell(row).point_ids] + 0.0)
+        ): (int(values[row]))
+        for row in rows.tolist()
+    }
+    labels = np.empty(len(mesh.boundary_centres), dtype=np.intp)
+    used: dict[str, int] = {}
+    for face in range(len(labels)):
+        begin, end = mesh.face_start[mesh.n_internal + face : mesh.n_internal + face + 2]
+        corners = frozenset(map(tuple, mesh.points[mesh.face_points[begin:end]] + 0.0))
+        value = found.get(corners)
+        name = BOUNDARY if value is None else names.get(value, f"{BOUNDARY}{value}")
+        labels[face] = used.setdefault(name, len(used))
+    return labels, list(used)
+
+
+def _groups(grid: Any) -> list[tuple[str, Any]]:
+    return [
+        (str(name), grid.field_data[name])
+        for name in grid.field_data.keys()  # noqa: SIM118
+        if np.size(grid.field_data[name]) == 2
+    ]
+
+
+def _boundary_edges(mesh: Mesh) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
+    """The edges of the boundary faces, face after face: a number for each that its points give; its face."""
+    start = mesh.face_start[mesh.n_internal :].astype(np.intp)
+    sizes = np.diff(start)
+    a = mesh.face_points[start[0] :].astype(np.int64)
+    b = np.roll(a, -1)
+    b[start[1:] - start[0] - 1] = a[start[:-1] - start[0]]
+    return (np.minimum(a, b) << 32) | np.maximum(a, b), np.repeat(np.arange(len(sizes)), sizes)
+
+
+def _crossings(mesh: Mesh) -> list[str]:
+    """A warning where the boundary crosses itself, as it does about a cell that names a wrong point."""
+    edges, _ = _boundary_edges(mesh)
+    crossings = np.count_nonzero(np.unique(edges, return_counts=True)[1] > 2)
+    if not crossings:
+        return []
+    return [
+        f"At {crossings} edges more than two boundary faces meet: the domain touches itself there, or cells "
+        "name points that are not theirs."
+    ]
+
+
+def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
+    """The patch of each boundary face: faces are together across edges that turn by less than the angle."""
+    edges, face = _boundary_edges(mesh)
+    order = np.argsort(edges, kind="stable")
+    same = edges[order[1:]] == edges[order[:-1]]
+    one, other = face[order[:-1]][same], face[order[1:]][same]
+    normals = mesh.boundary_areas / np.maximum(
+        np.linalg.norm(mesh.boundary_areas, axis=1, keepdims=True), 1e-300
+    )
+    smooth = np.einsum("ei,ei->e", normals[one], normals[other]) > np.cos(np.radians(angle))
+    graph = sparse.coo_array(
+        (np.ones(np.count_nonzero(smooth), dtype=np.int8), (one[smooth], other[smooth])),
+        shape=2 * (len(mesh.boundary_centres),),
+    )
+    labels: NDArray[np.intp] = csgraph.connected_components(graph, directed=False)[1].astype(np.intp)
+    return labels
+
+
+def patch_names(mesh: Mesh) -> str:
+    """The patches by name, type and number of faces."""
+    faces = np.diff(mesh.patch_start).tolist()
+    return listed([f"{p.name} ({p.type}, {n} faces)" for p, n in zip(mesh.patches, faces, strict=True)])

@@ -1,0 +1,119 @@
+"""The flow of a case at several of its times, read as they are needed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import select_times
+from foamprb.flow.read.foamfile import existing
+from foamprb.flow.read.openfoam import PRECISION_NOTE, VelocityReader, read_case, read_fields
+from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.series import SeriesFlow
+
+_MOST_IN_MEMORY = 1 << 28
+"""Bytes up to which all times of a periodic flow stay in memory."""
+
+
+def read_series(
+    case: Path | str,
+    times: str | None = None,
+    period: float | None = None,
+    velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
+    prepare: Callable[[str], None] | None = None,
+) -> SeriesFlow | MeshFlow:
+    """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
+
+    Parameters
+    ----------
+    case
+        The case's folder.
+    times
+        As :func:`~foamprb.flow.read.times.choose_times`.
+    period
+        Duration after which the flow repeats itself, s.
+    velocity, region, gradient
+        As :func:`foamprb.flow.read.openfoam.read_case`.
+    prepare
+        Called with the name of a time directory before it is read.
+
+    Raises
+    ------
+    InputError
+        What is missing, broken or inconsistent: the case, a time, a field, the mesh or a patch; a mesh that
+        moves; times that do not fill the period.
+    """
+    case = Path(case)
+    names = select_times(case, times, region)
+    if prepare is not None:
+        prepare(names[0])
+    if len(names) == 1:
+        return read_case(case, names[0], velocity, region, gradient)
+    _refuse_moving(case, names, region)
+    mesh, *_ = read_fields(case, names[0], velocity, region)
+    reconstruct = Reconstruction(mesh)
+    reader = VelocityReader(case, names[0], velocity, region, gradient)
+
+    def read(name: str) -> tuple[Floats, Floats]:
+        if prepare is not None:
+            prepare(name)
+        return reconstruct(*reader(name))
+
+    return series_of(case, mesh, names, read, period, [PRECISION_NOTE], reader.zones)
+
+
+def series_of(
+    source: Path,
+    mesh: Mesh,
+    names: Sequence[str],
+    read: Callable[[str], tuple[Floats, Floats]],
+    period: float | None,
+    notes: Sequence[str],
+    zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+) -> SeriesFlow:
+    """Make a flow of the times of a case or a file: few of them in memory, or all of a short period.
+
+    Parameters
+    ----------
+    source
+        What it comes from, for the messages.
+    mesh
+        The mesh, of all times.
+    names
+        The names of the times, rising.
+    read
+        Gives u and l at the nodes at the time of a given name, as :class:`SeriesFlow`'s.
+    period, notes, zones
+        As :class:`SeriesFlow`'s.
+
+    Raises
+    ------
+    InputError
+        The times do not rise, or do not fill the period.
+    """
+    note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
+    note += "." if period is None else f", and repeats itself every {period:g} s."
+    a_time = 96 * (mesh.n_points + mesh.n_cells)
+    keep = _MOST_IN_MEMORY // a_time if period is not None else 0
+    times = [float(name) for name in names]
+    try:
+        return SeriesFlow(mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones)
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from None
+
+
+def _refuse_moving(case: Path, names: Sequence[str], region: str) -> None:
+    for name in names[1:]:
+        for part in ("points", "faces"):
+            path = existing(case / name / region / "polyMesh" / part)
+            if path is not None:
+                raise InputError(f"{path}: the mesh changes in time; only meshes at rest can be read.")

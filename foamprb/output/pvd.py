@@ -1,0 +1,172 @@
+"""The files of a cloud over time: one ``.vtp`` or ``.pvtp`` per time, and the ``.pvd`` that lists them."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+
+from foamprb.errors import InputError
+from foamprb.output.atomic import atomic_write, remove_unfinished
+from foamprb.output.vtk import Parts, PointCloud, write_snapshot
+
+
+def files_of(path: Path) -> tuple[Path, ...]:
+    """A cloud's file and those of its pieces, if it has any, whether they are there or not."""
+    if path.suffix != ".pvtp" or not path.exists():
+        return (path,)
+    root = ElementTree.fromstring(path.read_bytes())
+    return (path, *(path.parent / piece.attrib["Source"] for piece in root.iter("Piece")))
+
+
+class Entry(NamedTuple):
+    """One line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
+
+    time: float
+    file: str
+
+
+class Series:
+    """The files ``<name>_<index>.vtp`` of one cloud and the ``<name>.pvd`` that lists them with their times.
+
+    A cloud that several processes write is a ``.pvtp``, with pieces in a folder of the same name. At any
+    moment the ``.pvd`` on disk names whole files only.
+
+    Parameters
+    ----------
+    folder
+        Where the files are; made when the first is written.
+    name
+        The cloud's name.
+    after
+        Time, s, from which the run resumes: files of later times are removed, as they will be written anew.
+        By default the run is a new one, and all are removed. Files named like those of the series that
+        its ``.pvd`` does not list, left behind by killed runs, are removed as well.
+
+    Raises
+    ------
+    InputError
+        If there is a ``.pvd`` that cannot be read.
+    OSError
+        If the list cannot be rewritten, or old files not removed.
+    """
+
+    def __init__(self, folder: Path, name: str, *, after: float = -np.inf) -> None:
+        self.folder = folder
+        self.name = name
+        self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
+        earlier = tuple(entry for entry in self.entries if entry.time <= after)
+        if not earlier:
+            self.pvd.unlink(missing_ok=True)
+            self.entries = ()
+        elif len(earlier) < len(self.entries):
+            self._list(earlier)
+        self._remove_unlisted()
+
+    @property
+    def pvd(self) -> Path:
+        """The file that ParaView opens."""
+        return self.folder / f"{self.name}.pvd"
+
+    def append(self, cloud: PointCloud | Parts) -> Path:
+        """Write a cloud and list it.
+
+        Returns
+        -------
+        The ``.vtp`` file.
+
+        Raises
+        ------
+        ValueError
+            If the time is not later than that of the cloud before.
+        OSError
+            If a file cannot be written.
+        """
+        file = self.next(cloud.time).with_suffix(".vtp")
+        write_snapshot(file, cloud)
+        self.add(cloud.time, file)
+        return file
+
+    def next(self, time: float) -> Path:
+        """The file for the cloud of a time, s, but for its suffix.
+
+        Raises
+        ------
+        ValueError
+            If the time is not later than that of the cloud before.
+        """
+        if self.entries and not time > self.entries[-1].time:
+            raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
+        last = re.search(r"_(\d+)\.p?vtp$", self.entries[-1].file) if self.entries else None
+        index = int(last[1]) + 1 if last else len(self.entries)
+        return self.folder / f"{self.name}_{index:06d}"
+
+    def add(self, time: float, file: Path) -> None:
+        """List a file that is whole, named by :meth:`next`.
+
+        Raises
+        ------
+        OSError
+            If the list cannot be written.
+        """
+        self._list((*self.entries, Entry(float(time), file.name)))
+
+    def _remove_unlisted(self) -> None:
+        """Remove the files that the list does not name, and those that killed processes were writing."""
+        listed = {entry.file for entry in self.entries}
+        own = re.compile(re.escape(self.name) + r"_\d{6,}(\.p?vtp)?")
+        for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
+            if not own.fullmatch(file.name) or file.name in listed:
+                continue
+            if file.suffix:
+                file.unlink(missing_ok=True)
+            elif f"{file.name}.pvtp" not in listed:
+                shutil.rmtree(file)
+        remove_unfinished(self.folder)
+
+    def _list(self, entries: tuple[Entry, ...]) -> None:
+        with atomic_write(self.pvd) as temporary:
+            temporary.write_text(_pvd_text(entries), encoding="utf-8")
+        self.entries = entries
+
+
+def read_pvd(path: Path) -> tuple[Entry, ...]:
+    """Read the times and files that a ``.pvd`` lists.
+
+    Returns
+    -------
+    The entries in order of time.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not such a list, or names a file outside its own folder.
+    """
+    try:
+        root = ElementTree.fromstring(path.read_bytes())
+        entries = [Entry(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
+    except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
+        raise InputError(
+            f"{path}: not a readable list of VTK files ({error}). Remove it to begin anew."
+        ) from error
+    for entry in entries:
+        if Path(entry.file).name != entry.file or not entry.file.endswith((".vtp", ".pvtp")):
+            raise InputError(
+                f"{path}: names '{entry.file}', which is not a .vtp or .pvtp file in its own folder."
+            )
+    return tuple(sorted(entries))
+
+
+def _pvd_text(entries: Sequence[Entry]) -> str:
+    lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
+    return (
+        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
+        f"{''.join(lines)}"
+        "  </Collection>\n</VTKFile>\n"
+    )
