@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.read.field import require_lists
-from foamprb.flow.read.foamfile import existing, header, read_cell_zones
+from foamprb.flow.read.field import Kind
+from foamprb.flow.read.foamfile import header, read_cell_zones
 from foamprb.flow.read.times import choose_times, listed, pick_time
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
@@ -93,15 +94,14 @@ def mesh_folder(case: Path, time: str | None, region: str) -> Path:
     return folder
 
 
-def field_path(folder: Path, field: str, wanted: str = "volVectorField", meaning: str = "a velocity") -> Path:
-    """The file of a field in a time directory; InputError if it is missing, broken, or of another class."""
+def field_path(folder: Path, field: str, kind: Kind) -> Path:
+    """The file of a field in a time directory; InputError if it is missing or of another class."""
     path = existing(folder / field)
     if path is None:
         raise InputError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
-    kind = header(path).get("class", "(none)")
-    if kind != wanted:
-        raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
-    require_lists(path)
+    found = header(path).get("class", "(none)")
+    if found != kind.name:
+        raise InputError(f"{path}: the class is {found}, but {kind.meaning} is a {kind.name}.")
     return path
 
 

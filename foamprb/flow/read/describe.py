@@ -78,7 +78,7 @@ def describe(case: Path, region: str = "") -> CaseInfo:
     folder = mesh_folder(case, names[-1] if names else None, region)
     patches = read_boundary(folder / "boundary", case)
     require_labels(folder, noted_counts(folder))
-    blocks, messages = read_blocks(case, names[-1] if names else None, (), region, patches=False)
+    blocks, messages = read_blocks(case, names[-1] if names else None, region, patches=False)
     raise_first_error(case, messages)
     grid = blocks["internalMesh"]
     kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -69,11 +69,11 @@ def vtk_messages() -> Iterator[Messages]:
 
 
 def read_blocks(
-    case: Path, time: str | None, fields: Sequence[str], region: str, *, patches: bool
+    case: Path, time: str | None, region: str, *, patches: bool
 ) -> tuple[dict[str, Any], Messages]:
-    """The reader's blocks by name, ``internalMesh`` and the patches; and VTK's messages."""
+    """The reader's blocks by name, ``internalMesh`` and the patches, without fields; and VTK's messages."""
     with vtk_messages() as messages:
-        blocks = update(open_reader(case, fields, region, patches=patches), time)
+        blocks = _update(_open(case, region, patches=patches), time)
     grid = blocks.get("internalMesh")
     if grid is None or grid.n_cells == 0:
         raise_first_error(case, messages)
@@ -84,8 +84,8 @@ def read_blocks(
     return blocks, messages
 
 
-def open_reader(case: Path, fields: Sequence[str], region: str, *, patches: bool) -> Any:
-    """VTK's reader of the mesh, of some fields, and of the patches."""
+def _open(case: Path, region: str, *, patches: bool) -> Any:
+    """VTK's reader of the mesh and the patches."""
     reader = vtkOpenFOAMReader()
     # The name only tells the folder; the file need not be there.
     reader.SetFileName(str(case.resolve() / "case.foam"))
@@ -96,8 +96,6 @@ def open_reader(case: Path, fields: Sequence[str], region: str, *, patches: bool
     reader.DisableAllCellArrays()
     reader.DisableAllPointArrays()
     reader.DisableAllLagrangianArrays()
-    for field in fields:
-        reader.SetCellArrayStatus(field, 1)
     for index in range(reader.GetNumberOfPatchArrays()):
         part = reader.GetPatchArrayName(index)
         of_region = f"/{region}/" if region else ""
@@ -109,7 +107,7 @@ def open_reader(case: Path, fields: Sequence[str], region: str, *, patches: bool
     return reader
 
 
-def update(reader: Any, time: str | None) -> dict[str, Any]:
+def _update(reader: Any, time: str | None) -> dict[str, Any]:
     """The reader's blocks by name at a time."""
     if time is None:
         reader.Update()
