@@ -58,7 +58,7 @@ class TestCellZone:
         cells = np.flatnonzero((mesh.centres[:, 0] > 0.1) & (mesh.centres[:, 1] > 0.0))
         flow = with_zones(pipe_flow, {"part": cells})
         volumes = mesh.volumes[cells]
-        model = CellZoneInjection("part", numberDensity=8000.0 / volumes.sum(), SOI=0.25)
+        model = CellZoneInjection(cellZone="part", numberDensity=8000.0 / volumes.sum(), SOI=0.25)
         p = release(model, flow, rng(), no_file)
         assert p.size == 8000
         np.testing.assert_array_equal(p.t0, 0.25)
@@ -72,27 +72,44 @@ class TestCellZone:
             np.abs(p.x.mean(axis=0) - centroid), 4.0 * p.x.std(axis=0) / np.sqrt(8000)
         )
 
+    def test_all_cells_are_a_zone_of_all(self, pipe_flow, monkeypatch):
+        monkeypatch.setattr("foamprb.flow.meshflow._AT_ONCE", 1000)
+        mesh = pipe_flow.mesh
+        flow = with_zones(pipe_flow, {"all": np.arange(mesh.n_cells)})
+        density = 5000.0 / mesh.volumes.sum()
+        whole = release(CellZoneInjection(density, selectionMode="all"), flow, rng(), no_file)
+        zone = release(CellZoneInjection(density, "all"), flow, rng(), no_file)
+        assert whole.size == 5000
+        for one, other in zip(whole, zone, strict=True):
+            np.testing.assert_array_equal(one, other)
+        counts = np.bincount(flow.cell_of(whole.host), minlength=mesh.n_cells)
+        assert np.abs(counts - mesh.volumes * density).max() < 2.0
+
     def test_velocity_is_the_fluids_or_the_users(self, pipe_flow):
         flow = with_zones(pipe_flow, {"all": np.arange(pipe_flow.mesh.n_cells)})
         density = 100.0 / pipe_flow.mesh.volumes.sum()
-        free = release(CellZoneInjection("all", density), flow, rng(), no_file)
+        free = release(CellZoneInjection(cellZone="all", numberDensity=density), flow, rng(), no_file)
         # That of the fluid when and where they appear.
         assert np.isnan(free.v).all()
-        given_velocity = release(CellZoneInjection("all", density, U0=(1.0, 2.0, 3.0)), flow, rng(), no_file)
+        given_velocity = release(
+            CellZoneInjection(cellZone="all", numberDensity=density, U0=(1.0, 2.0, 3.0)), flow, rng(), no_file
+        )
         np.testing.assert_array_equal(given_velocity.v, np.tile([1.0, 2.0, 3.0], (100, 1)))
 
     def test_mistakes(self, pipe_flow):
         flow = with_zones(pipe_flow, {"part": np.arange(3), "none": np.arange(0), "far": np.array([10**6])})
         with pytest.raises(InputError, match=r"prt is not in the mesh\. Did you mean 'part'"):
-            release(CellZoneInjection("prt", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="prt", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="gives no particle"):
-            release(CellZoneInjection("part", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="part", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="gives no particle"):
-            release(CellZoneInjection("none", 1e30), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="none", numberDensity=1e30), flow, rng(), no_file)
         with pytest.raises(InputError, match="names cells beyond"):
-            release(CellZoneInjection("far", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="far", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="a flow in closed form has no cells"):
-            release(CellZoneInjection("part", 1.0), analytic.pipe(1.0, 1.0), rng(), no_file)
+            release(CellZoneInjection(1.0, "part"), analytic.pipe(1.0, 1.0), rng(), no_file)
+        with pytest.raises(InputError, match="all cells: a flow in closed form has no cells"):
+            release(CellZoneInjection(1.0, selectionMode="all"), analytic.pipe(1.0, 1.0), rng(), no_file)
 
     def test_a_cases_zones_are_found(self, tmp_path):
         case = tmp_path / "pipe"
@@ -214,7 +231,7 @@ class TestRoom:
             ),
             (PatchInjection("inlet", 1e200, 1e200), "gives inf particles, which need about inf TB"),
             (
-                CellZoneInjection("all", 1e30),
+                CellZoneInjection(cellZone="all", numberDensity=1e30),
                 "cellZoneInjection in all: numberDensity 1e[+]30 .* gives .* particles, which need about",
             ),
             (
