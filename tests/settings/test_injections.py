@@ -147,7 +147,20 @@ CONE = (
 def test_cell_zone_injection(read: Reader) -> None:
     zone = "cellZoneInjection; cellZone drop; numberDensity 1e9; U0 (0 0 1); SOI 0.25;"
     model = read((PATCH_INJECTION, zone)).injections[0].model
-    assert model == CellZoneInjection("drop", 1e9, U0=(0.0, 0.0, 1.0), SOI=0.25)
+    assert model == CellZoneInjection(cellZone="drop", numberDensity=1e9, U0=(0.0, 0.0, 1.0), SOI=0.25)
+
+
+def test_injection_into_all_cells(read: Reader) -> None:
+    zone = "cellZoneInjection; selectionMode all; numberDensity 1e9;"
+    model = read((PATCH_INJECTION, zone)).injections[0].model
+    assert model == CellZoneInjection(1e9, selectionMode="all")
+    with pytest.raises(InputError, match=r"inlet has the cellZone drop, but selectionMode all\."):
+        read((PATCH_INJECTION, f"{zone} cellZone drop;"))
+    for wrong in (zone.replace("selectionMode all; ", ""), zone.replace("all", "cellZone")):
+        with pytest.raises(InputError, match=r"inlet has no cellZone\. Allowed: the name of a zone, or sel"):
+            read((PATCH_INJECTION, wrong))
+    with pytest.raises(InputError, match=r"selectionMode is 'cells'\. Did you mean 'cellZone'"):
+        read((PATCH_INJECTION, zone.replace("all", "cells")))
 
 
 def test_cone_injection(read: Reader) -> None:

@@ -9,7 +9,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -144,12 +144,22 @@ class PatchInjection:
 
 @dataclass(frozen=True)
 class CellZoneInjection:
-    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``."""
+    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``.
 
-    cellZone: str
+    With ``selectionMode all``, a word of OpenFOAM's fvOptions, over all cells.
+    """
+
     numberDensity: Annotated[float, Positive]
+    cellZone: str = ""
+    selectionMode: Literal["cellZone", "all"] = "cellZone"
     U0: Vector3 | None = None
     SOI: Annotated[float, NonNegative] = 0.0
+
+    def __post_init__(self) -> None:
+        if self.selectionMode == "all" and self.cellZone:
+            raise InputError(f"has the cellZone {self.cellZone}, but selectionMode all")
+        if self.selectionMode == "cellZone" and not self.cellZone:
+            raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
     def places(
         self,
@@ -164,22 +174,23 @@ class CellZoneInjection:
         InputError
             If there is no such zone, or its volume asks for no particle.
         """
-        zone = flow.cell_zone(self.cellZone)
+        zone = flow.cell_zone(self.cellZone or None)
         # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
         volumes = np.maximum(zone.volumes, 0.0)
         total = np.cumsum(volumes)
         volume = float(total[-1]) if len(total) else 0.0
         n = require_room(
             self.numberDensity * volume,
-            f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
-            f"volume {volume:g} m3 of {len(volumes)} tetrahedra",
+            f"cellZoneInjection in {self.cellZone or 'all cells'}: numberDensity {self.numberDensity:g} 1/m3 "
+            f"times the volume {volume:g} m3 of {len(volumes)} tetrahedra",
         )
         # One random number for each n-th part of the volume, counted along the cells.
         sought = (np.arange(n) + random.random(n)) / n * total[-1]
         chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
         weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
-        x = np.einsum("nv,nvi->ni", weights, zone.vertices[chosen])
-        return Places(x, zone.hosts[chosen], np.full(n, self.SOI), self.U0)
+        hosts = zone.hosts[chosen]
+        x = np.einsum("nv,nvi->ni", weights, zone.vertices(hosts))
+        return Places(x, hosts, np.full(n, self.SOI), self.U0)
 
 
 @dataclass(frozen=True)

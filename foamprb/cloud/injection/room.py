@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 import os
 import resource
-from pathlib import Path
 
 import numpy as np
 
 from foamprb.cloud.state import VARIABLES
 from foamprb.errors import InputError
 
-__all__ = ["BYTES", "free_memory", "require_room"]
+__all__ = ["BYTES", "memory", "require_room"]
 
 BYTES = 2 * sum(math.prod(v.shape) * np.dtype(v.dtype).itemsize for v in VARIABLES.values())
 """Memory that a run needs for each particle: its state, and that of the last write time."""
@@ -31,13 +30,13 @@ def require_room(number: float, what: str) -> int:
     Raises
     ------
     InputError
-        If it is none, or if there is not enough memory: how many they are, what they need and what is free.
+        If it is none, or if there is not enough memory: how many they are, what they need, what there is.
     """
-    need, free = number * BYTES, free_memory()
-    if not need < free:
+    need, there = number * BYTES, memory()
+    if not need < there:
         raise InputError(
-            f"{what} gives {number:.3g} particles, which need about {_spoken(need)} of memory; "
-            f"{_spoken(free)} are free."
+            f"{what} gives {number:.3g} particles, which need about {_spoken(need)} of memory; there are "
+            f"{_spoken(there)}."
         )
     n = round(number)
     if n == 0:
@@ -45,18 +44,13 @@ def require_room(number: float, what: str) -> int:
     return n
 
 
-def free_memory() -> float:
-    """Return the memory that this process can still get, bytes; infinite if the system does not say."""
-    found = [math.inf]
-    try:
-        lines = Path("/proc/meminfo").read_text().splitlines()
-        found += [1024.0 * int(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
-        in_use = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-    except (OSError, ValueError, IndexError):
-        return min(found)
-    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
-    if limit != resource.RLIM_INFINITY:
-        found.append(max(0.0, limit - in_use))
+def memory() -> float:
+    """Return the memory of this machine, or of this process if it is limited, bytes."""
+    found = [float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))]
+    for kind in (resource.RLIMIT_AS, resource.RLIMIT_DATA):
+        limit, _ = resource.getrlimit(kind)
+        if limit != resource.RLIM_INFINITY:
+            found.append(float(limit))
     return min(found)
 
 
