@@ -25,6 +25,12 @@ class RankError(Exception):
         return RankError, (str(self), self.trace)
 
 
+def closest(found: str, allowed: Iterable[str]) -> str | None:
+    """Return which of the allowed words was probably meant, None if none is close."""
+    close = difflib.get_close_matches(found, sorted(allowed), n=1, cutoff=0.6)
+    return close[0] if close else None
+
+
 def suggestion(found: str, allowed: Iterable[str]) -> str:
     """Say what is allowed, and which of it was probably meant.
 
@@ -33,6 +39,6 @@ def suggestion(found: str, allowed: Iterable[str]) -> str:
     ``"Did you mean 'x'? Allowed: a, x, z."``, without the question when nothing is close.
     """
     names = sorted(allowed)
-    close = difflib.get_close_matches(found, names, n=1, cutoff=0.6)
-    question = f"Did you mean '{close[0]}'? " if close else ""
+    meant = closest(found, names)
+    question = f"Did you mean '{meant}'? " if meant else ""
     return f"{question}Allowed: {', '.join(names) if names else '(nothing)'}."

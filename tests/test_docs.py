@@ -9,6 +9,7 @@ import pytest
 from paths import ROOT
 
 from foamprb.body.material import MATERIALS
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.validation.registry import CASES
 
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
@@ -36,7 +37,15 @@ def test_pages_of_models_name_the_cases_that_check_them(page):
     text = page.read_text().partition("**Checked by**")[2].partition("\n\n")[0]
     named = set(re.findall(r"`([A-Za-z]+)`", text))
     assert named & set(CASES)
-    assert named <= {*CASES, "solve_ivp", "stokes", "rosenbrock", "paper"}
+    assert named <= {*CASES, *INTEGRATORS, "solve_ivp"}
+
+
+def test_page_of_integrators_lists_those_that_there_are():
+    """With whether the solid has inertia, and the order."""
+    page = (ROOT / "docs" / "integrators.md").read_text()
+    listed = re.findall(r"^\| `(\w+)` \| (yes|no) \| (\d) \|", page, re.MULTILINE)
+    assert listed == [(i.name, "yes" if i.inertia else "no", str(i.order)) for i in INTEGRATORS.values()]
+    assert all(f"`{name}`" in (ROOT / "docs" / "settings.md").read_text() for name in INTEGRATORS)
 
 
 def test_example_of_a_solid_runs(monkeypatch):

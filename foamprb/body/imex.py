@@ -42,21 +42,6 @@ _TINY = 1e-300
 RELATIVE_TOLERANCE = 1e-12
 """Largest estimated relative error of F that a step may leave."""
 
-INTEGRATORS: dict[str, str] = {
-    "paper": "implicit-explicit Euler of the paper's Sect. 4, first order, stable below 1.5 τ_s",
-    "rosenbrock": "with inertia, second order, implicit in elasticity and traction",
-    "stokes": "without inertia, second order, exactly incompressible",
-}
-"""The integrators of the shape, and what each is."""
-
-SMALL_STOKES = 0.01
-"""Shape Stokes number γ̇ τ_s below which the solid's inertia is left out unless the user asks for it."""
-
-
-def automatic(stokes_number: float) -> str:
-    """Name of the integrator for a shape Stokes number γ̇ τ_s: ``stokes`` where it is small."""
-    return "stokes" if stokes_number < SMALL_STOKES else "rosenbrock"
-
 
 class Newton(NamedTuple):
     """Newton's equation of one iterate: X B + κ S Xᵀ − κ tr(X) D = r."""
@@ -79,10 +64,6 @@ def relaxation_time(rho: Scalar, R: Scalar, mu_f: Scalar, eta: Scalar = 0.0) -> 
     ``eta`` is the viscosity of the solid, Pa s.
     """
     return rho * R * R / (15.0 * mu_f + 10.0 * eta)
-
-
-STABLE_STEPS = 1.5
-"""The step is stable for Δt below about this many τ_s for a sphere, less for an elongated body."""
 
 
 def equation(

@@ -1,12 +1,12 @@
 """A block of particles: :data:`LANES` of them side by side, one row of numbers per component.
 
-What every integrator does with a block is here: its layout, filling and emptying it, and the particle frame
-with Jeffery's integrals of each lane.
+What every integrator does with a block is here: its rows (:class:`Rows`), filling and emptying it, and the
+particle frame with Jeffery's integrals of each lane.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -20,24 +20,62 @@ from foamprb.body.tensor import (
     select,
     stretches_in_frame,
 )
+from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
 from foamprb.cloud.state import Particles, Reason
-
-LANES = 32
-"""On a CUDA device, where each thread has a block of its own, 1 is bound in its place."""
 
 LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
 
-# First row of each quantity in a block; a row holds one component of every lane.
-AT_X, AT_V, AT_F, AT_A, AT_Q, AT_STRETCH = 0, 3, 6, 15, 24, 33
-AT_INTEGRALS = 36
-AT_U, AT_L, AT_STRESS, AT_PREDICTOR = 46, 49, 58, 67
-AT_NEW_V, AT_NEW_F, AT_NEW_A = 76, 79, 88
-AT_R, AT_RHO, AT_MU, AT_LAME, AT_DT, AT_ERROR, AT_J = 97, 98, 99, 100, 101, 102, 103
-AT_NEW_X, AT_K = 104, 107
-AT_M, AT_ETA, AT_TENSION, AT_DUDT = 108, 117, 118, 119
-AT_FRAME, AT_SKEWNESS, AT_MOVING, AT_VERDICT, AT_RENEWED = 122, 131, 132, 133, 134
-AT_T, AT_T0, AT_SIZE, AT_F0, AT_CLEARANCE, AT_MIRRORED = 135, 136, 137, 138, 147, 148
-ROWS = 149
+
+class Rows(NamedTuple):
+    """The rows that the block of every integrator has."""
+
+    x: Annotated[int, Row(3, "m", "position of the barycentre", of="x", saved=True)]
+    v: Annotated[int, Row(3, "m/s", "velocity of the barycentre", of="v", saved=True)]
+    F: Annotated[int, Row(9, "1", "deformation gradient", IDENTITY, of="F", saved=True)]
+    A: Annotated[int, Row(9, "1/s", "material velocity gradient dF/dt", of="A", saved=True)]
+    Q: Annotated[int, Row(9, "1", "particle frame of new_F, axes as rows")]
+    stretch: Annotated[int, Row(3, "1", "stretches of new_F along the axes of Q")]
+    skewness: Annotated[int, Row(1, "1", "how far Q is from the axes of new_F: (b_ac/(λ_a λ_c))²")]
+    alpha: Annotated[int, Row(3, "1", "Jeffery's α₀, β₀, γ₀ of the stretches")]
+    ring: Annotated[int, Row(3, "1", "Jeffery's α₀°, β₀°, γ₀° of the stretches")]
+    star: Annotated[int, Row(3, "1", "Jeffery's α₀*, β₀*, γ₀* of the stretches")]
+    chi: Annotated[int, Row(1, "1", "χ of the stretches")]
+    u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the barycentre")]
+    l: Annotated[int, Row(9, "1/s", "velocity gradient ∂u_i/∂x_j of the fluid there")]
+    DuDt: Annotated[int, Row(3, "m/s2", "acceleration of the fluid there, ∂u/∂t + l·u")]
+    stress: Annotated[int, Row(9, "Pa", "σ̃* less the viscous stress of the solid, in the frame Q")]
+    predictor: Annotated[int, Row(9, "1", "Newton's first iterate Q·(F + Δt A)")]
+    new_x: Annotated[int, Row(3, "m", "x at the end of the step, if no wall is met")]
+    new_v: Annotated[int, Row(3, "m/s", "v at the end of the step")]
+    new_F: Annotated[int, Row(9, "1", "F at the end of the step, or of the stage", IDENTITY, of="F")]
+    new_A: Annotated[int, Row(9, "1/s", "A at the end of the step")]
+    J: Annotated[int, Row(1, "1", "volume ratio det F at the end of the step")]
+    error: Annotated[int, Row(1, "1", "estimated error of the step")]
+    R: Annotated[int, Row(1, "m", "radius at rest, of the sphere of the same volume", 1.0, of="R")]
+    rho: Annotated[int, Row(1, "kg/m3", "density at rest", 1.0, of="rho")]
+    mu: Annotated[int, Row(1, "Pa", "shear modulus of the solid", 1.0, of="mu")]
+    lame: Annotated[int, Row(1, "Pa", "Lame's first parameter of the solid", 1.0, of="lame")]
+    k: Annotated[int, Row(1, "1", "third parameter of the solid, if it has one", 1.0, of="k")]
+    eta: Annotated[int, Row(1, "Pa s", "viscosity of the solid", of="eta")]
+    tension: Annotated[int, Row(1, "Pa", "surface tension over the radius, γ/R")]
+    F0: Annotated[int, Row(9, "1", "F at rest, from that sphere", of="F0", saved="mirrored")]
+    M: Annotated[int, Row(9, "1", "shape at rest, (F₀ F₀)⁻¹", IDENTITY)]
+    mirrored: Annotated[int, Row(1, "", "1 where F0 has changed, else 0")]
+    frame: Annotated[int, Row(9, "1", "particle frame of F, axes as rows", IDENTITY, of="Q", saved=True)]
+    renewed: Annotated[int, Row(1, "", "1 where F and its frame are new or turned since the last step")]
+    t0: Annotated[int, Row(1, "s", "time of injection", of="t0")]
+    t: Annotated[int, Row(1, "s", "time to which the particle has come", of="t", saved=True)]
+    h: Annotated[int, Row(1, "s", "time step that the error allows", of="h", saved=True)]
+    dt: Annotated[int, Row(1, "s", "time step that is being taken")]
+    moving: Annotated[int, Row(1, "", "1 where a step is being taken, else 0")]
+    verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
+    clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall")]
+
+
+at = offsets(Rows)
+"""The number of the first row of each quantity."""
+ROWS = end(at)
+idle, load_rows, save_rows = layout(at)[1:]
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -46,7 +84,7 @@ _MIN_J, _MAX_J = 0.125, 8.0
 
 
 class Medium(NamedTuple):
-    """The fluid around the particles, and the forces by which it acts on a barycentre beside drag."""
+    """The fluid around the particles, and gravity."""
 
     mu: float
     """Pa s."""
@@ -54,10 +92,8 @@ class Medium(NamedTuple):
     """kg/m³."""
     gravity: Vector
     """m/s²."""
-    pressure_gradient: float = 0.0
-    """1 with the force of the undisturbed flow's pressure gradient, else 0."""
-    virtual_mass: float = 0.0
-    """Coefficient of the virtual mass force; ½ for a sphere."""
+    coefficients: Any = ()
+    """Of the forces on the barycentre: the loop's, which a cloud fills in from its models."""
 
 
 class Scratch(NamedTuple):
@@ -118,19 +154,19 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
 
 def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
     """Put the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u into lane i."""
-    store3(block, AT_U, i, u)
-    store9(block, AT_L, i, l_f)
+    store3(block, at.u, i, u)
+    store9(block, at.l, i, l_f)
     c = dot_vector(l_f, u)
-    store3(block, AT_DUDT, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
+    store3(block, at.DuDt, i, (u_t[0] + c[0], u_t[1] + c[1], u_t[2] + c[2]))
 
 
 def load_integrals(block: Any, i: int) -> Integrals:
     """Jeffery's integrals of lane i."""
     return Integrals(
-        load3(block, AT_INTEGRALS, i),
-        load3(block, AT_INTEGRALS + 3, i),
-        load3(block, AT_INTEGRALS + 6, i),
-        block[(AT_INTEGRALS + 9) * LANES + i],
+        load3(block, at.alpha, i),
+        load3(block, at.ring, i),
+        load3(block, at.star, i),
+        block[at.chi * LANES + i],
     )
 
 
@@ -144,7 +180,7 @@ def new_frames(block: Any) -> None:
 def resume_frames(block: Any) -> None:
     """Particle frames and stretches as they were when the block's particles were last saved."""
     for i in range(LANES):
-        store9(block, AT_Q, i, load9(block, AT_FRAME, i))
+        store9(block, at.Q, i, load9(block, at.frame, i))
     # One compiled stage serves both: elsewhere the compiler may contract sums in another way.
     stretch_stage(block)
     # For a particle that never moved, or whose F somebody set.
@@ -155,11 +191,11 @@ def renew_frames(block: Any) -> None:
     """As :func:`resume_frames`, of lanes whose state was put there or turned since the last step."""
     found = 0
     for i in range(LANES):
-        if block[AT_RENEWED * LANES + i] > 0.0:
-            block[AT_RENEWED * LANES + i] = 0.0
+        if block[at.renewed * LANES + i] > 0.0:
+            block[at.renewed * LANES + i] = 0.0
             found += 1
-            store9(block, AT_Q, i, load9(block, AT_FRAME, i))
-            store9(block, AT_NEW_F, i, load9(block, AT_F, i))
+            store9(block, at.Q, i, load9(block, at.frame, i))
+            store9(block, at.new_F, i, load9(block, at.F, i))
     if found:
         stretch_stage(block)
         straighten(block, _STORED_SKEWNESS)
@@ -169,15 +205,15 @@ def renew_frames(block: Any) -> None:
 def frame_stage(block: Any) -> None:
     """Particle frame of the new deformation gradient, from the frame of the last one."""
     for i in range(LANES):
-        store9(block, AT_Q, i, refined_frame(load9(block, AT_NEW_F, i), load9(block, AT_FRAME, i)))
+        store9(block, at.Q, i, refined_frame(load9(block, at.new_F, i), load9(block, at.frame, i)))
 
 
 def stretch_stage(block: Any) -> None:
     """Stretches of the new deformation gradient along its frame, and how skew that still is."""
     for i in range(LANES):
-        stretches, skewness = stretches_in_frame(load9(block, AT_NEW_F, i), load9(block, AT_Q, i))
-        store3(block, AT_STRETCH, i, stretches)
-        block[AT_SKEWNESS * LANES + i] = skewness
+        stretches, skewness = stretches_in_frame(load9(block, at.new_F, i), load9(block, at.Q, i))
+        store3(block, at.stretch, i, stretches)
+        block[at.skewness * LANES + i] = skewness
 
 
 def straighten(block: Any, allowed: float) -> None:
@@ -185,7 +221,7 @@ def straighten(block: Any, allowed: float) -> None:
     for _ in range(_MOST_REPEATS):
         found = 0
         for i in range(LANES):
-            if block[AT_SKEWNESS * LANES + i] > allowed:
+            if block[at.skewness * LANES + i] > allowed:
                 found += 1
         if found == 0:
             break
@@ -196,32 +232,32 @@ def straighten(block: Any, allowed: float) -> None:
 def straighten_stage(block: Any, allowed: float) -> None:
     """Refine those frames, and no others, that are more skew than is allowed."""
     for i in range(LANES):
-        Q = load9(block, AT_Q, i)
-        refined = refined_frame(load9(block, AT_NEW_F, i), Q)
-        store9(block, AT_Q, i, choose(block[AT_SKEWNESS * LANES + i] > allowed, refined, Q))
+        Q = load9(block, at.Q, i)
+        refined = refined_frame(load9(block, at.new_F, i), Q)
+        store9(block, at.Q, i, choose(block[at.skewness * LANES + i] > allowed, refined, Q))
 
 
 def accept_stage(block: Any, tolerance: float) -> None:
     """Judge the new shapes and velocities, and take over those that are sound, of the lanes that move."""
     for i in range(LANES):
-        F, A, v = load9(block, AT_NEW_F, i), load9(block, AT_NEW_A, i), load3(block, AT_NEW_V, i)
+        F, A, v = load9(block, at.new_F, i), load9(block, at.new_A, i), load3(block, at.new_v, i)
         total = (
             (v[0] + v[1] + v[2] + F[0] + F[1] + F[2] + F[3] + F[4] + F[5] + F[6] + F[7] + F[8])
             + (A[0] + A[1] + A[2] + A[3] + A[4] + A[5] + A[6] + A[7] + A[8])
         )  # fmt: skip
-        J = block[AT_J * LANES + i]
-        verdict = select(block[AT_ERROR * LANES + i] <= tolerance, 0.0, float(NOT_CONVERGED))
+        J = block[at.J * LANES + i]
+        verdict = select(block[at.error * LANES + i] <= tolerance, 0.0, float(NOT_CONVERGED))
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
-        block[AT_VERDICT * LANES + i] = verdict
-        sound = (verdict == 0.0) & (block[AT_MOVING * LANES + i] > 0.0)
-        store9(block, AT_F, i, choose(sound, F, load9(block, AT_F, i)))
-        store9(block, AT_A, i, choose(sound, A, load9(block, AT_A, i)))
-        store9(block, AT_FRAME, i, choose(sound, load9(block, AT_Q, i), load9(block, AT_FRAME, i)))
-        w = load3(block, AT_V, i)
+        block[at.verdict * LANES + i] = verdict
+        sound = (verdict == 0.0) & (block[at.moving * LANES + i] > 0.0)
+        store9(block, at.F, i, choose(sound, F, load9(block, at.F, i)))
+        store9(block, at.A, i, choose(sound, A, load9(block, at.A, i)))
+        store9(block, at.frame, i, choose(sound, load9(block, at.Q, i), load9(block, at.frame, i)))
+        w = load3(block, at.v, i)
         store3(
             block,
-            AT_V,
+            at.v,
             i,
             (select(sound, v[0], w[0]), select(sound, v[1], w[1]), select(sound, v[2], w[2])),
         )
@@ -239,90 +275,39 @@ def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
 def integrals_stage(block: Any) -> None:
     """Jeffery's integrals of the stretches."""
     for i in range(LANES):
-        g = integrals(load3(block, AT_STRETCH, i))
-        store3(block, AT_INTEGRALS, i, g.alpha)
-        store3(block, AT_INTEGRALS + 3, i, g.ring)
-        store3(block, AT_INTEGRALS + 6, i, g.star)
-        block[(AT_INTEGRALS + 9) * LANES + i] = g.chi
+        g = integrals(load3(block, at.stretch, i))
+        store3(block, at.alpha, i, g.alpha)
+        store3(block, at.ring, i, g.ring)
+        store3(block, at.star, i, g.star)
+        block[at.chi * LANES + i] = g.chi
 
 
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
-    block = s.block
     s.status[i], s.host[i] = p.status[k], p.host[k]
     # None of those that are loaded has ended.
     s.reason[i], s.patch[i] = 0, -1
-    block[AT_T * LANES + i] = p.t[k]
-    block[AT_T0 * LANES + i] = p.t0[k]
-    block[AT_SIZE * LANES + i] = p.h[k]
-    for c in range(3):
-        block[(AT_X + c) * LANES + i] = p.x[k, c]
-        block[(AT_V + c) * LANES + i] = p.v[k, c]
-    for c in range(9):
-        block[(AT_F + c) * LANES + i] = p.F[k, c]
-        block[(AT_NEW_F + c) * LANES + i] = p.F[k, c]
-        block[(AT_A + c) * LANES + i] = p.A[k, c]
-        block[(AT_FRAME + c) * LANES + i] = p.Q[k, c]
-    block[AT_R * LANES + i] = p.R[k]
-    block[AT_RHO * LANES + i] = p.rho[k]
-    block[AT_MU * LANES + i] = p.mu[k]
-    block[AT_LAME * LANES + i] = p.lame[k]
-    block[AT_K * LANES + i] = p.k[k]
-    block[AT_ETA * LANES + i] = p.eta[k]
-    block[AT_TENSION * LANES + i] = p.gamma[k] / p.R[k]
-    F0 = (
-        p.F0[k, 0], p.F0[k, 1], p.F0[k, 2],
-        p.F0[k, 3], p.F0[k, 4], p.F0[k, 5],
-        p.F0[k, 6], p.F0[k, 7], p.F0[k, 8],
-    )  # fmt: skip
-    store9(block, AT_F0, i, F0)
-    store9(block, AT_M, i, metric_at_rest(F0))
-    block[AT_CLEARANCE * LANES + i] = np.inf
+    load_rows(p, k, s.block, i)
+    s.block[at.tension * LANES + i] = p.gamma[k] / p.R[k]
+    store9(s.block, at.M, i, metric_at_rest(load9(s.block, at.F0, i)))
+    s.block[at.clearance * LANES + i] = np.inf
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy the state in lane i back to particle k of the cloud."""
-    block = s.block
     p.host[k] = s.host[i]
     # What seldom changes is left alone: each line of memory that is not written to is time won.
     if p.status[k] != s.status[i]:
         p.status[k], p.reason[k], p.patch[k] = s.status[i], s.reason[i], s.patch[i]
-    p.t[k] = block[AT_T * LANES + i]
-    p.h[k] = block[AT_SIZE * LANES + i]
-    for c in range(3):
-        p.x[k, c] = block[(AT_X + c) * LANES + i]
-        p.v[k, c] = block[(AT_V + c) * LANES + i]
-    for c in range(9):
-        p.F[k, c] = block[(AT_F + c) * LANES + i]
-        p.A[k, c] = block[(AT_A + c) * LANES + i]
-        p.Q[k, c] = block[(AT_FRAME + c) * LANES + i]
-    if block[AT_MIRRORED * LANES + i] > 0.0:
-        for c in range(9):
-            p.F0[k, c] = block[(AT_F0 + c) * LANES + i]
+    save_rows(p, k, s.block, i)
 
 
-def idle(block: Any, i: int, dt: float) -> None:
-    """Fill a lane that has no particle with a sphere at rest, so that its numbers stay finite."""
-    for row in range(ROWS):
-        block[row * LANES + i] = 0.0
-    for c in (
-        AT_F,
-        AT_F + 4,
-        AT_F + 8,
-        AT_NEW_F,
-        AT_NEW_F + 4,
-        AT_NEW_F + 8,
-        AT_M,
-        AT_M + 4,
-        AT_M + 8,
-        AT_FRAME,
-        AT_FRAME + 4,
-        AT_FRAME + 8,
-        AT_R,
-        AT_RHO,
-        AT_MU,
-        AT_LAME,
-        AT_K,
-    ):
-        block[c * LANES + i] = 1.0
-    block[AT_DT * LANES + i] = dt
+def idle_lanes(block: Any, dt: float) -> None:
+    """Fill every lane with a sphere at rest, which takes steps of Δt."""
+    idle(block)
+    for i in range(LANES):
+        block[at.dt * LANES + i] = dt
+
+
+BLOCK_STAGES = (frame_stage, stretch_stage, straighten_stage, integrals_stage, accept_stage)
+"""The stages that every integrator has."""

@@ -14,7 +14,7 @@ from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.executor import Executor, Threads, available_threads
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.tracker import Models, Tracker, check, refuse_tension
+from foamprb.cloud.tracker import Models, Tracker, check
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
@@ -91,13 +91,11 @@ class Cloud:
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
-        check(self.models)
-        _refuse_early(self.particles, self.start)
-        _find_hosts(self.particles, self.flow)
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
-        if tense:
-            refuse_tension(self.models)
+        check(self.models, tense)
+        _refuse_early(p, self.start)
+        _find_hosts(p, self.flow)
         self.tracker = Tracker(
             self.models,
             self.flow.kernels,

@@ -8,7 +8,7 @@ at a time.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,16 +33,8 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.cloud.block import (
-    AT_A,
-    AT_FRAME,
-    AT_L,
-    AT_M,
-    AT_NEW_F,
-    AT_Q,
-    AT_R,
-    AT_STRETCH,
-    LANES,
     ROWS,
+    at,
     integrals_stage,
     load3,
     load9,
@@ -53,6 +45,7 @@ from foamprb.cloud.block import (
     straighten_stage,
     stretch_stage,
 )
+from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
@@ -62,10 +55,20 @@ Floats = NDArray[np.float64]
 PER_CONTEXT = 1 << 14
 """Most particles of one of :func:`contexts`: so few that their numbers stay in the processor's cache."""
 
-# Below the rows of a block, those of what is found out about its particles.
-AT_GRADIENT, AT_ORIENTATION, AT_STRESSLET = ROWS, ROWS + 9, ROWS + 13
-AT_SPIN, AT_VOLUME_RATIO, AT_RATE = ROWS + 19, ROWS + 22, ROWS + 23
-ALL_ROWS = ROWS + 24
+
+class FoundRows(NamedTuple):
+    """Below the rows of a block, what is found out about its particles."""
+
+    gradient: Annotated[int, Row(9, "1", "F·F₀⁻¹, the deformation gradient from the shape at rest")]
+    orientation: Annotated[int, Row(4, "1", "the frame's quaternion w, x, y, z")]
+    stresslet: Annotated[int, Row(6, "N m", "components xx yy zz xy yz xz")]
+    spin: Annotated[int, Row(3, "1/s", "angular velocity")]
+    volume_ratio: Annotated[int, Row(1, "1", "J = det F")]
+    rate: Annotated[int, Row(1, "1/s", "shear rate of the fluid")]
+
+
+result = offsets(FoundRows, ROWS)
+ALL_ROWS = end(result)
 
 
 class Context(NamedTuple):
@@ -80,7 +83,7 @@ class Context(NamedTuple):
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
     found: Floats
-    """Rows of a block from ``AT_GRADIENT`` on, of all particles."""
+    """The :class:`FoundRows` of all particles."""
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
@@ -135,9 +138,9 @@ def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
 def sort_stage(block: Any) -> None:
     """Put the axes of the frames in falling order of length."""
     for i in range(LANES):
-        Q, stretches = sorted_frame(load9(block, AT_Q, i), load3(block, AT_STRETCH, i))
-        store9(block, AT_Q, i, Q)
-        store3(block, AT_STRETCH, i, stretches)
+        Q, stretches = sorted_frame(load9(block, at.Q, i), load3(block, at.stretch, i))
+        store9(block, at.Q, i, Q)
+        store3(block, at.stretch, i, stretches)
 
 
 def report_stage(block: Any, mu: float) -> None:
@@ -147,30 +150,30 @@ def report_stage(block: Any, mu: float) -> None:
     s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
     """
     for i in range(LANES):
-        F, Q, stretches = load9(block, AT_NEW_F, i), load9(block, AT_Q, i), load3(block, AT_STRETCH, i)
-        store9(block, AT_GRADIENT, i, dot(F, inverse(load9(block, AT_M, i))))
+        F, Q, stretches = load9(block, at.new_F, i), load9(block, at.Q, i), load3(block, at.stretch, i)
+        store9(block, result.gradient, i, dot(F, inverse(load9(block, at.F0, i))))
         w, x, y, z = quaternion(Q)
-        block[AT_ORIENTATION * LANES + i] = w
-        store3(block, AT_ORIENTATION + 1, i, (x, y, z))
-        J, R = det(F), block[AT_R * LANES + i]
-        block[AT_VOLUME_RATIO * LANES + i] = J
-        l, body = load9(block, AT_L, i), dot(load9(block, AT_A, i), inverse(F))
-        block[AT_RATE * LANES + i] = shear_rate(l)
+        block[result.orientation * LANES + i] = w
+        store3(block, result.orientation + 1, i, (x, y, z))
+        J, R = det(F), block[at.R * LANES + i]
+        block[result.volume_ratio * LANES + i] = J
+        l, body = load9(block, at.l, i), dot(load9(block, at.A, i), inverse(F))
+        block[result.rate * LANES + i] = shear_rate(l)
         # The axial vector of w_s = skw(A F⁻¹) (A.3).
-        store3(block, AT_SPIN, i, axial(skew(body)))
+        store3(block, result.spin, i, axial(skew(body)))
         # Of the flow relative to the body.
         relative = to_frame(Q, add(l, scale(-1.0, body)))
         s, _ = disturbance(stretches, load_integrals(block, i), dev(sym(relative)), skew(relative))
         volume = 4.0 / 3.0 * np.pi * R * R * R * J
         S = from_frame(Q, scale(volume * mu, dev(sym(s))))
-        store3(block, AT_STRESSLET, i, (S[0], S[4], S[8]))
-        store3(block, AT_STRESSLET + 3, i, (S[1], S[5], S[2]))
+        store3(block, result.stresslet, i, (S[0], S[4], S[8]))
+        store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
 def find_out(
     F: Floats, A: Floats, Q: Floats, F0: Floats, R: Floats, l: Floats, mu: float, block: Floats, found: Floats
 ) -> None:
-    """Put the frame, the stretches and the rows from ``AT_GRADIENT`` on of n particles into ``found``.
+    """Put the frame, the stretches and the :class:`FoundRows` of n particles into ``found``.
 
     Parameters
     ----------
@@ -191,21 +194,21 @@ def find_out(
             # The last particle fills the lanes that are left, so that all go the same way.
             k = min(start + i, n - 1)
             for c in range(9):
-                block[(AT_NEW_F + c) * LANES + i] = F[k, c]
-                block[(AT_A + c) * LANES + i] = A[k, c]
-                block[(AT_FRAME + c) * LANES + i] = Q[k, c]
-                block[(AT_M + c) * LANES + i] = F0[k, c]
-                block[(AT_L + c) * LANES + i] = l[k, c]
-            block[AT_R * LANES + i] = R[k]
+                block[(at.new_F + c) * LANES + i] = F[k, c]
+                block[(at.A + c) * LANES + i] = A[k, c]
+                block[(at.frame + c) * LANES + i] = Q[k, c]
+                block[(at.F0 + c) * LANES + i] = F0[k, c]
+                block[(at.l + c) * LANES + i] = l[k, c]
+            block[at.R * LANES + i] = R[k]
         resume_frames(block)
         sort_stage(block)
         integrals_stage(block)
         report_stage(block, mu)
         for i in range(min(LANES, n - start)):
             for c in range(9):
-                found[c, start + i] = block[(AT_Q + c) * LANES + i]
+                found[c, start + i] = block[(at.Q + c) * LANES + i]
             for c in range(3):
-                found[9 + c, start + i] = block[(AT_STRETCH + c) * LANES + i]
+                found[9 + c, start + i] = block[(at.stretch + c) * LANES + i]
             for c in range(ALL_ROWS - ROWS):
                 found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
 
@@ -254,16 +257,16 @@ MEASURES: dict[str, Measure] = {
     "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
-    "deformationGradient": Measure("1", _found(AT_GRADIENT, 9)),
+    "deformationGradient": Measure("1", _found(result.gradient, 9)),
     "glyph": Measure("m", _glyph),
     "semiAxes": Measure("m", _semi_axes),
-    "orientation": Measure("1", _found(AT_ORIENTATION, 4)),
+    "orientation": Measure("1", _found(result.orientation, 4)),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
-    "stresslet": Measure("N m", _found(AT_STRESSLET, 6)),
-    "J": Measure("1", _found_one(AT_VOLUME_RATIO)),
-    "angularVelocity": Measure("1/s", _found(AT_SPIN, 3)),
-    "shearRate": Measure("1/s", _found_one(AT_RATE)),
-    "capillaryNumber": Measure("1", lambda c: c.mu * c.found[AT_RATE - ROWS] / c.particles.mu),
+    "stresslet": Measure("N m", _found(result.stresslet, 6)),
+    "J": Measure("1", _found_one(result.volume_ratio)),
+    "angularVelocity": Measure("1/s", _found(result.spin, 3)),
+    "shearRate": Measure("1/s", _found_one(result.rate)),
+    "capillaryNumber": Measure("1", lambda c: c.mu * c.found[result.rate - ROWS] / c.particles.mu),
     "status": Measure("", lambda c: c.particles.status),
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),

@@ -15,28 +15,15 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
-    AT_A,
-    AT_CLEARANCE,
-    AT_F,
-    AT_F0,
-    AT_FRAME,
-    AT_M,
-    AT_MIRRORED,
-    AT_R,
-    AT_RENEWED,
-    AT_T,
-    AT_T0,
-    AT_V,
-    AT_VERDICT,
-    AT_X,
-    LANES,
     LOST,
     Scratch,
+    at,
     load3,
     load9,
     store3,
     store9,
 )
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Status
 from foamprb.flow.analytic import cross_free as cross
@@ -86,10 +73,10 @@ def reach_end(
     The number of walks that the tree had to mend.
     """
     end, start, spent, mended = move_centre(flow, patches, s, i, goal, h)
-    store3(s.block, AT_X, i, end)
+    store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
         spent *= touch(flow, patches, s, i, start)
-    s.block[AT_T * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
+    s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
     return mended
 
 
@@ -107,8 +94,8 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle."""
     block = s.block
-    R = block[AT_R * LANES + i]
-    return gap(flow, s.host[i], load3(block, AT_X, i), load9(block, AT_F, i), R)
+    R = block[at.R * LANES + i]
+    return gap(flow, s.host[i], load3(block, at.x, i), load9(block, at.F, i), R)
 
 
 def beyond(
@@ -124,8 +111,8 @@ def beyond(
         Both points as seen from the other side; what was done to them, x → turn·x + shift.
     """
     block = s.block
-    F, A, Q = load9(block, AT_F, i), load9(block, AT_A, i), load9(block, AT_FRAME, i)
-    v = load3(block, AT_V, i)
+    F, A, Q = load9(block, at.F, i), load9(block, at.A, i), load9(block, at.frame, i)
+    v = load3(block, at.v, i)
     if code == MIRROR:
         n = normal(flow, triangle, x0)
         turn = (
@@ -136,19 +123,19 @@ def beyond(
         y0 = x0
         # The state at rest is mirrored too, and one axis turned round: J and det Q stay positive.
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
-        store9(block, AT_M, i, dot(turn, dot(load9(block, AT_M, i), turn)))
-        store9(block, AT_F0, i, dot(turn, dot(load9(block, AT_F0, i), turn)))
-        block[AT_MIRRORED * LANES + i] = 1.0
+        store9(block, at.M, i, dot(turn, dot(load9(block, at.M, i), turn)))
+        store9(block, at.F0, i, dot(turn, dot(load9(block, at.F0, i), turn)))
+        block[at.mirrored * LANES + i] = 1.0
         Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
     else:
         host, y0, turn = cross(flow, triangle, x0)
         s.host[i] = host
         Q = dot(Q, transpose(turn))
-    store9(block, AT_F, i, dot(turn, F))
-    store9(block, AT_A, i, dot(turn, A))
-    store9(block, AT_FRAME, i, Q)
-    block[AT_RENEWED * LANES + i] = 1.0
-    store3(block, AT_V, i, dot_vector(turn, v))
+    store9(block, at.F, i, dot(turn, F))
+    store9(block, at.A, i, dot(turn, A))
+    store9(block, at.frame, i, Q)
+    block[at.renewed * LANES + i] = 1.0
+    store3(block, at.v, i, dot_vector(turn, v))
     m = dot_vector(turn, x0)
     shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
     return y0, moved(turn, shift, x1), turn, shift
@@ -192,7 +179,7 @@ def move_centre(
     block = s.block
     recovered, bounces = 0, 0
     spent = 0.0
-    x0, x1 = load3(block, AT_X, i), goal
+    x0, x1 = load3(block, at.x, i), goal
     start = x0
     for _ in range(_MAX_PATCHES):
         rest = dt - spent
@@ -229,8 +216,8 @@ def move_centre(
             start = moved(turn, shift, start)
             continue
         n = normal(flow, triangle, x0)
-        v = rebound_velocity(load3(block, AT_V, i), n, patches.e[patch], patches.mu[patch])
-        store3(block, AT_V, i, v)
+        v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
+        store3(block, at.v, i, v)
         rest = dt - spent
         x1 = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2])
     return x0, start, dt, recovered
@@ -264,23 +251,23 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> 
     Returns the fraction of the way at which a particle stopped.
     """
     block = s.block
-    before = block[AT_CLEARANCE * LANES + i]
+    before = block[at.clearance * LANES + i]
     after, patch, triangle = clearance_of(flow, s, i)
-    block[AT_CLEARANCE * LANES + i] = after
+    block[at.clearance * LANES + i] = after
     if after > 0.0:
         return 1.0
-    x = load3(block, AT_X, i)
+    x = load3(block, at.x, i)
     f = 0.0
     if before > 0.0:
         f = before / (before - after) if before < math.inf else 1.0
     if patches.code[patch] == STICK:
         contact, _ = move_back(flow, patches, s, i, x, between(start, x, f))
-        store3(block, AT_X, i, contact)
+        store3(block, at.x, i, contact)
         settle(s, i, patch, STICK)
         return f
     n = normal(flow, triangle, x)
-    v = load3(block, AT_V, i)
-    store3(block, AT_V, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
+    v = load3(block, at.v, i)
+    store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
     # What the centre went towards the wall after the contact is taken back: else a body that comes to rest
     # on the wall would sink into it.
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
@@ -288,8 +275,8 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> 
     place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
     place, went = move_back(flow, patches, s, i, x, place)
     if went:
-        store3(block, AT_X, i, place)
-        block[AT_CLEARANCE * LANES + i], _, _ = clearance_of(flow, s, i)
+        store3(block, at.x, i, place)
+        block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
     return 1.0
 
 
@@ -297,20 +284,20 @@ def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
     """Make a pending particle active, or stuck if it appears in touch with a sticky wall."""
     block = s.block
     s.status[i] = ACTIVE
-    t = block[AT_T * LANES + i] = block[AT_T0 * LANES + i]
-    block[AT_RENEWED * LANES + i] = 1.0
-    if math.isnan(block[AT_V * LANES + i]):
-        u, _, _ = sample(flow, s.host[i], load3(block, AT_X, i), t)
-        store3(block, AT_V, i, u)
+    t = block[at.t * LANES + i] = block[at.t0 * LANES + i]
+    block[at.renewed * LANES + i] = 1.0
+    if math.isnan(block[at.v * LANES + i]):
+        u, _, _ = sample(flow, s.host[i], load3(block, at.x, i), t)
+        store3(block, at.v, i, u)
     clearance, patch, _ = clearance_of(flow, s, i)
-    block[AT_CLEARANCE * LANES + i] = clearance
+    block[at.clearance * LANES + i] = clearance
     if clearance <= 0.0 and patches.code[patch] == STICK:
         settle(s, i, patch, STICK)
 
 
 def is_sound(s: Scratch, i: int) -> bool:
     """Whether the new shape of the particle in lane i was taken over; if not, the particle fails."""
-    verdict = int(s.block[AT_VERDICT * LANES + i])
+    verdict = int(s.block[at.verdict * LANES + i])
     if verdict:
         fail(s, i, verdict)
     return verdict == 0

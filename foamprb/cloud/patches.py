@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Protocol
 
 from foamprb.body.tensor import Scalar, Vector, select
 from foamprb.dictionary.constraints import Fraction, NonNegative
+from foamprb.dictionary.schema import Schema
 
 STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
+
+
+class Interaction(Schema, Protocol):
+    """What a patch does to a particle; the particle loop acts on the code."""
+
+    code: ClassVar[int]
 
 
 @dataclass(frozen=True)
@@ -48,9 +55,7 @@ class Cyclic:
     code: ClassVar[int] = CYCLIC
 
 
-Interaction = Stick | Escape | Rebound | Mirror | Cyclic
-
-INTERACTIONS: dict[str, type[Stick | Escape | Rebound]] = {
+INTERACTIONS: dict[str, type[Interaction]] = {
     "stick": Stick,
     "escape": Escape,
     "rebound": Rebound,

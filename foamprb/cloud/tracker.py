@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
@@ -14,19 +14,13 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger as finger_of_ellipsoid
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.adaptive import (
-    ADAPTIVE_ROWS,
-    ADAPTIVE_STAGES,
-    end_inertial,
-    end_inertialess,
-    first_inertial,
-    first_inertialess,
-    second_inertial,
-    second_inertialess,
-    track_adaptive,
-)
-from foamprb.cloud.advance import STAGES, track_block, track_share
-from foamprb.cloud.block import LANES, ROWS, Medium, new_scratch
+from foamprb.cloud.advance import track_share
+from foamprb.cloud.block import Medium, new_scratch
+from foamprb.cloud.forces.base import Force
+from foamprb.cloud.forces.gravity import Gravity
+from foamprb.cloud.forces.total import coefficients, compose
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
 from foamprb.cloud.state import Particles, Status
@@ -40,7 +34,7 @@ __all__ = ["Models", "Tracker"]
 
 @dataclass(frozen=True)
 class Models:
-    """Names of the models that a cloud selects, from the registries of :mod:`foamprb.body`."""
+    """The models that a cloud selects, by their names in the registries of :mod:`foamprb.body`."""
 
     traction: str = "roscoe"
     drag: str = "oberbeck"
@@ -49,33 +43,8 @@ class Models:
     integrator: str = "paper"
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
-
-
-class Loop(NamedTuple):
-    """A compiled loop over particles, and what it is made of."""
-
-    entry: Callable[..., int]
-    stages: tuple[Callable[..., Any], ...]
-    rows: int
-    """Rows of a block."""
-    adaptive: bool
-    bindings: dict[str, Callable[..., Any]]
-
-
-def _second_order(**slopes: Callable[..., Any]) -> Loop:
-    return Loop(track_adaptive, (*ADAPTIVE_STAGES, *slopes.values()), ADAPTIVE_ROWS, True, slopes)
-
-
-LOOPS: dict[str, Loop] = {
-    "paper": Loop(track_block, STAGES, ROWS, False, {}),
-    "rosenbrock": _second_order(
-        first_slope=first_inertial, second_slope=second_inertial, end_slope=end_inertial
-    ),
-    "stokes": _second_order(
-        first_slope=first_inertialess, second_slope=second_inertialess, end_slope=end_inertialess
-    ),
-}
-"""The integrators of the shape, by the names of :data:`foamprb.body.imex.INTEGRATORS`."""
+    forces: tuple[Force, ...] = (Gravity(),)
+    """What acts on the barycentre beside drag."""
 
 
 class Tracker:
@@ -118,14 +87,18 @@ class Tracker:
             bindings["finger"] = finger_of_ellipsoid
         if tense:
             bindings["interface"] = laplace_stress
-        self.loop = loop = LOOPS[models.integrator]
-        bindings.update(loop.bindings)
+        self.integrator = integrator = INTEGRATORS[models.integrator]
+        layout = integrator.layout
+        bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
+        bindings |= integrator.bindings
+        bindings |= compose(models.forces)
         self.kernels, self.bindings = kernels, bindings
-        self.separate: tuple[Callable[..., Any], ...] = (*loop.stages, *RARE, *LONG)
+        self.separate: tuple[Callable[..., Any], ...] = (*integrator.stages, *RARE, *LONG)
         self.table = _patch_table(interactions)
-        self.medium, self.dt, self.start = medium, dt, start
-        self.options = (models.tolerance,) if loop.adaptive else ()
-        self._track = link(track_share, {**bindings, "track": loop.entry}, self.separate)
+        self.medium = medium._replace(coefficients=coefficients(models.forces))
+        self.dt, self.start = dt, start
+        self.options = (models.tolerance,) if integrator.adaptive else ()
+        self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Another process compiles for itself.
@@ -145,11 +118,11 @@ class Tracker:
 
         With it, and with what reads a flow, there is about as much to compile as without it in the loop.
         """
-        stages = self.loop.stages
+        stages = self.integrator.stages
         self._compile(stages[len(stages) // 2 :], {})
 
     def _compile(self, functions: Iterable[Callable[..., Any]], arguments: dict[str, Any]) -> None:
-        scratch, vector = new_scratch(self.loop.rows), (0.0, 0.0, 0.0)
+        scratch, vector = new_scratch(self.integrator.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
@@ -174,7 +147,7 @@ class Tracker:
         rows = rows[np.argsort(place, kind="stable")]
 
         def work(first: int) -> int:
-            scratch = new_scratch(self.loop.rows)
+            scratch = new_scratch(self.integrator.layout.rows)
             mended: int = self._track(
                 flow, self.table, self.medium, p, rows, first, shares,
                 step, steps, self.dt, self.start, scratch, self.options,
@@ -194,20 +167,12 @@ _SHARES = 8
 """Of the particles, for each of several threads."""
 
 
-def check(models: Models) -> None:
-    """Raise InputError if the models do not go together."""
-    material = MATERIALS[models.material]
-    if models.integrator == "stokes" and models.traction != "roscoe":
-        raise InputError(f"the integrator stokes needs the traction roscoe, not {models.traction}")
-    if models.integrator == "stokes" and not material.isochoric:
-        raise InputError(f"the integrator stokes takes no {models.material}: it has no incompressible form")
-    if models.integrator == "paper" and material.dilation is None:
-        raise InputError(f"the integrator paper takes no {models.material}: choose rosenbrock or stokes")
-
-
-def refuse_tension(models: Models) -> None:
-    if models.integrator == "paper":
-        raise InputError("the integrator paper takes no surfaceTension: choose rosenbrock or stokes")
+def check(models: Models, tense: bool) -> None:
+    """Raise InputError if the models do not go together; ``tense`` as of :class:`Tracker`."""
+    integrator = INTEGRATORS[models.integrator]
+    reason = integrator.refuses(models.traction, models.material, tense)
+    if reason:
+        raise InputError(f"the integrator {integrator.name} {reason}")
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

@@ -9,28 +9,29 @@ by which the entry function calls it, and so is a constant that is not the same 
 
 from __future__ import annotations
 
-import gc
+import dis
 import hashlib
 import inspect
-import os
+import platform
+import sys
 from collections.abc import Callable, Collection, Mapping
-from functools import partial
+from contextlib import suppress
+from functools import cache, partial
 from importlib.metadata import version
 from pathlib import Path
-from types import CodeType, FunctionType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numba
 import numpy as np
-import platformdirs
-from numba.core.event import Event, Listener, register
+from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
-from foamprb.compile import passes
-from foamprb.compile.cache import keep
-from foamprb.compile.passes import CALLED, ENTRY, INLINED, Kept, KeptToCall
+from foamprb.compile import internals as inner
+from foamprb.compile.cache import Store
+from foamprb.compile.internals import Role, internals, use_cache_for_cuda
 
-__all__ = ["Target", "cache_directory", "compile_part", "is_compiled", "link"]
+__all__ = ["Target", "compile_part", "is_compiled", "link"]
 
 Target: TypeAlias = Literal["cpu", "cuda"]
 
@@ -41,37 +42,7 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "nogil": True,
     "fastmath": set(_FAST_MATH),
-    # No function allocates or keeps an array; counting references to those it is given would take more time
-    # than all else.
-    "_nrt": False,
 }
-
-
-class _WithoutCollections(Listener):  # type: ignore[misc]
-    """No garbage is collected while numba compiles: to look for it takes a third of the time."""
-
-    depth, enabled = 0, True
-
-    def on_start(self, event: Event) -> None:  # noqa: ARG002
-        if self.depth == 0:
-            self.enabled = gc.isenabled()
-            gc.disable()
-        self.depth += 1
-
-    def on_end(self, event: Event) -> None:  # noqa: ARG002
-        self.depth -= 1
-        if self.depth == 0 and self.enabled:
-            gc.enable()
-
-
-# Compilations of functions are nested, but only one thread at a time compiles.
-register("numba:compile", _WithoutCollections())
-
-
-def cache_directory() -> Path:
-    """Folder of the compiled code: ``$FOAMPRB_CACHE_DIR``, else the user's cache folder."""
-    chosen = os.environ.get("FOAMPRB_CACHE_DIR")
-    return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
 
 
 def link(
@@ -98,8 +69,8 @@ def link(
     Returns
     -------
     A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
-    separate callees are kept on disk in :func:`cache_directory`, under keys made of the code of every
-    function that was linked.
+    separate callees are saved in :mod:`foamprb.compile.cache`, under keys made of the code of every function
+    that was linked.
     """
     return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
 
@@ -117,18 +88,17 @@ def compile_part(
     arguments
         An example of each argument, by the names of the parameters; there may be others.
     bindings, separate
-        As the entry will have them. Only separate callees are kept on disk, for others to find.
+        As the entry will have them. Only separate callees are saved in the cache, for others to find.
     """
-    role: _Role = "separate" if function in separate else "inlined"
+    role: Role = "separate" if function in separate else "inlined"
     part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
     names = inspect.signature(function).parameters
     part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
 
 
 def is_compiled(dispatcher: Any) -> bool:
-    """Whether what :func:`link` gave has been compiled, in this process or in one whose code is kept."""
-    folder = _folders.get(id(dispatcher))
-    return bool(dispatcher.signatures) or (folder is not None and any(folder.rglob("*.nbc")))
+    """Whether what :func:`link` gave has been compiled, in this process or in one that saved the code."""
+    return bool(dispatcher.signatures) or bool(_stores.get(id(dispatcher)))
 
 
 class _Linkage(NamedTuple):
@@ -146,19 +116,8 @@ class _Part(NamedTuple):
     key: str
 
 
-_Role: TypeAlias = Literal["entry", "separate", "inlined"]
-
-# Only compiled code calls these: wrappers for Python would cost a quarter of the compilation.
-_UNWRAPPED: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-_ROLES: dict[_Role, dict[str, Any]] = {
-    "entry": {"forceinline": False, "no_cfunc_wrapper": True, **ENTRY},
-    "separate": {"forceinline": False, **_UNWRAPPED, **CALLED},
-    "inlined": {"forceinline": True, **_UNWRAPPED, **INLINED},
-}
-
-
 # How functions are linked is a part of what makes their code.
-_LINKING = hashlib.sha256(Path(passes.__file__).read_bytes()).hexdigest()[:8]
+_LINKING = hashlib.sha256(Path(inner.__file__).read_bytes() + Path(__file__).read_bytes()).hexdigest()[:8]
 
 
 def _branch(condition: Any, a: Any, b: Any) -> Any:
@@ -166,10 +125,10 @@ def _branch(condition: Any, a: Any, b: Any) -> Any:
 
 
 _parts: dict[str, _Part] = {}
-_folders: dict[int, Path] = {}
+_stores: dict[int, Store | None] = {}
 
 
-def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part:
+def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     """Compile a function after its callees; a part that has been compiled before is used again."""
     target = linkage.target
     if function is select:
@@ -186,7 +145,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
-            scope[name] = _constant(value, target)
+            scope[name] = _offsets(value, target) if _are_offsets(value) else _constant(value, target)
             digest.update(f"{name}={value!r};".encode())
     if target == "cuda":
         scope |= _for_cuda(scope)
@@ -196,8 +155,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: _Role) -> _Part
         # Code is linked by name, and other processes may have put other models behind a name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
-        compile_part = _compile_for_cpu if target == "cpu" else _compile_for_cuda
-        _parts[key] = _Part(compile_part(clone, role, key), key)
+        make = _compile_for_cpu if target == "cpu" else _compile_for_cuda
+        _parts[key] = _Part(make(clone, role, key), key)
     return _parts[key]
 
 
@@ -205,6 +164,18 @@ def _constant(value: Any, target: Target) -> Any:
     """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
     # Sizes of local arrays on a device must be Python's.
     return np.int64(value) if type(value) is int and target == "cpu" else value
+
+
+def _are_offsets(value: Any) -> bool:
+    """Whether a constant is a named tuple of whole numbers, such as those at which a block's rows begin."""
+    return hasattr(value, "_fields") and all(type(item) is int for item in value)
+
+
+def _offsets(value: Any, target: Target) -> ModuleType:
+    """What stands for such a tuple: numba takes a module's attribute for the constant that it is."""
+    module = ModuleType(type(value).__name__)
+    vars(module).update({name: _constant(item, target) for name, item in value._asdict().items()})
+    return module
 
 
 def _link_select(target: Target) -> _Part:
@@ -218,19 +189,32 @@ def _link_select(target: Target) -> _Part:
 
 
 def _compiler(target: Target) -> str:
-    """What makes the code, and how."""
-    if target == "cpu":
-        # A set has another order in every process.
-        options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
-        return f"{numba.__version__} {_FAST_MATH} {options} {_ROLES} {_LINKING}"
-    return f"numba-cuda {version('numba-cuda')}"
+    """What makes the code, and how, and for which processor."""
+    python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_LINKING}"
+    if target == "cuda":
+        return f"{python} numba-cuda {version('numba-cuda')}"
+    # A set has another order in every process.
+    options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
+    how = f"{_FAST_MATH} {options} {internals().parts}"
+    return f"{python} llvmlite {version('llvmlite')} {how} {_processor()}"
 
 
-def _compile_for_cpu(function: Callable[..., Any], role: _Role, key: str) -> Any:
-    dispatcher = numba.njit(**_ROLES[role], **_OPTIONS)(function)
+@cache
+def _processor() -> str:
+    """Name and features of the processor that the code is made for: a home may be shared by many machines."""
+    with suppress(RuntimeError):
+        features = binding.get_host_cpu_features().flatten()
+        # As NUMBA_CPU_NAME and NUMBA_CPU_FEATURES set them.
+        chosen = f"{numba.config.CPU_NAME} {numba.config.CPU_FEATURES}"
+        return f"{binding.get_host_cpu_name()} {features} {chosen}"
+    return platform.machine()
+
+
+def _compile_for_cpu(function: Callable[..., Any], role: Role, key: str) -> Any:
+    used = internals()
+    dispatcher = numba.njit(**used.options[role], **_OPTIONS)(function)
     if role != "inlined":
-        _folders[id(dispatcher)] = folder = cache_directory() / key
-        keep(dispatcher, folder, key, Kept if role == "entry" else KeptToCall)
+        _stores[id(dispatcher)] = used.use_cache(dispatcher, key, role)
     return dispatcher
 
 
@@ -245,7 +229,7 @@ def _for_cuda(scope: Mapping[str, Any]) -> dict[str, Any]:
     return {name: numpy_on_device for name, value in scope.items() if value is np}
 
 
-def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> Any:
+def _compile_for_cuda(function: Callable[..., Any], role: Role, key: str) -> Any:
     from numba import cuda
 
     if cuda.config.ENABLE_CUDASIM:
@@ -254,13 +238,14 @@ def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> An
     if role != "entry":
         return cuda.jit(device=True, forceinline=role == "inlined")(function)
     kernel = cuda.jit(function)
-    _enable_cache_for_cuda(kernel, key)
+    _stores[id(kernel)] = use_cache_for_cuda(kernel, key)
     return kernel
 
 
 def _global_names(code: CodeType) -> set[str]:
-    inner = (_global_names(constant) for constant in code.co_consts if isinstance(constant, CodeType))
-    return set(code.co_names).union(*inner)
+    """Names that the code reads from its module; ``co_names`` has those of attributes as well."""
+    own = {step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL"}
+    return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
 def _fingerprint(code: CodeType) -> bytes:
@@ -269,20 +254,3 @@ def _fingerprint(code: CodeType) -> bytes:
     for constant in code.co_consts:
         parts.append(_fingerprint(constant) if isinstance(constant, CodeType) else repr(constant).encode())
     return b"|".join(parts)
-
-
-def _enable_cache_for_cuda(kernel: Any, key: str) -> None:
-    """Keep the machine code of a kernel under ``key``."""
-    from numba import cuda
-
-    folder = _folders[id(kernel)] = cache_directory() / key
-    previous = cuda.config.CACHE_DIR
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        cuda.config.CACHE_DIR = str(folder)
-        kernel.enable_caching()
-    except (OSError, RuntimeError):
-        # A read-only home costs the compilation anew in each run, nothing else.
-        pass
-    finally:
-        cuda.config.CACHE_DIR = previous

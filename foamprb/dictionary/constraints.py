@@ -1,7 +1,7 @@
 """Rules that a dictionary entry's value must keep, declared beside its type.
 
 A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
-annotated, e.g. ``rho0: Annotated[float, Positive]``. The reader checks; the class stays a plain record.
+annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.schema` checks.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Only:
-    """The one value that means what foamprb does, for entries that OpenFOAM's users know; and why."""
+    """An entry of OpenFOAM's that may have one value only, the one that means what foamprb does; and why."""
 
     value: bool | float | str
     why: str
@@ -53,8 +53,19 @@ class Only:
 
 
 @dataclass(frozen=True)
+class NoEffect:
+    """An entry of OpenFOAM's that changes nothing here, whatever its value; and why."""
+
+    why: str
+
+    def admits(self, value: object) -> bool:  # noqa: ARG002
+        """Whether ``value`` is allowed: any is."""
+        return True
+
+
+@dataclass(frozen=True)
 class Each:
-    """What every component of a vector must keep."""
+    """Bounds of every component of a vector."""
 
     bounds: Bounds
 
@@ -68,7 +79,7 @@ class Each:
         return all(self.bounds.admits(component) for component in value)
 
 
-Rule: TypeAlias = Bounds | Choice | Only | Each
+Rule: TypeAlias = Bounds | Choice | Only | NoEffect | Each
 Vector3: TypeAlias = tuple[float, float, float]
 Constant = NewType("Constant", float)
 """A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""

@@ -1,4 +1,4 @@
-"""OpenFOAM's dictionaries: their grammar, with macros and includes, and where each entry was written."""
+"""OpenFOAM's dictionary files: text, with macros and includes, to a tree of entries."""
 
 from __future__ import annotations
 
@@ -7,174 +7,50 @@ import logging
 import os
 import re
 import zlib
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 from foamprb.dictionary.files import existing, has_both_forms
+from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 
+__all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
+
 log = logging.getLogger("foamprb")
-
-DICTIONARY_TEXT = "a dictionary { … }"
-
-
-@dataclass(frozen=True)
-class Source:
-    """A file that is read for a case."""
-
-    path: Path
-    case: Path
-
-    def __str__(self) -> str:
-        path, case = self.path.resolve(), self.case.resolve()
-        return str(path.relative_to(case) if path.is_relative_to(case) else self.path)
-
-    def mistake(self, line: int, what: str) -> InputError:
-        """Make the error of a line."""
-        return InputError(f"{self}, line {line}: {what}")
-
-
-@dataclass(eq=False)
-class Entry:
-    """What stands under a key of a dictionary, where it was written, and whether a macro has used it."""
-
-    key: str
-    parent: Entry | None
-    source: Source
-    line: int
-    used: bool = field(default=False, kw_only=True)
-
-    @property
-    def path(self) -> str:
-        """Keys from the top of the file, with slashes between them."""
-        above = self.parent.path if self.parent else ""
-        return f"{above}/{unquoted(self.key)}" if above else unquoted(self.key)
-
-    def mistake(self, what: str) -> InputError:
-        """Make the error of this entry: file, line, path, and what is wrong."""
-        return self.source.mistake(self.line, f"{self.path} {what}")
-
-    def missing(self, key: str, allowed: str) -> InputError:
-        """Make the error of a key that this dictionary lacks."""
-        path = f"{self.path}/{key}" if self.path else key
-        place = f", line {self.line}" if self.path else ""
-        return InputError(f"{self.source}{place}: {path} is missing. {allowed}")
-
-    def dictionary(self) -> Dictionary:
-        """Take this entry as a dictionary; a key without a value, such as ``gravity;``, is an empty one."""
-        raise self.mistake(f"is {self}. Allowed: {DICTIONARY_TEXT}.")
-
-    def copy(self, key: str, parent: Entry) -> Entry:
-        """Copy to another place."""
-        return replace(self, key=key, parent=parent)
-
-
-@dataclass(eq=False)
-class Stream(Entry):
-    """An entry's tokens up to the semicolon, macros expanded."""
-
-    tokens: tuple[str, ...] = ()
-
-    def dictionary(self) -> Dictionary:
-        """See :meth:`Entry.dictionary`."""
-        if self.tokens:
-            return super().dictionary()
-        return Dictionary(self.key, self.parent, self.source, self.line)
-
-    @property
-    def text(self) -> str:
-        """The tokens with a space between any two."""
-        return " ".join(self.tokens)
-
-    def __str__(self) -> str:
-        text = re.sub(r"(?<=[(\[]) | (?=[)\]])", "", self.text)
-        return f"'{text if len(text) <= 60 else text[:57] + '...'}'"
-
-
-@dataclass(eq=False)
-class Dictionary(Entry):
-    """Entries by key, in their order."""
-
-    entries: dict[str, Entry] = field(default_factory=dict)
-
-    def __str__(self) -> str:
-        return "a dictionary"
-
-    def dictionary(self) -> Dictionary:
-        """See :meth:`Entry.dictionary`."""
-        return self
-
-    def at(self, path: str) -> Entry:
-        """Find the entry that the keys of a path with slashes lead to."""
-        entry: Entry = self
-        for key in path.split("/"):
-            entry = entry.dictionary().entries[key]
-        return entry
-
-    def copy(self, key: str, parent: Entry) -> Dictionary:
-        """Copy to another place, entries and all."""
-        twin = replace(self, key=key, parent=parent)
-        twin.entries = {name: entry.copy(name, twin) for name, entry in self.entries.items()}
-        return twin
-
-    def add(self, entry: Entry) -> None:
-        """Add an entry; of two dictionaries with one key the entries are merged, else the last one counts."""
-        earlier = self.entries.get(entry.key)
-        if isinstance(earlier, Dictionary) and isinstance(entry, Dictionary):
-            earlier.merge(entry)
-        else:
-            self.entries[entry.key] = entry
-
-    def merge(self, other: Dictionary) -> None:
-        """Take over another dictionary's entries."""
-        for entry in other.entries.values():
-            entry.parent = self
-            self.add(entry)
-
-
-@dataclass(eq=False)
-class DictionaryList(Entry):
-    """Named dictionaries in parentheses, ``( name { … } name { … } )``; a name may occur twice."""
-
-    items: list[Dictionary] = field(default_factory=list)
-
-    def __str__(self) -> str:
-        return "a list of dictionaries"
-
-    def copy(self, key: str, parent: Entry) -> DictionaryList:
-        """Copy to another place, dictionaries and all."""
-        twin = replace(self, key=key, parent=parent)
-        twin.items = [item.copy(item.key, twin) for item in self.items]
-        return twin
 
 
 def read_dictionary(path: Path, case: Path) -> Dictionary:
     """Read a file in OpenFOAM's dictionary format, with macros and includes.
 
-    Expanded are ``$name`` (also ``${name}``), looked up from the dictionary where it stands outward, with
-    ``.`` between the keys of nested dictionaries; ``$:a.b`` from the top of the file; ``$.name`` and
-    ``$..name`` in this and in the enclosing dictionary only; ``$name;`` in place of an entry, which merges
-    the dictionary ``name``; ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``. A macro
-    sees what is complete before it, as in OpenFOAM: not the dictionary that it stands in.
+    These macros and directives are expanded:
+
+    * ``$name`` and ``${name}``, sought in the dictionary where it stands, then in those around it; with ``.``
+      between the keys of nested dictionaries;
+    * ``$:a.b``, sought from the top of the file; ``$.name`` and ``$..name``, sought in this dictionary and in
+      the enclosing one only;
+    * ``$name;`` in place of an entry, which merges the dictionary ``name``;
+    * ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``.
+
+    As in OpenFOAM, a macro sees what is complete before it, which the dictionary where it stands is not.
 
     Parameters
     ----------
     path
         The file.
     case
-        The case, which messages name files relative to, and ``$FOAM_CASE`` and ``<case>`` in an include mean.
+        The case: messages name files relative to it, and ``$FOAM_CASE`` and ``<case>`` in an include mean it.
 
     Raises
     ------
     InputError
         If the file cannot be read or is not such a dictionary; with the line.
     """
-    source = Source(path, case)
+    source, spent = Source(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    _Parser(source, text, including=()).fill(root)
+    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    _Parser(source, text, (), spent).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -182,7 +58,7 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
 def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
     """Make of a text what :func:`read_dictionary` would of the file, which it comes from."""
     root = Dictionary("", None, Source(path, case), 0)
-    _Parser(root.source, text, including=()).fill(root)
+    _Parser(root.source, text, (), _Spent()).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -202,23 +78,50 @@ def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
     InputError
         If the file cannot be read or is not such a list; with the line.
     """
-    source = Source(path, case)
+    source, spent = Source(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, lambda why: InputError(f"{source}: {why} (case {case})."))
-    return _Parser(source, text, including=()).counted_list(root)
+    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    return _Parser(source, text, (), spent).counted_list(root)
 
 
-def _read_text(path: Path, mistake: Callable[[str], InputError]) -> str:
+MOST_BYTES = 8 << 20
+"""Of a dictionary and all that it includes, decompressed."""
+MOST_FILES = 1000
+"""That a dictionary includes, one in another or one after the other."""
+MOST_NESTED = 100
+"""Dictionaries in each other."""
+MOST_WORDS = 200_000
+"""To which all macros of a dictionary expand."""
+
+
+@dataclass
+class _Spent:
+    """How much of what is allowed a dictionary has needed so far, with all that it includes."""
+
+    bytes: int = 0
+    files: int = 0
+    words: int = 0
+
+
+def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) -> str:
     found = existing(path) or path
     if has_both_forms(path):
         log.warning("%s and %s.gz are both there: the first is read, as by OpenFOAM.", path, path.name)
     try:
+        # The others, pipes and devices, may have no end, or never begin.
+        if found.exists() and not found.is_file():
+            raise mistake("is not a file")
         with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
-            return stream.read().decode("utf-8")
+            data = stream.read(MOST_BYTES - spent.bytes + 1)
+            spent.bytes += len(data)
+            text = data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
-    except (OSError, EOFError, zlib.error) as error:
+    except (OSError, EOFError, ValueError, zlib.error) as error:
         raise mistake(getattr(error, "strerror", None) or str(error) or "cannot be read") from error
+    if spent.bytes > MOST_BYTES:
+        raise mistake(f"has more than {MOST_BYTES >> 20} MiB, and so is no dictionary")
+    return text
 
 
 class _Token(NamedTuple):
@@ -238,6 +141,7 @@ _TOKEN = re.compile(
     re.DOTALL | re.VERBOSE,
 )
 _HEADER = "FoamFile"
+_COUNT = re.compile(r"\d{1,18}", re.ASCII)
 _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
 _INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False, "#includeEtc": True}
@@ -268,8 +172,9 @@ def _tokens(source: Source, text: str) -> Iterator[_Token]:
 class _Parser:
     """Reads one file; ``including`` are the files that it is being included from."""
 
-    def __init__(self, source: Source, text: str, including: tuple[Path, ...]) -> None:
+    def __init__(self, source: Source, text: str, including: tuple[Path, ...], spent: _Spent) -> None:
         self.source = source
+        self.spent = spent
         self.tokens = list(_tokens(source, text))
         self.position = 0
         self.files = (*including, source.path.resolve())
@@ -302,10 +207,10 @@ class _Parser:
             return self.dictionaries(key, parent)
         tokens = self.stream(key)
         if start.startswith("$") and len(tokens) == 1:
-            twin = self.look_up(tokens[0], parent).copy(key.text, parent)
+            twin = self.copy(tokens[0], self.look_up(tokens[0], parent), key.text, parent)
             twin.used = False
             return twin
-        # The variables of a computed value belong to the computation, which whoever needs the value refuses.
+        # A computed value keeps its variables: it is refused where it is needed.
         words = [
             word
             for token in tokens
@@ -316,6 +221,7 @@ class _Parser:
     def dictionary(self, key: _Token, parent: Entry) -> Dictionary:
         """Read ``{ … }``."""
         dictionary = Dictionary(key.text, parent, self.source, key.line)
+        self.require_depth(key, _depth(dictionary))
         self.fill(dictionary, opened=self.take())
         return dictionary
 
@@ -324,7 +230,7 @@ class _Parser:
         if self.peek().text == _HEADER and self.peek(1).text == "{":
             self.dictionary(self.take(), root)
         count = self.take()
-        if not count.text.isascii() or not count.text.isdigit() or self.peek().text != "(":
+        if not _COUNT.fullmatch(count.text) or self.peek().text != "(":
             raise self.mistake(count, "stands where a number and a list ( name { … } … ) are expected.")
         name = self.source.path.name.removesuffix(".gz")
         entries = self.items(_Token(name, count.line), root)
@@ -379,7 +285,26 @@ class _Parser:
         entry = self.look_up(token, scope)
         if not isinstance(entry, Stream):
             raise self.mistake(token, f"is {entry}, and cannot stand within a value.")
+        self.spend(token, len(entry.tokens))
         return entry.tokens
+
+    def copy(self, token: _Token, entry: Entry, key: str, parent: Entry) -> Entry:
+        """Copy the entry that a macro names to another place."""
+        size, height = _extent(entry)
+        self.spend(token, size)
+        self.require_depth(token, _depth(parent) + height)
+        return entry.copy(key, parent)
+
+    def spend(self, token: _Token, words: int) -> None:
+        """Count the words to which a macro expands: without a limit, n lines could expand to 2ⁿ."""
+        self.spent.words += words
+        if self.spent.words > MOST_WORDS:
+            raise self.mistake(token, f"expands to too much: all macros, to more than {MOST_WORDS} words.")
+
+    def require_depth(self, token: _Token, depth: int) -> None:
+        """Raise InputError if dictionaries are nested too deeply."""
+        if depth > MOST_NESTED:
+            raise self.mistake(token, f"is nested too deeply: more than {MOST_NESTED} dictionaries.")
 
     def look_up(self, token: _Token, scope: Dictionary) -> Entry:
         """Find the entry that a macro names."""
@@ -405,7 +330,7 @@ class _Parser:
             raise self.mistake(token, f"stands where a key is expected, but is {template}, not a dictionary.")
         if self.take().text != ";":
             raise self.mistake(token, "has no closing ;.")
-        dictionary.merge(template.copy(template.key, dictionary))
+        dictionary.merge(self.copy(token, template, template.key, dictionary).dictionary())
 
     def include(self, directive: _Token, dictionary: Dictionary) -> None:
         """Read another file's entries into a dictionary."""
@@ -417,12 +342,17 @@ class _Parser:
         path = self.source.path.parent / self.in_case(unquoted(name.text))
         if directive.text == _ETC:
             path = self.in_etc(name)
-        if not (existing(path) or _INCLUDES[directive.text]):
+        if not (_INCLUDES[directive.text] or existing(path)):
             return
+        self.spent.files += 1
+        if self.spent.files > MOST_FILES:
+            raise self.mistake(name, f"is the file after {MOST_FILES} others that are included.")
+        text = _read_text(path, self.spent, lambda why: self.mistake(name, f"cannot be included: {why}."))
         if path.resolve() in self.files:
             raise self.mistake(name, "includes itself.")
-        text = _read_text(path, lambda why: self.mistake(name, f"cannot be included: {why}."))
-        _Parser(Source(path, self.source.case), text, self.files).fill(dictionary)
+        if len(self.files) > MOST_NESTED:
+            raise self.mistake(name, f"is included too deeply: by more than {MOST_NESTED} files.")
+        _Parser(Source(path, self.source.case), text, self.files, self.spent).fill(dictionary)
         dictionary.entries.pop(_HEADER, None)
 
     def in_case(self, name: str) -> str:
@@ -451,22 +381,42 @@ class _Parser:
         )
 
     def peek(self, ahead: int = 0) -> _Token:
-        """Look at a coming token; the last one has no text."""
+        """Return a coming token; the last one has no text."""
         return self.tokens[min(self.position + ahead, len(self.tokens) - 1)]
 
     def take(self) -> _Token:
-        """Go on to the next token."""
+        """Return the next token and go past it."""
         token = self.peek()
         self.position += 1
         return token
 
     def mistake(self, token: _Token, what: str) -> InputError:
-        """Make the error of a token."""
+        """Return the error for a token; of what is included from outside the case, nothing is shown."""
+        if len(self.files) > 1 and not self.files[-1].is_relative_to(self.source.case.resolve()):
+            return self.source.mistake(token.line, "this is no dictionary; it was included.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
 
 
+def _depth(entry: Entry) -> int:
+    """Return the number of entries that hold one another down to this one."""
+    return sum(1 for _ in _upward(entry)) - 1
+
+
+def _extent(entry: Entry) -> tuple[int, int]:
+    """Return the number of words in an entry, and how deeply dictionaries are nested in it."""
+    if isinstance(entry, Stream):
+        return 1 + len(entry.tokens), 0
+    inner: Collection[Entry] = ()
+    if isinstance(entry, Dictionary):
+        inner = entry.entries.values()
+    elif isinstance(entry, DictionaryList):
+        inner = entry.items
+    extents = [_extent(one) for one in inner]
+    return 1 + sum(size for size, _ in extents), 1 + max((height for _, height in extents), default=0)
+
+
 def _upward(entry: Entry) -> Iterator[Entry]:
-    """Go from an entry to the top of the file."""
+    """Yield an entry and those that hold it, up to the top of the file."""
     above: Entry | None = entry
     while above is not None:
         yield above
@@ -480,8 +430,3 @@ def _descend(dictionary: Dictionary, name: str) -> Entry | None:
     first, _, rest = name.partition(".")
     inner = dictionary.entries.get(first)
     return _descend(inner, rest) if isinstance(inner, Dictionary) and rest else None
-
-
-def unquoted(text: str) -> str:
-    """Strip the quotes of a word, if it has them."""
-    return text[1:-1] if text.startswith('"') else text

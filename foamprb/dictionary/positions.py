@@ -15,7 +15,7 @@ _NUMBER = rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
 _ROWS = re.compile(rb"(?:\s*+\(\s*+%b\s++%b\s++%b\s*+\))*+\s*+" % (_NUMBER, _NUMBER, _NUMBER))
 _COMMENT = re.compile(rb"//[^\n]*+|/\*.*?\*/", re.DOTALL)
 _HEADER = re.compile(rb"\s*+(?:FoamFile\s*+\{[^}]*+\})?+\s*+")
-_OPENING = re.compile(rb"(\d++)?\s*+\(")
+_OPENING = re.compile(rb"(\d{1,18}+)?\s*+\(")
 _PARENTHESES = bytes.maketrans(b"()", b"  ")
 
 

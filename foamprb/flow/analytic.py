@@ -230,7 +230,7 @@ class AnalyticFlow:
         """
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
 
-    def cell_zone(self, name: str) -> Tetrahedra:
+    def cell_zone(self, name: str | None) -> Tetrahedra:
         """Refuse: a flow in closed form has no cells.
 
         Raises
@@ -238,7 +238,8 @@ class AnalyticFlow:
         InputError
             Always.
         """
-        raise InputError(f"cellZone {name}: a flow in closed form has no cells to inject into.")
+        what = "all cells" if name is None else f"cellZone {name}"
+        raise InputError(f"{what}: a flow in closed form has no cells to inject into.")
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Infinite: there are no cells."""

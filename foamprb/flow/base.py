@@ -41,14 +41,14 @@ class PatchFaces(NamedTuple):
 
 
 class Tetrahedra(NamedTuple):
-    """The tetrahedra of a zone of cells, for placing particles in it."""
+    """The n tetrahedra of a zone of cells, for placing particles in it."""
 
-    vertices: Floats
-    """(n, 4, 3): tetrahedron, vertex, coordinate; m."""
     volumes: Floats
     """(n,), m³; negative for a tetrahedron turned inside out."""
     hosts: Ints
     """(n,) the host that each is."""
+    vertices: Callable[[Ints], Floats]
+    """Returns the vertices of some hosts, (m, 4, 3): host, vertex, coordinate; m. All could be very many."""
 
 
 class Sampled(Protocol):
@@ -114,8 +114,8 @@ class Flow(Sampled, Protocol):
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Triangles of a patch at time t, s; InputError when there is no such patch, or it has none."""
 
-    def cell_zone(self, name: str) -> Tetrahedra:
-        """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+    def cell_zone(self, name: str | None) -> Tetrahedra:
+        """Tetrahedra of a zone of cells, or of all cells; InputError when there is no such zone."""
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """What tells the flow from another, by name: to know it again when a run is taken up."""

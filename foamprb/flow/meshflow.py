@@ -43,6 +43,10 @@ def _motions(mesh: Mesh) -> Floats:
     return motions
 
 
+_AT_ONCE = 1 << 20
+"""Tetrahedra of which the volumes are computed at once."""
+
+
 class MeshFlow:
     """A flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
 
@@ -218,14 +222,28 @@ class MeshFlow:
             hosts=mesh.triangle_tet[at],
         )
 
-    def cell_zone(self, name: str) -> Tetrahedra:
-        """Tetrahedra of the zone of cells ``name``, cell after cell.
+    def cell_zone(self, name: str | None) -> Tetrahedra:
+        """Tetrahedra of the zone of cells ``name``, or of all cells, cell after cell.
 
         Raises
         ------
         InputError
             There is no such zone, or it names cells that the mesh does not have.
         """
+        hosts = np.arange(len(self.mesh.tets), dtype=np.int32) if name is None else self._hosts_in(name)
+        volumes = np.empty(len(hosts))
+        for start in range(0, len(hosts), _AT_ONCE):
+            vertices = self._vertices(hosts[start : start + _AT_ONCE])
+            volumes[start : start + _AT_ONCE] = np.linalg.det(vertices[:, 1:] - vertices[:, :1]) / 6.0
+        return Tetrahedra(volumes, hosts, self._vertices)
+
+    def _vertices(self, hosts: Ints) -> Floats:
+        """Vertices of tetrahedra, (n, 4, 3), m."""
+        vertices: Floats = self._arrays.nodes[self.mesh.tets[hosts], :3]
+        return vertices
+
+    def _hosts_in(self, name: str) -> Ints:
+        """Tetrahedra of a zone, (n,); InputError as of :meth:`cell_zone`."""
         zones = self._zones()
         if name not in zones:
             raise InputError(f"cellZone {name} is not in the mesh. {suggestion(name, zones)}")
@@ -233,10 +251,7 @@ class MeshFlow:
         if len(cells) and not (cells.min() >= 0 and cells.max() < self.mesh.n_cells):
             raise InputError(f"cellZone {name} names cells beyond the mesh's {self.mesh.n_cells}.")
         start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
-        hosts = np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
-        vertices = self._arrays.nodes[self.mesh.tets[hosts], :3]
-        edges = vertices[:, 1:] - vertices[:, :1]
-        return Tetrahedra(vertices, np.linalg.det(edges) / 6.0, hosts)
+        return np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
 
 
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:

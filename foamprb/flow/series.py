@@ -239,8 +239,8 @@ class SeriesFlow:
         """Cube root of the volume of the hosts' cells, (n,), m."""
         return self._steady.cell_size(hosts)
 
-    def cell_zone(self, name: str) -> Tetrahedra:
-        """Tetrahedra of a zone of cells; InputError when there is no such zone."""
+    def cell_zone(self, name: str | None) -> Tetrahedra:
+        """Tetrahedra of a zone of cells, or of all cells; InputError when there is no such zone."""
         return self._steady.cell_zone(name)
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:

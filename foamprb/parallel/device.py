@@ -1,6 +1,6 @@
 """A cloud on a CUDA device: one thread carries one particle, with the same text as on the processor.
 
-The loops of :mod:`foamprb.cloud.advance` and :mod:`foamprb.cloud.adaptive` are compiled for blocks of one
+The loops of :mod:`foamprb.cloud.integrators` are compiled for blocks of one
 lane, and each thread calls them with a block of its own. The particles stay in the device's memory from one
 time of output to the next. This module needs numba-cuda; ``NUMBA_ENABLE_CUDASIM=1`` makes numba simulate a
 device.
@@ -16,9 +16,9 @@ import numpy as np
 from numba import cuda
 from numpy.typing import NDArray
 
-from foamprb.cloud.advance import track_block as track
 from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.paper import track_block as track
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
 from foamprb.cloud.state import CHANGING, Particles, Status
 from foamprb.cloud.tracker import Tracker
@@ -280,8 +280,9 @@ class Device:
 
 def kernels(tracker: Tracker) -> tuple[Any, Any]:
     """Compile :func:`track_each` for the loop of a tracker, and :func:`find_longest`."""
-    loop = tracker.loop
-    bindings = {**tracker.bindings, "track": loop.entry, "ROWS": loop.rows, "LANES": 1}
+    integrator = tracker.integrator
+    own = {"track": integrator.track, "ROWS": integrator.layout.rows, "LANES": 1}
+    bindings = tracker.bindings | own
     return link(track_each, bindings, tracker.separate, target="cuda"), link(find_longest, target="cuda")
 
 

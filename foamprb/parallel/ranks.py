@@ -24,9 +24,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.block import LANES
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.executor import AT_ONCE, longest_semi_axis
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.measures import injected
 from foamprb.cloud.state import VARIABLES, Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Tracker

@@ -6,8 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.imex import SMALL_STOKES, STABLE_STEPS, relaxation_time
+from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import shear_rate_at
 
 SMALL_REYNOLDS = 0.1
@@ -65,15 +66,16 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
         What the sentences speak of, e.g. ``injection model inlet``.
     """
     found = []
-    if integrator == "paper" and g.step[1] > STABLE_STEPS:
+    scheme = INTEGRATORS[integrator]
+    if g.step[1] > scheme.stable_steps:
         found.append(
             f"{where}: deltaT is {g.step[1]:.3g} times the shape's relaxation time; the integrator is stable "
-            f"only below about {STABLE_STEPS:g}, less for elongated particles."
+            f"only below about {scheme.stable_steps:g}, less for elongated particles."
         )
-    if integrator == "stokes" and g.stokes[1] > 10 * SMALL_STOKES:
+    if not scheme.inertia and g.stokes[1] > 10 * SMALL_STOKES:
         found.append(
-            f"{where}: the shape Stokes number is {g.stokes[1]:.3g}; the integrator stokes leaves out the "
-            "inertia of the solid, which matters there."
+            f"{where}: the shape Stokes number is {g.stokes[1]:.3g}; the integrator {integrator} leaves out "
+            "the inertia of the solid, which matters there."
         )
     if g.reynolds[1] > SMALL_REYNOLDS:
         found.append(

@@ -9,11 +9,12 @@ import pyvista
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
-from foamprb.cloud.tracker import LOOPS, Models
-from foamprb.compile.link import cache_directory
+from foamprb.cloud.tracker import Models
+from foamprb.compile.cache import cache_directory
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
@@ -37,7 +38,7 @@ def compile_all() -> None:
     flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
     medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
     for kind, flow in flows.items():
-        for integrator in LOOPS:
+        for integrator in INTEGRATORS:
             log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
             particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
             models = Models(integrator=integrator)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from foamprb.body.imex import INTEGRATORS, SMALL_STOKES, automatic, relaxation_time
+from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Snapshot
@@ -27,11 +27,12 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import draw
 from foamprb.cloud.injection.models import release
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES, automatic
 from foamprb.cloud.measures import context, shear_rate_at
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, concatenate
 from foamprb.cloud.tracker import Models, Tracker
-from foamprb.cloudfunctions.functions import STATUS_NAMES, Functions, Look
-from foamprb.compile.link import cache_directory
+from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunctions, ObservedCloud
+from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError, RunStopped
 from foamprb.flow.base import Flow
@@ -47,14 +48,9 @@ from foamprb.parallel.team import Serial, Team, View
 from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.precompile import Ahead
 from foamprb.run.restart import Fingerprint, fingerprint, restore, save
-from foamprb.settings.settings import (
-    InjectionSettings,
-    Settings,
-    Solution,
-    StartFrom,
-    match_patches,
-    read_settings,
-)
+from foamprb.settings.patches import match_patches
+from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import InjectionSettings, Settings, Solution, StartFrom
 
 log = logging.getLogger("foamprb")
 
@@ -75,15 +71,15 @@ class Job:
 
     settings: Settings
     cloud: Cloud
-    functions: Functions
+    functions: CloudFunctions
     ahead: Ahead | None = None
     """Who compiles the loop, if it is another process."""
 
     @property
-    def look(self) -> Look:
-        """What is to be seen of the cloud."""
+    def observed(self) -> ObservedCloud:
+        """The cloud with the names of its injection models and patches."""
         injectors = tuple(injection.name for injection in self.settings.injections)
-        return Look(self.cloud, injectors, self.patch_names)
+        return ObservedCloud(self.cloud, injectors, self.patch_names)
 
     @property
     def folder(self) -> Path:
@@ -166,14 +162,15 @@ def _compile_ahead(settings: Settings) -> Ahead:
 
 
 def _medium(settings: Settings) -> Medium:
-    fluid, pressure_gradient = settings.fluid, float(settings.pressure_gradient)
-    return Medium(fluid.mu, fluid.rho, settings.gravity, pressure_gradient, settings.virtual_mass)
+    return Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
 
 
 def _models(settings: Settings, integrator: str) -> Models:
     solid = settings.injections[0].solid.type if settings.injections else Models.material
     tolerance = settings.solution.tolerance
-    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance)
+    # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
+    forces = tuple(settings.forces.values()) or Models.forces
+    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance, forces)
 
 
 def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
@@ -226,9 +223,10 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
-    look = Look(cloud, tuple(i.name for i in settings.injections), tuple(p.name for p in flow.patches))
+    injectors = tuple(injection.name for injection in settings.injections)
+    observed = ObservedCloud(cloud, injectors, tuple(patch.name for patch in flow.patches))
     try:
-        functions = Functions(settings.functions, look)
+        functions = CloudFunctions(settings.functions, observed)
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
     return Job(settings, cloud, functions)
@@ -307,13 +305,12 @@ def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
     log.info("Selecting tractionModel %s", settings.traction)
-    log.info("Selecting particleForces ellipsoidDrag %s%s%s%s", settings.drag,
-             ", gravity" if any(settings.gravity) else "",
-             ", pressureGradient" if settings.pressure_gradient else "",
-             f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
+    forces = {"ellipsoidDrag": settings.drag, **settings.forces}
+    named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
+    log.info("Selecting particleForces %s", named)
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
-    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme])
+    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)
     if settings.solution.shape == "auto":
         number = _shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
@@ -330,6 +327,8 @@ def describe(job: Job) -> list[str]:
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
     for name, function in settings.functions.items():
         log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
+    if cloud.particles.size == 0:
+        warnings.append("there is no particle: no injection model releases any.")
     for warning in warnings:
         log.warning("%s", warning)
     return warnings
@@ -543,10 +542,10 @@ def _advance_to(job: Job, target: int, show: Callable[[float], None], stop: Call
     while cloud.step < target and _moving(cloud):
         if stop():
             return False
-        until = job.functions.next_look(target)
+        until = job.functions.next_sample(target)
         cloud.advance(_next_chunk(job, target))
         if cloud.step == until:
-            job.functions.see()
+            job.functions.sample()
         show(cloud.time)
     cloud.step = target
     return True
@@ -557,7 +556,7 @@ def _next_chunk(job: Job, target: int) -> int:
     cloud = job.cloud
     counts = cloud.counts()
     work = counts[Status.PENDING] + counts[Status.ACTIVE]
-    return min(job.functions.next_look(target) - cloud.step, max(1, cloud.executor.at_once // work))
+    return min(job.functions.next_sample(target) - cloud.step, max(1, cloud.executor.at_once // work))
 
 
 @contextmanager
@@ -609,11 +608,11 @@ def _log_failures(p: Particles, reported: NDArray[np.int64]) -> NDArray[np.int64
 
 def write_fates(job: Job) -> None:
     """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed."""
-    p, look = job.cloud.particles, job.look
+    p = job.cloud.particles
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last is that of −1.
     patches = np.array((*job.patch_names, ""), dtype=object)
-    axes, D = look.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
+    axes, D = job.observed.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
     write_table(
         job.folder / FATES,
         {

@@ -7,6 +7,7 @@ interval, the number of threads. Nothing here depends on how the particles are s
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 import foamprb
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.cloudfunctions.functions import Functions
+from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.output.checkpoint import Checkpoint
 from foamprb.output.pvd import Entry, files_of, read_pvd
@@ -73,7 +74,7 @@ def save(
 
 
 def restore(
-    cloud: Cloud, functions: Functions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
+    cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
 ) -> None:
     """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
 
@@ -151,7 +152,7 @@ def _sums(array: ArrayLike) -> Sums:
     values = np.asarray(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
-    columns = values.reshape(len(values), -1) if values.ndim > 1 else values.reshape(-1, 1)
+    columns = values.reshape(len(values), math.prod(values.shape[1:]))
     random = np.random.default_rng(0)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):

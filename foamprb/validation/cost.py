@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from foamprb.body.imex import INTEGRATORS
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models
 from foamprb.validation.case import Outcome, Row
 from foamprb.validation.runs import pipe_cloud

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from foamprb.body.imex import INTEGRATORS
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row
@@ -24,9 +24,6 @@ from foamprb.validation.runs import (
     pipe_cloud,
     unit_cloud,
 )
-
-DESIGN = {"paper": 1, "rosenbrock": 2, "stokes": 2}
-"""Order that each integrator is made for."""
 
 
 def _with_inertia(name: str, steps: Floats) -> Floats:
@@ -69,28 +66,25 @@ def order(quick: bool) -> Outcome:
     rows = []
     inertial: list[Curve] = []
     inertialess: list[Curve] = []
-    for colour, name in enumerate(INTEGRATORS):
-        slow = name == "stokes"
+    for colour, (name, integrator) in enumerate(INTEGRATORS.items()):
+        slow = not integrator.inertia
         steps = (0.1 if slow else 2e-5) * 0.5 ** np.arange(4.0 if quick else 6.0)
         errors = _without_inertia(name, steps) if slow else _with_inertia(name, steps)
         slopes = np.log2(errors[:-1] / errors[1:])
-        design = DESIGN.get(name)
         flow = "simple shear, Ca = 0.4, γ̇t = 2" if slow else "pipe, Ca = 0.5, 2 ms"
         rows.append(
             Row(
                 f"{name}: order ({flow})",
                 float(slopes[-1]),
-                None if design is None else float(design),
+                float(integrator.order),
                 "error against solve_ivp over Δt",
-                None if design is None else 0.15,
-                note="" if design else "no order is declared for it",
+                0.15,
             )
         )
         target = inertialess if slow else inertial
         target.append(Curve(steps, errors, f"{name}", colour=colour))
-        if design is not None:
-            guide = errors[0] * (steps / steps[0]) ** design
-            target.append(Curve(steps, guide, f"order {design}", "guide", colour))
+        guide = errors[0] * (steps / steps[0]) ** integrator.order
+        target.append(Curve(steps, guide, f"order {integrator.order}", "guide", colour))
     panels = [Panel("Δt [s]", "error of x/d and F", inertial, "log")]
     if inertialess:
         panels.append(Panel("γ̇Δt", "error of F", inertialess, "log"))

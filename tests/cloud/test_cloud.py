@@ -8,9 +8,9 @@ from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals, reach
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, stored_energy
-from foamprb.cloud.advance import track_block
 from foamprb.cloud.block import ROWS, Medium, new_scratch
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.paper import track_block
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick

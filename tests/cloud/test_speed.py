@@ -15,12 +15,14 @@ import pytest
 from paths import PIPE
 
 import foamprb
-from foamprb.cloud.adaptive import end_inertial
-from foamprb.cloud.advance import dense_newton
-from foamprb.cloud.block import LANES, Medium
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces.total import coefficients, compose
+from foamprb.cloud.integrators.paper import dense_newton
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
-from foamprb.cloud.tracker import LOOPS, Models
+from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
 from foamprb.compile.link import link
 
@@ -31,9 +33,10 @@ COST = {"paper": 55.0, "stokes": 90.0}
 SLOWER = 2.5
 """A loop that costs so many times more has lost something; machines alone differ by less."""
 
-# These go through single lanes, or do nothing.
-_NO_VECTORS = (dense_newton, end_inertial)
-STAGES = {stage: loop for loop in LOOPS.values() for stage in loop.stages if stage not in _NO_VECTORS}
+FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm=0.5))
+# It goes through a single lane.
+_NO_VECTORS = (dense_newton,)
+STAGES = {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}
 
 
 class Yardstick:
@@ -99,13 +102,14 @@ def arithmetic(assembly):
     return found.count("p"), found.count("s")
 
 
-def assembly_of(stage, loop, monkeypatch, folder):
+def assembly_of(stage, integrator, monkeypatch, folder):
     """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
     monkeypatch.setattr(compiling, "_parts", {})
-    block = np.ones(loop.rows * LANES)
-    dispatcher = link(stage, loop.bindings)
-    values = {"block": block, "medium": AIR, "tolerance": 1e-4, "allowed": 1e-22}
+    medium = AIR._replace(coefficients=coefficients(FORCES))
+    block = np.ones(integrator.layout.rows * LANES)
+    dispatcher = link(stage, compose(FORCES) | integrator.bindings)
+    values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22}
     dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))
     (assembly,) = dispatcher.inspect_asm().values()
     return assembly

@@ -6,16 +6,17 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 from numba import TypingError
 
 import foamprb
-from foamprb.body.tensor import det, longest_stretch, principal_frame
+from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.compile import link as compiling
-from foamprb.compile import passes
-from foamprb.compile.link import compile_part, is_compiled, link
+from foamprb.compile.internals import SWITCH
+from foamprb.compile.link import compile_part, link
 
 FIRST, SECOND = 2, 3
 
@@ -76,8 +77,8 @@ def ratio(x, y):
 
 
 @pytest.fixture
-def kept(tmp_path, monkeypatch):
-    """A folder for compiled code, with nothing compiled in this process."""
+def cache(tmp_path, monkeypatch):
+    """An empty cache, with nothing compiled in this process."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.setattr(compiling, "_parts", {})
     return tmp_path / "cache"
@@ -100,38 +101,20 @@ def test_code_is_found_by_another_installation_of_the_same_source(tmp_path):
     assert run(copy, tmp_path / "cache") == ["True", "6.0", "True"]
 
 
-def test_code_that_cannot_be_read_is_compiled_anew(kept, monkeypatch):
-    F = (1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)
-    assert link(det)(F) == 6.0
-    (index,) = kept.rglob("*.nbi")
-    index.write_bytes(index.read_bytes()[:-20])
-    monkeypatch.setattr(compiling, "_parts", {})
-    again = link(det)
-    assert again(F) == 6.0
-    assert not again.stats.cache_hits
-
-
-def test_code_runs_where_it_cannot_be_kept(kept):
-    kept.write_text("a file where the folder would be")
-    f = link(doubled)
-    assert f(2.0) == 4.0
-    assert is_compiled(f)
-
-
-def test_constants_are_no_reason_to_compile_a_function_again(kept):
+def test_constants_are_no_reason_to_compile_a_function_again(cache):
     assert link(sum_of_two)(np.arange(5.0)) == 5.0
     (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__name__ == "element"]
     assert len(part.dispatcher.signatures) == 1
 
 
 @pytest.mark.parametrize("separate", [(), (doubled,)], ids=["inlined", "called"])
-def test_called_and_inlined_functions_give_the_same(kept, separate, monkeypatch):
+def test_called_and_inlined_functions_give_the_same(cache, separate, monkeypatch):
     assert link(quadrupled, separate=separate)(1.25) == 5.0
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(quadrupled, separate=separate)(1.25) == 5.0
 
 
-def test_garbage_is_collected_again_after_a_compilation(kept):
+def test_garbage_is_collected_again_after_a_compilation(cache):
     def unknown(x):
         return x.nothing_of_the_kind
 
@@ -142,19 +125,14 @@ def test_garbage_is_collected_again_after_a_compilation(kept):
     assert gc.isenabled()
 
 
-@pytest.mark.parametrize("options", [passes.CALLED, {}], ids=["as here", "as with another numba"])
-def test_called_functions_are_found_by_other_processes(kept, monkeypatch, options):
-    plain = {name: value for name, value in compiling._ROLES["separate"].items() if name != "pipeline_class"}
-    monkeypatch.setitem(compiling._ROLES, "separate", plain | options)
+@pytest.mark.parametrize("without", ["0", "machineCode"], ids=["as here", "as with another numba"])
+def test_called_functions_are_found_by_other_processes(cache, monkeypatch, without):
+    monkeypatch.setenv(SWITCH, without)
     compile_part(doubled, {"x": 1.25}, {}, (doubled,))
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(octupled, separate=(doubled,))(1.25) == 10.0
     (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__code__ is doubled.__code__]
     assert sum(part.dispatcher.stats.cache_hits.values()) == 1
-    for index in kept.rglob("*doubled*.nbi"):
-        index.write_bytes(index.read_bytes()[:-20])
-    monkeypatch.setattr(compiling, "_parts", {})
-    assert link(quadrupled, separate=(doubled,))(1.25) == 5.0
 
 
 def test_functions_of_one_name_are_told_apart(tmp_path):
@@ -175,7 +153,7 @@ def test_functions_of_one_name_are_told_apart(tmp_path):
         assert done.stdout.split() == [factors[name] for name in bindings]
 
 
-def test_results_of_operators_have_the_types_of_their_operands(kept):
+def test_results_of_operators_have_the_types_of_their_operands(cache):
     f = link(ratio)
     for x in (3, 3.25, np.float32(3.5), np.int8(3), True):
         for y in (2, 2.75, np.float32(2.5), np.int8(2)):
@@ -183,7 +161,7 @@ def test_results_of_operators_have_the_types_of_their_operands(kept):
             assert type(f(x, y)) is type(np.asarray(ratio(x, y)).item())
 
 
-def test_separate_functions_stay_functions(kept):
+def test_separate_functions_stay_functions(cache):
     """The loop calls them: inlined where it does they would swell it."""
     f = link(quadrupled, separate=(doubled,))
     f(1.25)
@@ -206,3 +184,24 @@ def test_bound_of_the_stretches():
     prolate = turn @ np.diag([2.5, 0.7, 0.7])
     assert longest_stretch(tuple(prolate.ravel())) == pytest.approx(2.5, rel=1e-12)
     assert longest_stretch(tuple(1.5 * turn.ravel())) == pytest.approx(1.5, rel=1e-7)
+
+
+class Places(NamedTuple):
+    low: int
+    high: int
+
+
+places = Places(2, 3)
+
+
+def difference(values):
+    return element(values, places.high) - element(values, places.low)
+
+
+def test_named_numbers_are_constants_of_the_code_that_reads_them(kept):
+    """Other numbers are other code; a function that is given one is compiled once for all."""
+    values = np.array([1.0, 2.0, 4.0, 8.0])
+    assert link(difference)(values) == 4.0
+    assert link(difference, {"places": Places(0, 3)})(values) == 7.0
+    (part,) = [p for p in compiling._parts.values() if p.dispatcher.py_func.__name__ == "element"]
+    assert len(part.dispatcher.signatures) == 1

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pipe_case import copy_of_pipe, message
 
-from foamprb.cloud.block import LANES
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
 from foamprb.parallel.ranks import _pack, _unpack, plan_exchange
 

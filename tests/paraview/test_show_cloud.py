@@ -1,4 +1,5 @@
 import gzip
+import json
 import shutil
 import subprocess
 import textwrap
@@ -220,6 +221,120 @@ def test_pipe_of_the_cases(tmp_path: Path) -> None:
     done = pvpython(SCRIPT, case, "--screenshot", picture, "--size", "800x450")
     assert done.returncode == 0, done.stderr
     assert saturated(read_picture(picture)[:350]).mean() > 0.001
+
+
+CAMERA = """
+import json, sys
+sys.path.insert(0, {folder!r})
+from pathlib import Path
+import numpy as np
+from paraview import simple
+import show_cloud
+view = simple.CreateView("RenderView")
+view.ViewSize = [800, 450]
+show_cloud.show(Path({case!r}), camera=show_cloud.Camera({direction!r}, {zoom!r}))
+print(json.dumps(dict(
+    parallel=view.CameraParallelProjection, scale=view.CameraParallelScale, angle=view.CameraViewAngle,
+    focus=list(view.CameraFocalPoint), position=list(view.CameraPosition), up=list(view.CameraViewUp),
+    ticks=[show_cloud.ticks(10.0**k * n) for k in (-5, 0, 2) for n in range(1, 10)])))
+"""
+
+
+def camera_of(case: Path, driver: Path, direction: Any = None, zoom: float = 1.0) -> dict[str, Any]:
+    driver.write_text(
+        CAMERA.format(folder=str(SCRIPT.parent), case=str(case), direction=direction, zoom=zoom)
+    )
+    done = pvpython(driver)
+    assert done.returncode == 0, done.stderr
+    found: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
+def in_picture(camera: dict[str, Any], points: NDArray[Any]) -> NDArray[Any]:
+    """Places of points in a picture of 16:9, −1 to 1 from left to right and from below; shape (n, 2)."""
+    focus, position, up = (np.array(camera[name]) for name in ("focus", "position", "up"))
+    towards = (position - focus) / np.linalg.norm(position - focus)
+    up = up - (up @ towards) * towards
+    up /= np.linalg.norm(up)
+    half = np.full(len(points), camera["scale"])
+    if not camera["parallel"]:
+        half = ((position - points) @ towards) * np.tan(np.radians(camera["angle"] / 2))
+    places: NDArray[Any] = np.column_stack(
+        [(points - focus) @ np.cross(up, towards) / (16 / 9), (points - focus) @ up]
+    )
+    return places / half[:, None]
+
+
+CORNERS = np.array([(x, y, z) for x in (0, 8e-3) for y in (0, 1e-3) for z in (0, 1e-3)])
+
+
+def test_a_plane_is_seen_from_above_and_whole(duct: Path, tmp_path: Path) -> None:
+    patches = {
+        "inlet": ("patch", 1, 0),
+        "outlet": ("patch", 1, 1),
+        "wall": ("wall", 2, 2),
+        "frontAndBack": ("empty", 2, 4),
+    }
+    entries = [f"{k} {{ type {t}; nFaces {n}; startFace {start}; }}" for k, (t, n, start) in patches.items()]
+    boundary = duct / "constant" / "polyMesh" / "boundary"
+    boundary.write_text(foam_list("polyBoundaryMesh", "boundary", entries))
+    write_run(duct)
+    camera = camera_of(duct, tmp_path / "driver.py")
+    assert camera["parallel"] == 1
+    towards = np.subtract(camera["position"], camera["focus"])
+    np.testing.assert_allclose(towards / np.linalg.norm(towards), (0, 0, 1), atol=1e-12)
+    np.testing.assert_allclose(camera["up"], (0, 1, 0), atol=1e-12)
+    # Not cut off, and 94 % of the width.
+    places = in_picture(camera, CORNERS)
+    assert np.ptp(places[:, 0]) == pytest.approx(2 * 0.94, rel=1e-6)
+    assert abs(places).max() < 1.0
+
+
+@pytest.mark.parametrize(
+    ("direction", "zoom"), [(None, 1.0), ((1.0, 1.0, 2.0), 1.0), ((0.0, -1.0, 0.0), 2.0)]
+)
+def test_a_tilted_duct_fills_the_picture_and_is_not_cut_off(
+    duct: Path, tmp_path: Path, direction: Any, zoom: float
+) -> None:
+    c, s = np.cos(0.6), np.sin(0.6)
+    corners = CORNERS * (0.4, 1, 1)
+    tilted = corners @ np.array([(c, s, 0), (-s, c, 0), (0, 0, 1)])
+    order = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    write_gzipped(
+        duct / "constant" / "polyMesh" / "points",
+        "vectorField",
+        ["({:.9g} {:.9g} {:.9g})".format(*tilted[4 * x + 2 * y + z]) for x, y, z in order],
+    )
+    (duct / "constant" / "g").write_text(
+        header("uniformDimensionedVectorField", "g") + "value (0 0 -9.81);\n"
+    )
+    write_run(duct)
+    camera = camera_of(duct, tmp_path / "driver.py", direction, zoom)
+    assert camera["parallel"] == 0
+    # Of the width 94 %, or of the height 72 %, where captions need the rest.
+    filled = (abs(in_picture(camera, tilted)) / (0.94, 0.72)).max()
+    assert filled == pytest.approx(1.0, abs=1e-3) if zoom == 1.0 else filled > 1.5
+    towards = np.subtract(camera["position"], camera["focus"])
+    towards /= np.linalg.norm(towards)
+    if direction is None:
+        # From the side of its own long axis, turned by 32 degrees and raised by 6.
+        axis = tilted[4] - tilted[0]
+        along = abs(towards @ axis) / np.linalg.norm(axis)
+        assert along == pytest.approx(np.sin(np.radians(32)) * np.cos(np.radians(6)), abs=1e-3)
+    else:
+        np.testing.assert_allclose(towards, direction / np.linalg.norm(direction), atol=1e-12)
+    for top, numbers in zip(
+        [10.0**k * n for k in (-5, 0, 2) for n in range(1, 10)], camera["ticks"], strict=True
+    ):
+        assert 3 <= len(numbers) <= 6
+        assert 0.8 * top <= max(numbers) <= top * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("options", [("--view", "0,0,0"), ("--view", "up"), ("--zoom", "-1")])
+def test_a_view_that_is_none_is_refused(duct: Path, options: tuple[str, str]) -> None:
+    done = pvpython(SCRIPT, duct, "=".join(options))
+    assert done.returncode == 2
+    assert f"'{options[1]}' is not" in done.stderr
 
 
 def read_picture(path: Path) -> NDArray[Any]:

@@ -17,7 +17,7 @@ from scipy import stats
 from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.functions import STATUS_NAMES
+from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.output.pvd import read_pvd
 from foamprb.run.job import prepare
 

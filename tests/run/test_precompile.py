@@ -8,7 +8,8 @@ import foamprb
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.tracker import LOOPS, Models, Tracker
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile import link as compiling
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -82,6 +83,6 @@ def test_after_compile_no_run_has_to(capsys):
     assert main(["compile"]) == 0
     assert "The code is kept in" in capsys.readouterr().out
     for kind in (MeshFlow, SeriesFlow):
-        for integrator in LOOPS:
+        for integrator in INTEGRATORS:
             models = Models(integrator=integrator)
             assert Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False).compiled

@@ -11,9 +11,11 @@ import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, rows
 from benchmarks.tracker import Tracker
-from foamprb.cloud import adaptive, advance, block
-from foamprb.cloud.block import LANES, frame_stage
+from foamprb.cloud import block
+from foamprb.cloud.block import frame_stage
 from foamprb.cloud.block import frame_stage as medium_stage
+from foamprb.cloud.integrators import paper, stokes
+from foamprb.cloud.layout import LANES
 from foamprb.compile.link import link
 from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import sample, walk
@@ -30,19 +32,19 @@ class Stage(NamedTuple):
 
 STAGES: dict[str, dict[str, Stage]] = {
     "paper": {
-        "traction": Stage(advance.traction_stage, 1, True),
-        "newton": Stage(advance.newton_stage, 1),
+        "traction": Stage(paper.traction_stage, 1, True),
+        "newton": Stage(paper.newton_stage, 1),
         "frame": Stage(block.frame_stage, 1),
         "stretches": Stage(block.stretch_stage, 1),
         "integrals": Stage(block.integrals_stage, 1),
-        "barycentre": Stage(advance.barycentre_stage, 1, True),
+        "barycentre": Stage(paper.barycentre_stage, 1, True),
     },
     "stokes": {
         "frame": Stage(block.frame_stage, 2),
         "stretches": Stage(block.stretch_stage, 2),
         "integrals": Stage(block.integrals_stage, 2),
-        "first slope": Stage(adaptive.first_inertialess, 1, True),
-        "second slope": Stage(adaptive.second_inertialess, 1, True),
+        "first slope": Stage(stokes.first_inertialess, 1, True),
+        "second slope": Stage(stokes.second_inertialess, 1, True),
     },
 }
 """Stages over the lanes of a block, in the order of the loop."""
@@ -98,17 +100,16 @@ def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
 
 def filled(cloud: Any, members: Any) -> Any:
     """A block with the state of the particles, the flow around them and their frame."""
-    scratch = block.new_scratch(adaptive.ADAPTIVE_ROWS)
+    scratch = block.new_scratch(cloud.tracker.integrator.layout.rows)
     data = scratch.block
     data[:] = 0.0
+    block.idle_lanes(data, cloud.dt)
     p = cloud.particles
     u, l = cloud.flow.sample(p.x[members], p.host[members], cloud.time)
     for i, k in enumerate(members):
-        block.idle(data, i, cloud.dt)
         block.load_particle(p, k, scratch, i)
-        block.store3(data, block.AT_U, i, tuple(u[i]))
-        block.store9(data, block.AT_L, i, tuple(l[i].ravel()))
-        data[adaptive.AT_H * LANES + i] = cloud.dt
+        block.store3(data, block.at.u, i, tuple(u[i]))
+        block.store9(data, block.at.l, i, tuple(l[i].ravel()))
     for stage in (block.frame_stage, block.stretch_stage, block.integrals_stage):
         link(_repeat, {"frame_stage": stage}, separate=(stage,))(data, 1)
     return data
@@ -127,8 +128,9 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     runs: dict[str, Any] = {}
     for name, stage in STAGES[integrator].items():
         if stage.with_medium:
-            kernel = link(_repeat_medium, {"medium_stage": stage.function}, separate=(stage.function,))
-            runs[name] = lambda times, k=kernel: [k(data, cloud.medium, times) for _, data in chosen]
+            bindings = cloud.tracker.bindings | {"medium_stage": stage.function}
+            kernel, medium = link(_repeat_medium, bindings, (stage.function,)), cloud.tracker.medium
+            runs[name] = lambda times, k=kernel, m=medium: [k(data, m, times) for _, data in chosen]
         else:
             kernel = link(_repeat, {"frame_stage": stage.function}, separate=(stage.function,))
             runs[name] = lambda times, k=kernel: [k(data, times) for _, data in chosen]

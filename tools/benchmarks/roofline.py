@@ -15,7 +15,7 @@ from benchmarks import pipe
 from benchmarks.profile import STAGES, blocks_of
 from benchmarks.records import KILO, Options, Row, rows
 from benchmarks.tracker import STEP
-from foamprb.cloud.block import LANES
+from foamprb.cloud.layout import LANES
 
 COUNTED = ("add", "multiply", "divide", "sqrt")
 _CHAINS, _LENGTH = 4, 8

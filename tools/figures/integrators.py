@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 import foamprb
-from foamprb.body.imex import INTEGRATORS, relaxation_time
+from foamprb.body.imex import relaxation_time
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.output.tables import write_table
 
 

@@ -2,7 +2,8 @@
 
 From a terminal::
 
-    pvpython show_cloud.py CASE [--cloud softCloud] [--time T] [--scale S] [--screenshot out.png]
+    pvpython show_cloud.py CASE [--cloud softCloud] [--time T] [--scale S] [--view DIRECTION] [--zoom Z]
+                           [--screenshot out.png] [--size 1600x900]
 
 In ParaView's window: open the cloud's ``.pvd``, then run this file from Macros or from the Python shell's
 Run Script.
@@ -32,11 +33,19 @@ BODY_SIZE = 1 / 16
 WINDOW_LENGTH = 3.5
 
 VIEW_ANGLE, YAW, PITCH = 30.0, 32.0, 6.0
+# Of the picture's width and height: what the case fills; captions and legend have the rest.
+FILLED = (0.94, 0.72)
+# Of a coordinate box: how much smaller the box along the principal axes must be to be taken instead.
+TILTED = 0.8
+DIRECTIONS = {sign + axis: k for axis, k in zip("xyz", np.eye(3), strict=True) for sign in ("", "+")} | {
+    "-" + axis: -k for axis, k in zip("xyz", np.eye(3), strict=True)
+}
 MANY_BODIES = 5000
 
 INK = (0.13, 0.15, 0.18)
 PAPER = (1.0, 1.0, 1.0)
 GLASS = (0.86, 0.91, 0.95)
+EDGE = (0.55, 0.6, 0.65)
 
 Vector = NDArray[np.float64]
 NO_POINTS = np.empty((0, 3))
@@ -52,7 +61,20 @@ class Scene(NamedTuple):
     scale: float
 
 
-def show(case: Path, name: str = "softCloud", time: float | None = None, scale: float | None = None) -> Scene:
+class Camera(NamedTuple):
+    """Where the user wants to look from: a direction that points to the camera, if any; and how near."""
+
+    direction: tuple[float, float, float] | None = None
+    zoom: float = 1.0
+
+
+def show(
+    case: Path,
+    name: str = "softCloud",
+    time: float | None = None,
+    scale: float | None = None,
+    camera: Camera = Camera(),  # noqa: B008
+) -> Scene:
     """Build the picture of a run in the active view.
 
     Parameters
@@ -65,6 +87,8 @@ def show(case: Path, name: str = "softCloud", time: float | None = None, scale: 
         Time, s: the nearest that was written is shown; the last one by default.
     scale
         How many times larger the bodies are drawn; by default such that they can be seen.
+    camera
+        From where to look; by default at the plane of a two-dimensional case, else at the longest side.
     """
     simple._DisableFirstRenderCameraReset()
     view = simple.GetActiveViewOrCreate("RenderView")
@@ -75,7 +99,7 @@ def show(case: Path, name: str = "softCloud", time: float | None = None, scale: 
     show_walls(walls, view)
     if cloud is None:
         annotate(f"No cloud '{name}' here: run foamprb first", view, "Upper Right Corner")
-        look_at(case, box(walls, NO_POINTS), NO_POINTS, view)
+        look_at(case, walls, NO_POINTS, view, camera)
         return Scene(view, walls, None, None, 1.0)
 
     select_time(cloud, time)
@@ -89,36 +113,68 @@ def show(case: Path, name: str = "softCloud", time: float | None = None, scale: 
     shown.UpdatePipeline(view.ViewTime)
     points, deformation = positions(shown), point_array(shown, "taylorDeformation")
     if scale is None:
-        scale = automatic_scale(point_array(cloud, "d"), box(walls, positions(cloud)))
+        scale = automatic_scale(point_array(cloud, "d"), outline(walls, positions(cloud)))
     # Tensor Glyph calls an empty input an error.
     bodies = draw_bodies(shown, scale, len(points)) if len(points) else None
     if bodies is not None:
         show_bodies(bodies, deformation.max(), view)
     annotate_time(cloud, view)
     annotate(caption(scale, len(points)), view, "Upper Right Corner")
-    look_at(case, box(walls, points), points, view)
+    look_at(case, walls, points, view, camera)
     return Scene(view, walls, cloud, bodies, scale)
 
 
 def read_walls(case: Path) -> Any:
     """Boundary faces of the case's walls (of all patches if none is a wall), or None without a mesh."""
-    control = case / "system" / "controlDict"
-    decomposed = not (case / "constant" / "polyMesh").is_dir()
-    mesh = case / ("processor0" if decomposed else "") / "constant" / "polyMesh"
-    patches = patch_types(mesh)
-    if not control.is_file() or not patches:
+    patches = patch_types(mesh_folder(case))
+    if not (case / "system" / "controlDict").is_file() or not patches:
         say(f"{case}: no system/controlDict or no mesh; the walls are not shown.")
         return None
     names = [name for name, kind in patches.items() if kind == "wall"] or list(patches)
-    # The reader takes controlDict for the case, so that no .foam file has to be left there.
-    walls = simple.OpenFOAMReader(registrationName="walls", FileName=str(control))
-    walls.CaseType = "Decomposed Case" if decomposed else "Reconstructed Case"
-    walls.MeshRegions = [f"patch/{name}" for name in names]
-    walls.CellArrays = []
+    walls = read_patches(case, names, "walls")
     # The flow's times would make ParaView's clock run to the last iteration of a steady solver.
     simple.GetTimeKeeper().SuppressedTimeSources = [walls]
-    walls.UpdatePipeline()
     return walls
+
+
+def read_patches(case: Path, names: list[str], title: str) -> Any:
+    """Boundary faces of some patches of the case's mesh."""
+    # The reader takes controlDict for the case, so that no .foam file has to be left there.
+    patches = simple.OpenFOAMReader(registrationName=title, FileName=str(case / "system" / "controlDict"))
+    patches.CaseType = "Decomposed Case" if is_decomposed(case) else "Reconstructed Case"
+    patches.MeshRegions = [f"patch/{name}" for name in names]
+    patches.CellArrays = []
+    patches.UpdatePipeline()
+    return patches
+
+
+def is_decomposed(case: Path) -> bool:
+    """Whether the mesh is in the processors' folders alone."""
+    return not (case / "constant" / "polyMesh").is_dir()
+
+
+def mesh_folder(case: Path) -> Path:
+    """Folder of the mesh, or of the first processor's part of it."""
+    return case / ("processor0" if is_decomposed(case) else "") / "constant" / "polyMesh"
+
+
+def plane_normal(case: Path) -> Vector | None:
+    """Unit normal of a two-dimensional case, from its ``empty`` or ``wedge`` patches; of another None."""
+    names = [name for name, kind in patch_types(mesh_folder(case)).items() if kind in ("empty", "wedge")]
+    if not names or not (case / "system" / "controlDict").is_file():
+        return None
+    patches = read_patches(case, names, "planes")
+    merged = simple.MergeBlocks(Input=patches)
+    merged.UpdatePipeline()
+    data = servermanager.Fetch(merged)
+    normal = None
+    if data.GetNumberOfCells():
+        face = vtk_to_numpy(data.GetCell(0).GetPoints().GetData()).astype(float)
+        vector = sum(np.cross(face[i] - face[0], face[i + 1] - face[0]) for i in range(1, len(face) - 1))
+        normal = vector / np.linalg.norm(vector)
+    simple.Delete(merged)
+    simple.Delete(patches)
+    return normal
 
 
 def patch_types(mesh: Path) -> dict[str, str]:
@@ -175,7 +231,7 @@ def point_array(cloud: Any, name: str) -> Vector:
 
 def automatic_scale(diameters: Vector, corners: Vector) -> float:
     """A round magnification: bodies at rest are seen in the box, and mostly not in each other."""
-    sides = np.sort(np.ptp(corners, axis=0))
+    sides = np.sort(np.linalg.norm(corners[[4, 2, 1]] - corners[0], axis=1))
     if len(diameters) == 0 or not sides[0] > 0:
         return 1.0
     spacing = (sides.prod() / len(diameters)) ** (1 / 3)
@@ -222,7 +278,8 @@ def show_bodies(bodies: Any, largest: float, view: Any) -> None:
     display.Ambient = 0.12
     colours = simple.GetColorTransferFunction("taylorDeformation")
     colours.ApplyPreset("Viridis (matplotlib)", True)
-    colours.RescaleTransferFunction(0.0, round_up(largest) if largest > 0 else 1.0)
+    top = round_up(largest) if largest > 0 else 1.0
+    colours.RescaleTransferFunction(0.0, top)
     display.SetScalarBarVisibility(view, True)
     bar = simple.GetScalarBar(colours, view)
     bar.Title = "Taylor deformation (a − c)/(a + c)"
@@ -236,10 +293,20 @@ def show_bodies(bodies: Any, largest: float, view: Any) -> None:
     bar.TitleFontSize = bar.LabelFontSize = 18
     bar.AutomaticLabelFormat = 0
     bar.LabelFormat = bar.RangeLabelFormat = "%.2g"
+    bar.UseCustomLabels, bar.CustomLabels = 1, ticks(top)
+    bar.AddRangeLabels = 0
+
+
+def ticks(top: float) -> list[float]:
+    """Round numbers from 0 to ``top``, of one digit, so few that their texts do not overlap."""
+    power = 10.0 ** math.floor(math.log10(top * (1 + 1e-12)))
+    digit = round(top / power)
+    step = 0.5 if digit <= 2 else 1.0 if digit <= 5 else 2.0
+    return [k * step * power for k in range(math.floor(digit / step) + 1)]
 
 
 def show_walls(walls: Any, view: Any) -> None:
-    """Draw the walls as glass, their far side too."""
+    """Draw the walls as glass, their far side too, with their edges: a plane shows nothing else of them."""
     view.UseColorPaletteForBackground = 0
     view.BackgroundColorMode = "Single Color"
     view.Background = PAPER
@@ -258,6 +325,13 @@ def show_walls(walls: Any, view: Any) -> None:
         display.Opacity = opacity
         display.Ambient, display.Diffuse, display.Specular = 0.45, 0.55, 0.2
         display.Pickable = 0
+    edges = simple.FeatureEdges(registrationName="edges", Input=near)
+    display = simple.Show(edges, view)
+    display.ColorArrayName = ["POINTS", ""]
+    display.AmbientColor = display.DiffuseColor = EDGE
+    display.Ambient, display.Diffuse = 1.0, 0.0
+    display.LineWidth = 1.5
+    display.Pickable = 0
 
 
 def smooth(walls: Any) -> Any:
@@ -291,48 +365,112 @@ def caption(scale: float, count: int) -> str:
     return f"{bodies}, drawn {scale:g} times larger" if scale != 1.0 else f"{bodies}, drawn to scale"
 
 
-def look_at(case: Path, corners: Vector, points: Vector, view: Any) -> None:
-    """Look at the long axis of a box from the side, a little from above and from one end, gravity down."""
-    sides = np.ptp(corners, axis=0)
-    axis, up, side = camera_frame(sides, gravity(case))
-    window = min(float(abs(axis) @ sides), WINDOW_LENGTH * np.sort(sides)[1])
-    focus = corners.mean(axis=0)
-    focus = focus + axis * (densest(points @ axis, window, corners @ axis) - focus @ axis)
+def look_at(case: Path, walls: Any, points: Vector, view: Any, camera: Camera) -> None:
+    """Point the camera so that the case fills the picture.
 
-    yaw, pitch, half = np.radians((YAW, PITCH, VIEW_ANGLE / 2))
-    towards = math.cos(pitch) * (math.cos(yaw) * side - math.sin(yaw) * axis) + math.sin(pitch) * up
+    A two-dimensional case is seen along the normal of its plane, without perspective. Of any other the long
+    axis is seen from the side, a little from above and from one end, gravity down; of a long one the stretch
+    that holds most of the points.
+    """
+    corners = outline(walls, points)
+    up = -gravity(case) / np.linalg.norm(gravity(case))
+    normal = plane_normal(case) if walls is not None else None
+    flat = normal is not None and camera.direction is None
+    focus = corners.mean(axis=0)
+    if camera.direction is not None:
+        towards = np.array(camera.direction) / np.linalg.norm(camera.direction)
+    elif normal is not None:
+        # The side from which the first two of the remaining axes make a right-handed picture.
+        towards = normal * np.sign(normal[np.argmax(abs(normal))])
+        towards = -towards if np.argmax(abs(normal)) == 1 else towards
+    else:
+        axis, up, side = camera_frame(corners, up)
+        length = float(np.ptp(corners @ axis))
+        width = np.sort(np.ptp(corners @ np.array([axis, up, side]).T, axis=0))[1]
+        window = min(length, WINDOW_LENGTH * width)
+        middle = densest(points @ axis, window, corners @ axis)
+        corners = corners + np.outer(np.clip(corners @ axis, middle - window / 2, middle + window / 2), axis)
+        corners = corners - np.outer(outline(walls, points) @ axis, axis)
+        focus = corners.mean(axis=0)
+        yaw, pitch = np.radians((YAW, PITCH))
+        towards = math.cos(pitch) * (math.cos(yaw) * side - math.sin(yaw) * axis) + math.sin(pitch) * up
+    up = upright(up, towards)
+    right = np.cross(up, towards)
     width, height = view.ViewSize
-    distance = max(
-        window * math.cos(yaw) / 2 / (math.tan(half) * width / height),
-        float(abs(up) @ sides) / 2 / math.tan(half),
+    # Half of the picture's height that the corners want, and how far they are before the focus.
+    offsets = corners - focus
+    half = (
+        np.maximum(abs(offsets @ right) / FILLED[0] * height / width, abs(offsets @ up) / FILLED[1])
+        / camera.zoom
     )
-    view.CameraParallelProjection = 0
+    tangent = math.tan(math.radians(VIEW_ANGLE / 2))
+    distance = float((offsets @ towards + half / tangent).max())
+    if flat:
+        distance = float(half.max() / tangent + np.ptp(offsets @ towards))
+    view.CameraParallelProjection = int(flat)
+    view.CameraParallelScale = float(half.max())
     view.CameraViewAngle = VIEW_ANGLE
     view.CameraFocalPoint = focus
-    view.CameraPosition = focus + 1.15 * distance * towards
+    view.CameraPosition = focus + distance * towards
     view.CameraViewUp = up
     view.CenterOfRotation = focus
 
 
-def box(walls: Any, points: Vector) -> Vector:
-    """Lowest and highest corner of the walls, or of the points where there are no walls; shape (2, 3), m."""
+def outline(walls: Any, points: Vector) -> Vector:
+    """The eight corners of a box around the walls, or around the points without walls; shape (8, 3), m.
+
+    Its sides are parallel to the coordinate axes, unless the walls fit much better into another box.
+    """
     if walls is not None:
-        return np.reshape(walls.GetDataInformation().GetBounds(), (3, 2)).T
-    if len(points) < 2:
-        return np.array([[-0.5], [0.5]]) + (points[0] if len(points) else np.zeros(3))
-    return np.array([points.min(axis=0), points.max(axis=0)])
+        low, high = np.reshape(walls.GetDataInformation().GetBounds(), (3, 2)).T
+        merged = simple.MergeBlocks(Input=walls)
+        merged.UpdatePipeline()
+        found = positions(merged).astype(float)
+        simple.Delete(merged)
+    elif len(points) < 2:
+        low, high = np.array([[-0.5], [0.5]]) + (points[0] if len(points) else np.zeros(3))
+        found = NO_POINTS
+    else:
+        low, high, found = points.min(axis=0), points.max(axis=0), NO_POINTS
+    signs = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    box = low + signs * (high - low)
+    if len(found) < 4:
+        return box
+    axes = np.linalg.svd(found - found.mean(axis=0), full_matrices=False)[2]
+    places = found @ axes.T
+    sides = np.ptp(places, axis=0)
+    if sides.prod() > TILTED * (high - low).prod():
+        return box
+    return (places.min(axis=0) + signs * sides) @ axes
 
 
-def camera_frame(sides: Vector, g: Vector) -> tuple[Vector, Vector, Vector]:
-    """Unit vectors to the right, up and towards the camera: the long side horizontal if gravity lets it."""
-    up = -g / np.linalg.norm(g)
-    order = np.argsort(sides)[::-1]
-    axis = np.eye(3)[order[0]]
-    if abs(axis @ up) > 0.9:
-        axis = np.eye(3)[order[1]]
+def camera_frame(corners: Vector, up: Vector) -> tuple[Vector, Vector, Vector]:
+    """Unit vectors to the right, up and towards the camera: the long side horizontal if gravity lets it.
+
+    Parameters
+    ----------
+    corners
+        The eight of :func:`outline`.
+    up
+        Unit vector against gravity.
+    """
+    edges = corners[[4, 2, 1]] - corners[0]
+    lengths = np.linalg.norm(edges, axis=1)
+    axes = [edges[k] / max(lengths[k], 1e-300) for k in np.argsort(lengths)[::-1]]
+    axis = axes[0] if abs(axes[0] @ up) <= 0.9 else axes[1]
+    axis = axis * (np.sign(axis[np.argmax(abs(axis))]) or 1.0)
     axis = axis - (axis @ up) * up
     axis = axis / np.linalg.norm(axis)
     return axis, up, np.cross(axis, up)
+
+
+def upright(up: Vector, towards: Vector) -> Vector:
+    """The unit vector upwards in the picture: ``up``, or y, or z where one looks along it."""
+    for choice in (up, np.eye(3)[1], np.eye(3)[2]):
+        across = choice - (choice @ towards) * towards
+        if np.linalg.norm(across) > 0.3:
+            break
+    return across / np.linalg.norm(across)
 
 
 def gravity(case: Path) -> Vector:
@@ -381,6 +519,15 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument(
         "--scale", type=float, help="draw the bodies this many times larger (default: automatic)"
     )
+    parser.add_argument(
+        "--view",
+        type=direction,
+        metavar="DIRECTION",
+        help="look from there: x, -x, y, -y, z, -z or a vector like 1,0.5,2 (default: by the geometry)",
+    )
+    parser.add_argument(
+        "--zoom", type=magnification, default=1.0, help="come nearer by this factor (default: 1)"
+    )
     parser.add_argument("--screenshot", type=Path, help="write this picture and stop")
     parser.add_argument("--size", type=picture_size, default=(1600, 900), help="of the picture, as 1600x900")
     return parser.parse_args(arguments)
@@ -394,6 +541,33 @@ def picture_size(text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
+def direction(text: str) -> tuple[float, float, float]:
+    """Read a direction like -y or 1,0.5,2."""
+    if text in DIRECTIONS:
+        x, y, z = DIRECTIONS[text]
+        return float(x), float(y), float(z)
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        x = y = z = 0.0
+    if not 0.0 < math.hypot(x, y, z) < math.inf:
+        raise argparse.ArgumentTypeError(
+            f"'{text}' is not one of x, -x, y, -y, z, -z or a vector like 1,0.5,2"
+        )
+    return x, y, z
+
+
+def magnification(text: str) -> float:
+    """Read a number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number > 0")
+    return value
+
+
 def main(arguments: list[str]) -> None:
     """Show a run in a window of its own, or write its picture."""
     options = parse(arguments)
@@ -401,7 +575,9 @@ def main(arguments: list[str]) -> None:
         raise SystemExit(f"{options.case}: no such folder.")
     view = simple.CreateView("RenderView")
     view.ViewSize = options.size
-    show(options.case.resolve(), options.cloud, options.time, options.scale)
+    show(
+        options.case.resolve(), options.cloud, options.time, options.scale, Camera(options.view, options.zoom)
+    )
     if options.screenshot:
         simple.SaveScreenshot(str(options.screenshot), view, ImageResolution=options.size)
     else:

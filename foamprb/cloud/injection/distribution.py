@@ -1,7 +1,9 @@
 """How sizes and stiffnesses are spread over a population: OpenFOAM's distribution models, with its entries.
 
-A distribution is its inverse: the value below which a given share of the population lies. Samples are
-the inverse of uniform random numbers, so that limits are exact and nothing is drawn and thrown away.
+A distribution is given by its quantile function, the value below which a given share of the population lies.
+Samples are the quantiles of uniform random numbers: limits are exact, and no sample is rejected.
+
+A new distribution is a frozen dataclass of its entries and a line in :data:`DISTRIBUTIONS`.
 """
 
 from __future__ import annotations
@@ -14,20 +16,21 @@ from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
 from foamprb.dictionary.constraints import Pairs, Positive
+from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 
 Floats = NDArray[np.float64]
 
 
-class Distribution(Protocol):
-    """A distribution of one positive or negative quantity, in the quantity's own unit."""
+class Distribution(Schema, Protocol):
+    """A distribution of one quantity, in the quantity's own unit."""
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Smallest and largest value."""
+        """The smallest and the largest value."""
 
     def quantile(self, share: Floats) -> Floats:
-        """Values below which the shares (n,), from 0 to 1, of the population lie."""
+        """Return the values below which the shares (n,), from 0 to 1, of the population lie."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +41,11 @@ class FixedValue:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """The value twice."""
+        """The value, twice."""
         return self.value, self.value
 
     def quantile(self, share: Floats) -> Floats:
-        """The value, as often as there are shares."""
+        """Return the value for each share."""
         return np.full(len(share), self.value)
 
 
@@ -62,7 +65,7 @@ class Uniform:
         return self.minValue, self.maxValue
 
     def quantile(self, share: Floats) -> Floats:
-        """Linear in the share."""
+        """Return values that are linear in the share."""
         return self.minValue + share * (self.maxValue - self.minValue)
 
 
@@ -91,14 +94,14 @@ class Normal:
         return self.minValue, self.maxValue
 
     def _tail(self) -> tuple[float, float, float]:
-        """The limits in standard deviations, and −1 if mirrored: the lower tail keeps its digits."""
+        """Return the limits in standard deviations, mirrored (−1) if that gives the accurate lower tail."""
         deviation = self.variance / np.sqrt(2.0)
         low = (self.minValue - self.expectation) / deviation
         high = (self.maxValue - self.expectation) / deviation
         return (-high, -low, -1.0) if low > 0.0 else (low, high, 1.0)
 
     def quantile(self, share: Floats) -> Floats:
-        """Inverse of the normal distribution, on the part between the limits."""
+        """Return quantiles of the normal distribution, on the part between the limits."""
         low, high, side = self._tail()
         below = ndtr(low)
         s = share if side > 0.0 else 1.0 - share
@@ -128,9 +131,9 @@ class RosinRammler:
         return self.minValue, self.maxValue
 
     def quantile(self, share: Floats) -> Floats:
-        """Inverse of the share."""
-        kept = -np.expm1(-(((self.maxValue - self.minValue) / self.d) ** self.n))
-        x = self.minValue + self.d * (-np.log1p(-kept * share)) ** (1.0 / self.n)
+        """Return the inverse of the share."""
+        share_below_maximum = -np.expm1(-(((self.maxValue - self.minValue) / self.d) ** self.n))
+        x = self.minValue + self.d * (-np.log1p(-share_below_maximum * share)) ** (1.0 / self.n)
         return np.asarray(np.clip(x, self.minValue, self.maxValue))
 
 
@@ -153,7 +156,7 @@ class General:
         return self.distribution[0][0], self.distribution[-1][0]
 
     def quantile(self, share: Floats) -> Floats:
-        """Inverse of the integral of the density, a quadratic in each interval."""
+        """Return the inverse of the integral of the density, a quadratic in each interval."""
         x, w = np.transpose(self.distribution)
         h = np.diff(x)
         area = 0.5 * h * (w[1:] + w[:-1])
@@ -169,18 +172,19 @@ class General:
         return np.asarray(x[i] + np.clip(part, 0.0, 1.0) * h[i])
 
 
-DISTRIBUTIONS: dict[str, type[FixedValue | Uniform | Normal | RosinRammler | General]] = {
+DISTRIBUTIONS: dict[str, type[Distribution]] = {
     "fixedValue": FixedValue,
     "general": General,
     "normal": Normal,
     "RosinRammler": RosinRammler,
     "uniform": Uniform,
 }
+"""By the word that ``type`` selects."""
 
 
 @dataclass(frozen=True)
 class Scaled:
-    """``factor`` times a power, 1 or −1, of a distributed quantity: what follows from it."""
+    """A quantity that is ``factor`` times a power, 1 or −1, of another, distributed and positive."""
 
     base: Distribution
     factor: float
@@ -188,24 +192,24 @@ class Scaled:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Of the result; the base is positive."""
+        """Smallest and largest value of the result."""
         low, high = (float(scaled(value, self.factor, self.power)) for value in self.base.limits)
         return min(low, high), max(low, high)
 
     def quantile(self, share: Floats) -> Floats:
-        """Of the result; a power −1 turns the order around."""
+        """Return quantiles of the result; a power −1 turns their order around."""
         below = share if self.power > 0 else 1.0 - share
         return scaled(self.base.quantile(below), self.factor, self.power)
 
 
 def scaled(value: float | Floats, factor: float, power: int) -> Floats:
-    """``factor`` times a power of each value; infinite where that is beyond all numbers."""
+    """Return ``factor`` times a power of each value; infinite where that overflows."""
     with np.errstate(over="ignore"):
         return np.asarray(factor * np.asarray(value, dtype=float) ** power)
 
 
 def draw(quantity: float | Distribution, n: int, random: np.random.Generator) -> Floats:
-    """N values of a quantity that is the same for all, or distributed."""
+    """Return n values of a quantity that is the same for all, or distributed."""
     if isinstance(quantity, float | int):
         return np.full(n, float(quantity))
     return quantity.quantile(random.random(n))

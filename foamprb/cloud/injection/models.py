@@ -1,4 +1,7 @@
-"""Where and when particles appear: OpenFOAM's injection models, with its entries."""
+"""Where and when particles appear: OpenFOAM's injection models, with its entries.
+
+A new injection model is a frozen dataclass of its entries and a line in :data:`INJECTIONS`.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,15 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.injection.room import require_room
 from foamprb.cloud.state import Particles, empty
 from foamprb.dictionary.constraints import Angle, Axes, Constant, NonNegative, Positive, Vector3
+from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
 
@@ -33,6 +38,32 @@ class Places(NamedTuple):
     """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
 
 
+class Injection(Schema, Protocol):
+    """Where and when particles appear."""
+
+    @property
+    def SOI(self) -> float:
+        """Start of injection, s."""
+
+    def places(self, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]) -> Places:
+        """Return the places of all particles.
+
+        Parameters
+        ----------
+        flow
+            The flow into which they are injected.
+        random
+            Source of every random number.
+        read
+            Reads a file of positions, (n, 3), m.
+
+        Raises
+        ------
+        InputError
+            If the flow does not have what the entries name, or nothing would be injected.
+        """
+
+
 @dataclass(frozen=True)
 class ManualInjection:
     """Particles at the positions that a file lists, all at the time ``SOI``."""
@@ -48,7 +79,7 @@ class ManualInjection:
         random: np.random.Generator,  # noqa: ARG002
         read: Callable[[Path], Floats],
     ) -> Places:
-        """Positions of the file, those outside the flow left out if the user said so.
+        """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
 
         Raises
         ------
@@ -88,19 +119,18 @@ class PatchInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """Random places on the patch, as many per area as fluid enters there, at even intervals in time.
+        """Return random places on the patch, their density in proportion to the flux, at even intervals.
 
         Raises
         ------
         InputError
             If no fluid enters through the patch, or nothing is injected.
         """
-        n = round(self.parcelsPerSecond * self.duration)
-        if n == 0:
-            raise InputError(
-                f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
-                f"duration {self.duration:g} s gives no particle."
-            )
+        n = require_room(
+            self.parcelsPerSecond * self.duration,
+            f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
+            f"duration {self.duration:g} s",
+        )
         faces = flow.patch_faces(self.patch, self.SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
@@ -114,12 +144,22 @@ class PatchInjection:
 
 @dataclass(frozen=True)
 class CellZoneInjection:
-    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``."""
+    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``.
 
-    cellZone: str
+    With ``selectionMode all``, a word of OpenFOAM's fvOptions, over all cells.
+    """
+
     numberDensity: Annotated[float, Positive]
+    cellZone: str = ""
+    selectionMode: Literal["cellZone", "all"] = "cellZone"
     U0: Vector3 | None = None
     SOI: Annotated[float, NonNegative] = 0.0
+
+    def __post_init__(self) -> None:
+        if self.selectionMode == "all" and self.cellZone:
+            raise InputError(f"has the cellZone {self.cellZone}, but selectionMode all")
+        if self.selectionMode == "cellZone" and not self.cellZone:
+            raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
     def places(
         self,
@@ -127,30 +167,30 @@ class CellZoneInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """Random places in the zone: as many in each part of it as its volume asks for, give or take two.
+        """Return random places in the zone; their number in any part is that of its volume, to within two.
 
         Raises
         ------
         InputError
             If there is no such zone, or its volume asks for no particle.
         """
-        zone = flow.cell_zone(self.cellZone)
+        zone = flow.cell_zone(self.cellZone or None)
         # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
         volumes = np.maximum(zone.volumes, 0.0)
         total = np.cumsum(volumes)
-        n = round(self.numberDensity * total[-1]) if len(total) else 0
-        if n == 0:
-            volume = total[-1] if len(total) else 0.0
-            raise InputError(
-                f"cellZoneInjection in {self.cellZone}: numberDensity {self.numberDensity:g} 1/m3 times the "
-                f"volume {volume:g} m3 of {len(volumes)} tetrahedra gives no particle."
-            )
+        volume = float(total[-1]) if len(total) else 0.0
+        n = require_room(
+            self.numberDensity * volume,
+            f"cellZoneInjection in {self.cellZone or 'all cells'}: numberDensity {self.numberDensity:g} 1/m3 "
+            f"times the volume {volume:g} m3 of {len(volumes)} tetrahedra",
+        )
         # One random number for each n-th part of the volume, counted along the cells.
         sought = (np.arange(n) + random.random(n)) / n * total[-1]
         chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
         weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
-        x = np.einsum("nv,nvi->ni", weights, zone.vertices[chosen])
-        return Places(x, zone.hosts[chosen], np.full(n, self.SOI), self.U0)
+        hosts = zone.hosts[chosen]
+        x = np.einsum("nv,nvi->ni", weights, zone.vertices(hosts))
+        return Places(x, hosts, np.full(n, self.SOI), self.U0)
 
 
 @dataclass(frozen=True)
@@ -181,7 +221,7 @@ class ConeInjection:
         random: np.random.Generator,
         read: Callable[[Path], Floats],  # noqa: ARG002
     ) -> Places:
-        """The positions in turn, at even intervals in time, with a random direction each.
+        """Return the positions in turn, at even intervals in time, with a random direction each.
 
         Raises
         ------
@@ -193,11 +233,8 @@ class ConeInjection:
         if (hosts < 0).any():
             first = "({:g} {:g} {:g})".format(*positions[hosts < 0][0])
             raise InputError(f"coneInjection: the position {first} lies outside the mesh.")
-        n = round(self.parcelsPerInjector) * len(positions)
-        if n == 0:
-            raise InputError(
-                f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} gives no particle."
-            )
+        what = f"coneInjection: parcelsPerInjector {self.parcelsPerInjector:g} at {len(positions)} positions"
+        n = require_room(float(np.rint(self.parcelsPerInjector)) * len(positions), what)
         which = np.arange(n) % len(positions)
         theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
         v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
@@ -206,7 +243,7 @@ class ConeInjection:
 
 
 def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
-    """Unit vectors (n, 3) at the angles theta from the axes (n, 3), turned about them, rad."""
+    """Return unit vectors (n, 3) at angles theta from the axes (n, 3), turned about them; angles in rad."""
     along = axes / np.linalg.norm(axes, axis=1)[:, None]
     # The coordinate axis farthest from parallel gives a normal.
     other = np.eye(3)[np.argmin(np.abs(along), axis=1)]
@@ -219,7 +256,7 @@ def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
 
 
 def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator) -> Floats:
-    """One random point in each triangle (n, 3, 3), with a linear density given at its vertices (n, 3)."""
+    """Draw a point in each triangle (n, 3, 3), from a linear density given at its vertices (n, 3)."""
     weights = np.empty(density.shape)
     open_rows = np.arange(len(density))
     while len(open_rows):
@@ -235,7 +272,7 @@ def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator
 def release(
     model: Injection, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]
 ) -> Particles:
-    """Pending spheres where an injection model puts them; size, density and stiffness are left at zero.
+    """Return pending spheres where an injection model puts them, of zero size, density and stiffness.
 
     Parameters
     ----------
@@ -261,11 +298,10 @@ def release(
     return p
 
 
-Injection = ManualInjection | PatchInjection | CellZoneInjection | ConeInjection
-
 INJECTIONS: dict[str, type[Injection]] = {
     "cellZoneInjection": CellZoneInjection,
     "coneInjection": ConeInjection,
     "manualInjection": ManualInjection,
     "patchInjection": PatchInjection,
 }
+"""By the word that ``type`` selects."""

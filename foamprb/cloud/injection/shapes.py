@@ -1,9 +1,12 @@
-"""Shapes at rest: spheres, and ellipsoids of the same volume."""
+"""Shapes at rest: spheres, and ellipsoids of the same volume.
+
+A new shape is a frozen dataclass of its entries and a line in :data:`SHAPES`.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +14,17 @@ from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.state import Particles, set_rest_shape
 from foamprb.dictionary.constraints import Positive3, Vector3
+from foamprb.dictionary.schema import Schema
+from foamprb.errors import InputError
 
 Floats = NDArray[np.float64]
+
+
+class Shape(Schema, Protocol):
+    """A shape at rest, of the volume of the sphere whose diameter the size distribution gives."""
+
+    def form(self, p: Particles, random: np.random.Generator) -> None:
+        """Give spheres at rest this shape, in which they start."""
 
 
 @dataclass(frozen=True)
@@ -36,24 +48,22 @@ class Ellipsoid:
     e1: Vector3 = (1.0, 0.0, 0.0)
     e2: Vector3 = (0.0, 1.0, 0.0)
 
-    def axes(self) -> Floats:
-        """Unit vectors along the semi-axes as rows of a rotation, (3, 3).
+    def __post_init__(self) -> None:
+        first, second = np.array(self.e1), np.array(self.e2)
+        sine = np.linalg.norm(np.cross(first, second))
+        if not sine > 1e-6 * np.linalg.norm(first) * np.linalg.norm(second):
+            raise InputError("gives no orientation: e1 and e2 are parallel")
 
-        Raises
-        ------
-        ValueError
-            If ``e1`` and ``e2`` are parallel, or one is zero.
-        """
+    def axes(self) -> Floats:
+        """Return unit vectors along the semi-axes as rows of a rotation, (3, 3)."""
         first, second = np.array(self.e1), np.array(self.e2)
         third = np.cross(first, second)
-        if not np.linalg.norm(third) > 1e-6 * np.linalg.norm(first) * np.linalg.norm(second):
-            raise ValueError("e1 and e2 are parallel")
         rows = np.array([first, np.cross(third, first), third])
         unit: Floats = rows / np.linalg.norm(rows, axis=1, keepdims=True)
         return unit
 
     def form(self, p: Particles, random: np.random.Generator) -> None:
-        """Give the particles their shape at rest, in which they start."""
+        """Make ellipsoids of spheres at rest."""
         if self.orientation == "random":
             # A normal distribution of four components has no preferred direction.
             axes = Rotation.from_quat(random.standard_normal((p.size, 4))).as_matrix()
@@ -62,6 +72,5 @@ class Ellipsoid:
         set_rest_shape(p, self.axisRatios, axes)
 
 
-Shape = Sphere | Ellipsoid
-
 SHAPES: dict[str, type[Shape]] = {"sphere": Sphere, "ellipsoid": Ellipsoid}
+"""By the word that ``type`` selects."""

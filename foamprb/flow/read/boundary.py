@@ -9,8 +9,9 @@ from typing import Annotated, NamedTuple
 
 from foamprb.dictionary.constraints import NonNegative
 from foamprb.dictionary.files import existing
-from foamprb.dictionary.grammar import Stream, read_dictionary_list, unquoted
+from foamprb.dictionary.grammar import read_dictionary_list
 from foamprb.dictionary.schema import read_entries
+from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 
 CONSTRAINTS = frozenset(

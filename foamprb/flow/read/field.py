@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from foamprb.dictionary.dimensions import RATE, VELOCITY, Dimensions, described, read_dimensions, written
-from foamprb.dictionary.grammar import Dictionary, Entry, Stream, parse_dictionary, unquoted
+from foamprb.dictionary.grammar import parse_dictionary
+from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import PatchInfo

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import re
+import resource
 import shutil
 import tempfile
 from pathlib import Path
@@ -15,7 +16,8 @@ from hypothesis import strategies as st
 from paths import PIPE
 from scipy import stats
 
-from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, release
+from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, PatchInjection, release
+from foamprb.cloud.injection.room import BYTES, memory
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.meshflow import MeshFlow
@@ -56,7 +58,7 @@ class TestCellZone:
         cells = np.flatnonzero((mesh.centres[:, 0] > 0.1) & (mesh.centres[:, 1] > 0.0))
         flow = with_zones(pipe_flow, {"part": cells})
         volumes = mesh.volumes[cells]
-        model = CellZoneInjection("part", numberDensity=8000.0 / volumes.sum(), SOI=0.25)
+        model = CellZoneInjection(cellZone="part", numberDensity=8000.0 / volumes.sum(), SOI=0.25)
         p = release(model, flow, rng(), no_file)
         assert p.size == 8000
         np.testing.assert_array_equal(p.t0, 0.25)
@@ -70,27 +72,44 @@ class TestCellZone:
             np.abs(p.x.mean(axis=0) - centroid), 4.0 * p.x.std(axis=0) / np.sqrt(8000)
         )
 
+    def test_all_cells_are_a_zone_of_all(self, pipe_flow, monkeypatch):
+        monkeypatch.setattr("foamprb.flow.meshflow._AT_ONCE", 1000)
+        mesh = pipe_flow.mesh
+        flow = with_zones(pipe_flow, {"all": np.arange(mesh.n_cells)})
+        density = 5000.0 / mesh.volumes.sum()
+        whole = release(CellZoneInjection(density, selectionMode="all"), flow, rng(), no_file)
+        zone = release(CellZoneInjection(density, "all"), flow, rng(), no_file)
+        assert whole.size == 5000
+        for one, other in zip(whole, zone, strict=True):
+            np.testing.assert_array_equal(one, other)
+        counts = np.bincount(flow.cell_of(whole.host), minlength=mesh.n_cells)
+        assert np.abs(counts - mesh.volumes * density).max() < 2.0
+
     def test_velocity_is_the_fluids_or_the_users(self, pipe_flow):
         flow = with_zones(pipe_flow, {"all": np.arange(pipe_flow.mesh.n_cells)})
         density = 100.0 / pipe_flow.mesh.volumes.sum()
-        free = release(CellZoneInjection("all", density), flow, rng(), no_file)
+        free = release(CellZoneInjection(cellZone="all", numberDensity=density), flow, rng(), no_file)
         # That of the fluid when and where they appear.
         assert np.isnan(free.v).all()
-        given_velocity = release(CellZoneInjection("all", density, U0=(1.0, 2.0, 3.0)), flow, rng(), no_file)
+        given_velocity = release(
+            CellZoneInjection(cellZone="all", numberDensity=density, U0=(1.0, 2.0, 3.0)), flow, rng(), no_file
+        )
         np.testing.assert_array_equal(given_velocity.v, np.tile([1.0, 2.0, 3.0], (100, 1)))
 
     def test_mistakes(self, pipe_flow):
         flow = with_zones(pipe_flow, {"part": np.arange(3), "none": np.arange(0), "far": np.array([10**6])})
         with pytest.raises(InputError, match=r"prt is not in the mesh\. Did you mean 'part'"):
-            release(CellZoneInjection("prt", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="prt", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="gives no particle"):
-            release(CellZoneInjection("part", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="part", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="gives no particle"):
-            release(CellZoneInjection("none", 1e30), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="none", numberDensity=1e30), flow, rng(), no_file)
         with pytest.raises(InputError, match="names cells beyond"):
-            release(CellZoneInjection("far", 1.0), flow, rng(), no_file)
+            release(CellZoneInjection(cellZone="far", numberDensity=1.0), flow, rng(), no_file)
         with pytest.raises(InputError, match="a flow in closed form has no cells"):
-            release(CellZoneInjection("part", 1.0), analytic.pipe(1.0, 1.0), rng(), no_file)
+            release(CellZoneInjection(1.0, "part"), analytic.pipe(1.0, 1.0), rng(), no_file)
+        with pytest.raises(InputError, match="all cells: a flow in closed form has no cells"):
+            release(CellZoneInjection(1.0, selectionMode="all"), analytic.pipe(1.0, 1.0), rng(), no_file)
 
     def test_a_cases_zones_are_found(self, tmp_path):
         case = tmp_path / "pipe"
@@ -199,3 +218,55 @@ class TestCone:
             self.release(positionAxis=(((0.1, 0.0, 0.0), (0.0, 0.0, 0.0)),))
         with pytest.raises(InputError, match="empty list positionAxis"):
             self.release(positionAxis=())
+
+
+class TestRoom:
+    @pytest.mark.parametrize(
+        ("model", "message"),
+        [
+            (
+                PatchInjection("inlet", 1e12, 0.1),
+                "on inlet: parcelsPerSecond 1e[+]12 times duration 0.1 s gives 1e[+]11 particles, "
+                "which need about 9[0-9]([.][0-9])? TB of memory; there are .* [MGT]B[.]$",
+            ),
+            (PatchInjection("inlet", 1e200, 1e200), "gives inf particles, which need about inf TB"),
+            (
+                CellZoneInjection(cellZone="all", numberDensity=1e30),
+                "cellZoneInjection in all: numberDensity 1e[+]30 .* gives .* particles, which need about",
+            ),
+            (
+                ConeInjection(**(CONE | {"parcelsPerInjector": 1e300})),
+                "coneInjection: parcelsPerInjector 1e[+]300 at 2 positions gives 2e[+]300 particles",
+            ),
+            (ConeInjection(**(CONE | {"parcelsPerInjector": 1.7e308})), "gives inf particles"),
+        ],
+    )
+    def test_more_than_memory_can_hold_is_refused_before_it_is_taken(self, pipe_flow, model, message):
+        flow = with_zones(pipe_flow, {"all": np.arange(pipe_flow.mesh.n_cells)})
+        if isinstance(model, ConeInjection):
+            flow = analytic.pipe(1.0, 1.0)
+        with pytest.raises(InputError, match=message):
+            release(model, flow, rng(), no_file)
+
+    def test_limits_of_the_process_count(self, pipe_flow, monkeypatch):
+        monkeypatch.setattr("foamprb.cloud.injection.room.memory", lambda: 50_000.0 * BYTES)
+        assert release(PatchInjection("inlet", 49_999.0, 1.0), pipe_flow, rng(), no_file).size == 49_999
+        with pytest.raises(
+            InputError, match=r"5e\+04 particles, which need about \S+ MB of memory; there are \S+ MB"
+        ):
+            release(PatchInjection("inlet", 50_001.0, 1.0), pipe_flow, rng(), no_file)
+
+    def test_memory_is_that_of_the_machine_or_less(self):
+        machine = memory()
+        total = int(re.search(r"MemTotal: +(\d+) kB", Path("/proc/meminfo").read_text())[1])
+        assert machine <= total * 1024 * 1.1
+        soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (int(machine) // 2, hard))
+        try:
+            assert memory() == int(machine) // 2
+        finally:
+            resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+    def test_a_run_needs_what_is_said(self):
+        """Less than a kilobyte, which tests/run/test_memory.py measures."""
+        assert 800 < BYTES < 1000

@@ -1,0 +1,43 @@
+"""What an integrator of the shape is: a loop over steps, the stages of a step, and the limits of both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from math import inf
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from foamprb.cloud.layout import Layout
+
+__all__ = ["Integrator"]
+
+
+def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
+    return ""
+
+
+class Integrator(NamedTuple):
+    """One integrator, by the name that the settings have for it."""
+
+    name: str
+    description: str
+    """Half a sentence for the log."""
+    order: int
+    """Order of accuracy in the time step."""
+    track: Callable[..., int]
+    """The loop that carries a block of particles through steps."""
+    stages: tuple[Callable[..., Any], ...]
+    """The parts of the loop that do not depend on the flow: each is compiled once for all flows."""
+    layout: Layout
+    """Of its block."""
+    bindings: Mapping[str, Callable[..., Any]] = MappingProxyType({})
+    """Functions of its own, by the names by which the loop calls them."""
+    adaptive: bool = False
+    """Whether it cuts a tracking step as its tolerance asks for, which the loop then takes as an option."""
+    inertia: bool = True
+    """Whether the solid has inertia."""
+    stable_steps: float = inf
+    """Largest stable Δt in relaxation times τ_s of a sphere's shape, less for an elongated body."""
+    refuses: Callable[[str, str, bool], str] = _refuses_nothing
+    """``refuses(traction, material, tense)`` says why the integrator cannot take the traction, the material
+    or surface tension, as the end of a sentence that begins with its name; an empty text if it can."""

@@ -1,0 +1,23 @@
+"""The integrators of the shape, by name."""
+
+from __future__ import annotations
+
+from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.integrators.paper import PAPER
+from foamprb.cloud.integrators.rosenbrock import ROSENBROCK
+from foamprb.cloud.integrators.stokes import STOKES
+
+__all__ = ["INTEGRATORS", "SMALL_STOKES", "automatic"]
+
+INTEGRATORS: dict[str, Integrator] = {
+    integrator.name: integrator for integrator in (PAPER, ROSENBROCK, STOKES)
+}
+"""What the settings select, and Models."""
+
+SMALL_STOKES = 0.01
+"""Shape Stokes number γ̇ τ_s below which the solid's inertia is left out unless the user asks for it."""
+
+
+def automatic(stokes_number: float) -> str:
+    """Name of the integrator for a shape Stokes number γ̇ τ_s: ``stokes`` where it is small."""
+    return (STOKES if stokes_number < SMALL_STOKES else ROSENBROCK).name

@@ -1,0 +1,156 @@
+"""How a working block is laid out: its rows are declared once, and what follows from that.
+
+A declaration is a NamedTuple class whose fields are Annotated with a :class:`Row`. An instance of it holds
+the number at which each quantity begins (:func:`offsets`), so that a line of a kernel reads
+``load9(block, at.F, i)``; :func:`layout` makes the functions that fill a block with particles and empty it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import accumulate
+from typing import Any, NamedTuple, TypeVar, get_type_hints
+
+__all__ = ["IDENTITY", "LANES", "Layout", "Row", "end", "layout", "offsets", "rows_of"]
+
+LANES = 32
+"""Number of particles of a block, side by side. On a CUDA device, where each thread has a block of its own,
+1 is bound in its place."""
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+
+class Row(NamedTuple):
+    """How one quantity of a block is laid out, and what it means."""
+
+    components: int
+    """Number of rows: 1, 3 or 9, one for each component."""
+    unit: str
+    meaning: str
+    initial: float | tuple[float, ...] = 0.0
+    """Value in a lane without a particle, of all components or of each. Such a lane is computed as any other
+    and must stay finite: it is a sphere at rest."""
+    of: str = ""
+    """Array of :class:`~foamprb.cloud.state.Particles` from which it is loaded, if it is."""
+    saved: bool | str = False
+    """Whether it is saved to that array, or the scalar of the same block that must be positive for that."""
+
+
+class Layout(NamedTuple):
+    """What follows from the declaration of a block."""
+
+    rows: int
+    """Number of rows."""
+    idle: Callable[[Any], None]
+    """``idle(block)`` fills every lane with the initial values."""
+    load: Callable[[Any, int, Any, int], None]
+    """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
+    save: Callable[[Any, int, Any, int], None]
+    """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
+
+
+Declared = TypeVar("Declared", bound=tuple[int, ...])
+
+
+def rows_of(declaration: type[tuple[int, ...]]) -> dict[str, Row]:
+    """The rows of a declaration, by name, in their order in a block."""
+    hints = get_type_hints(declaration, include_extras=True)
+    return {name: hint.__metadata__[0] for name, hint in hints.items()}
+
+
+def offsets(declaration: type[Declared], first: int = 0) -> Declared:
+    """The number of the first row of each quantity.
+
+    Parameters
+    ----------
+    declaration
+        NamedTuple class with a :class:`Row` in the annotation of each field.
+    first
+        Number of the first row of all: the :func:`end` of the rows before these.
+    """
+    components = [row.components for row in rows_of(declaration).values()]
+    make: Any = declaration
+    found: Declared = make(*accumulate(components[:-1], initial=first))
+    return found
+
+
+def end(at: tuple[int, ...]) -> int:
+    """The number after the last row of a declaration, from its :func:`offsets`."""
+    return at[-1] + [*rows_of(type(at)).values()][-1].components
+
+
+def layout(*parts: tuple[int, ...]) -> Layout:
+    """The functions that fill a block with particles and empty it.
+
+    They are written as text and then executed: numba compiles no loop over quantities of several shapes.
+
+    Parameters
+    ----------
+    parts
+        :func:`offsets` of the declarations of which the block consists, in order.
+
+    Raises
+    ------
+    ValueError
+        If two declarations have a name in common.
+    """
+    rows: Placed = {}
+    for at in parts:
+        for first, (name, row) in zip(at, rows_of(type(at)).items(), strict=True):
+            if name in rows:
+                raise ValueError(f"the row {name} is declared twice")
+            rows[name] = first, row
+    scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
+    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows)]), scope)
+    return Layout(end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"])
+
+
+Placed = dict[str, tuple[int, Row]]
+"""By name, the number where each quantity begins, and its row."""
+
+
+def _idle(rows: Placed) -> Iterator[str]:
+    yield "def idle(block):"
+    yield "    for k in range(len(block)):"
+    yield "        block[k] = 0.0"
+    yield "    for i in range(LANES):"
+    yield "        pass"
+    for first, row in rows.values():
+        values = row.initial if isinstance(row.initial, tuple) else (row.initial,) * row.components
+        for c, value in enumerate(values):
+            if value != 0.0:
+                yield f"        block[{first + c} * LANES + i] = {value!r}"
+
+
+def _load(rows: Placed) -> Iterator[str]:
+    yield "def load_rows(p, k, block, i):"
+    yield "    pass"
+    yield from _copies((placed for placed in rows.values() if placed[1].of), "{lane} = {array}")
+
+
+def _save(rows: Placed) -> Iterator[str]:
+    yield "def save_rows(p, k, block, i):"
+    yield "    pass"
+    kinds = dict.fromkeys(row.saved for _, row in rows.values() if row.saved)
+    for saved in kinds:
+        if isinstance(saved, str):
+            yield f"    if block[{rows[saved][0]} * LANES + i] > 0.0:"
+        chosen = (placed for placed in rows.values() if placed[1].saved == saved)
+        margin = "    " if isinstance(saved, str) else ""
+        yield from (margin + line for line in _copies(chosen, "{array} = {lane}"))
+
+
+def _copies(placed: Iterable[tuple[int, Row]], copy: str) -> Iterator[str]:
+    """Lines that copy between lane i and particle k: one loop for all quantities of as many components."""
+    by_components: dict[int, list[tuple[int, str]]] = {}
+    for first, row in placed:
+        by_components.setdefault(row.components, []).append((first, row.of))
+    for components, quantities in by_components.items():
+        if components == 1:
+            for first, array in quantities:
+                yield "    " + copy.format(lane=f"block[{first} * LANES + i]", array=f"p.{array}[k]")
+        else:
+            yield f"    for c in range({components}):"
+            for first, array in quantities:
+                lane, element = f"block[({first} + c) * LANES + i]", f"p.{array}[k, c]"
+                yield "        " + copy.format(lane=lane, array=element)

@@ -1,0 +1,135 @@
+"""The particles that cross a plane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloudfunctions.base import Memory, ObservedCloud
+from foamprb.cloudfunctions.rows import close_ended, masses, names_of, open_rows
+from foamprb.dictionary.constraints import AtLeastOne, Only, Positive, Vector3
+from foamprb.errors import InputError
+from foamprb.output.tables import write_table
+
+__all__ = ["ParticleCollector"]
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ParticleCollector:
+    """The number and mass of the particles that cross a plane: ``collector.csv``; each in ``crossings.csv``.
+
+    A crossing is found when a particle changes sides between two samples. Where and when follows from the
+    cubic through the positions and velocities at both: an error of fourth order in the time between samples
+    where the path is smooth. A particle that crosses and comes back between two samples is not counted.
+    """
+
+    mode: Literal["plane"]
+    origin: Vector3
+    normal: Vector3
+    radius: Annotated[float, Positive] | None = None
+    negateParcelsOppositeNormal: bool = False
+    removeCollected: Annotated[bool, Only(False, "the particles go on")] = False
+    resetOnWrite: bool = False
+    sampleInterval: Annotated[int, AtLeastOne] = 10
+
+    def __post_init__(self) -> None:
+        if not any(self.normal):
+            raise InputError("has a normal (0 0 0)")
+
+    @property
+    def interval(self) -> int:
+        """Steps between two samples."""
+        return self.sampleInterval
+
+    def begin(self, cloud: ObservedCloud) -> Memory:
+        """Return the state of all particles at the start, and empty tables."""
+        p = cloud.particles
+        return {
+            "closed": np.zeros(p.size, dtype=bool),
+            "x": p.x.copy(),
+            "v": p.v.copy(),
+            "t": p.t.copy(),
+            "D": cloud.measure(np.arange(p.size), "taylorDeformation")[0],
+            "crossings": np.empty((0, 8)),
+            "written": np.zeros(1, dtype=np.int64),
+            "history": np.empty((0, 6)),
+        }
+
+    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add the particles that have changed sides since the last sample."""
+        p = cloud.particles
+        rows = open_rows(memory, p)
+        e = np.array(self.normal) / math.hypot(*self.normal)
+        heights = [(x - self.origin) @ e for x in (memory["x"][rows], p.x[rows])]
+        crossed = (heights[0] < 0.0) != (heights[1] < 0.0)
+        at = rows[crossed]
+        (D,) = cloud.measure(rows, "taylorDeformation")
+        h = p.t[at] - memory["t"][at]
+        ends = [(memory["x"][at], h[:, None] * memory["v"][at]), (p.x[at], h[:, None] * p.v[at])]
+        s = _root(*((x - self.origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
+        x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
+        sense = np.where(heights[1][crossed] < 0.0, -1.0, 1.0)
+        D_there = memory["D"][at] + s * (D[crossed] - memory["D"][at])
+        new = np.column_stack([at, memory["t"][at] + s * h, x, sense, D_there, masses(p, at)])
+        if self.radius is not None:
+            aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
+            new = new[np.linalg.norm(aside, axis=1) <= self.radius]
+        memory["crossings"] = np.concatenate([memory["crossings"], new[np.argsort(new[:, 1], kind="stable")]])
+        memory["x"][rows], memory["v"][rows], memory["t"][rows] = p.x[rows], p.v[rows], p.t[rows]
+        memory["D"][rows] = D
+        close_ended(memory, p, rows)
+
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+        """Write both tables, with what has crossed since the last writing."""
+        crossings = memory["crossings"]
+        id_, t, x, y, z, sense, D, mass = crossings.T
+        rows = id_.astype(np.int64)
+        injector = cloud.particles.injector[rows]
+        names = names_of(cloud.injectors, injector)
+        write_table(
+            folder / "crossings.csv",
+            {"id": rows, "injector": names, "t": t, "x": x, "y": y, "z": z,
+             "direction": sense.astype(np.int64), "D": D, "mass": mass},
+        )  # fmt: skip
+        fresh = np.arange(len(crossings)) >= memory["written"][0]
+        counted = fresh if self.resetOnWrite else np.ones(len(crossings), dtype=bool)
+        weight = mass * np.where(sense < 0.0, -1.0, 1.0) if self.negateParcelsOppositeNormal else mass
+        before = memory["history"][-1, 0] if len(memory["history"]) else cloud.cloud.start
+        lines = []
+        for index in range(len(cloud.injectors)):
+            own = injector == index
+            n = [np.count_nonzero(own & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
+            rate = weight[own & fresh].sum() / max(cloud.time - before, 1e-300)
+            lines.append([cloud.time, index, *n, weight[own & counted].sum(), rate])
+        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 6))])
+        memory["written"][0] = len(crossings)
+        time, index, along, against, total, rate = memory["history"].T
+        write_table(
+            folder / "collector.csv",
+            {"time": time, "injector": names_of(cloud.injectors, index.astype(np.int64)),
+             "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
+             "mass": total, "massFlowRate": rate},
+        )  # fmt: skip
+
+
+def _hermite(s: Any, x0: Any, x1: Any, m0: Any, m1: Any) -> Any:
+    """Return the value at s of the cubic from x0 with slope m0 at s = 0 to x1 with slope m1 at s = 1."""
+    r = 1.0 - s
+    return r * r * ((1.0 + 2.0 * s) * x0 + s * m0) + s * s * ((1.0 + 2.0 * r) * x1 - r * m1)
+
+
+def _root(x0: Floats, x1: Floats, m0: Floats, m1: Floats) -> Floats:
+    """Return a root of the cubic of :func:`_hermite` between ends of different sign, by bisection."""
+    low, high = np.zeros(len(x0)), np.ones(len(x0))
+    for _ in range(53):
+        middle = 0.5 * (low + high)
+        same = (_hermite(middle, x0, x1, m0, m1) < 0.0) == (x0 < 0.0)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return 0.5 * (low + high)

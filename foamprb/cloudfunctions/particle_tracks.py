@@ -1,0 +1,93 @@
+"""The paths of particles, for ParaView."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+
+from foamprb.cloud.measures import MEASURES
+from foamprb.cloud.state import Status
+from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud, Rows
+from foamprb.dictionary.constraints import AtLeastOne
+from foamprb.output.vtk import Tracks, write_tracks
+
+__all__ = ["ParticleTracks"]
+
+_TRACKED = ("semiAxes", "taylorDeformation", "shearRate")
+_POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate")
+
+
+@dataclass(frozen=True)
+class ParticleTracks:
+    """The paths of particles, a polyline each: ``tracks.vtp``.
+
+    A path begins where the particle is released, has a point every ``trackInterval`` steps and at the write
+    times, and ends where the particle does. A path has at most ``maxSamples`` points. Of more than
+    ``maxTracks`` particles that many are followed, evenly spread over their numbers.
+    """
+
+    trackInterval: Annotated[int, AtLeastOne]
+    maxSamples: Annotated[int, AtLeastOne]
+    maxTracks: Annotated[int, AtLeastOne] = 1000
+
+    @property
+    def interval(self) -> int:
+        """Steps between two points."""
+        return self.trackInterval
+
+    def begin(self, cloud: ObservedCloud) -> Memory:
+        """Return paths with one point each, the place of release."""
+        n = cloud.particles.size
+        tracks = min(n, self.maxTracks)
+        memory = {
+            "row": np.arange(tracks) * n // max(tracks, 1),
+            "closed": np.zeros(tracks, dtype=bool),
+            "count": np.zeros(tracks, dtype=np.int64),
+            "points": np.zeros((tracks, min(self.maxSamples, 16), len(_POINT))),
+        }
+        self._append(memory, cloud, np.arange(tracks))
+        return memory
+
+    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add a point to the path of every particle that has moved since."""
+        status = cloud.particles.status[memory["row"]]
+        last = memory["points"][np.arange(len(status)), memory["count"] - 1, 3]
+        moved = cloud.particles.t[memory["row"]] > last
+        tracks = np.flatnonzero(~memory["closed"] & (status != Status.PENDING) & moved)
+        self._append(memory, cloud, tracks[memory["count"][tracks] < self.maxSamples])
+        memory["closed"] |= status > Status.ACTIVE
+
+    def _append(self, memory: Memory, cloud: ObservedCloud, tracks: Rows) -> None:
+        at = memory["count"][tracks]
+        room = memory["points"].shape[1]
+        if len(at) and at.max() >= room:
+            more = np.zeros((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
+            memory["points"] = np.concatenate([memory["points"], more], axis=1)
+        p, rows = cloud.particles, memory["row"][tracks]
+        point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED)]
+        memory["points"][tracks, at] = np.column_stack(point)
+        memory["count"][tracks] += 1
+
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+        """Write the paths of the particles that have moved."""
+        p = cloud.particles
+        tracks = np.flatnonzero((memory["count"] > 1) & (p.status[memory["row"]] != Status.PENDING))
+        count, rows = memory["count"][tracks], memory["row"][tracks]
+        filled = np.arange(memory["points"].shape[1]) < count[:, None]
+        points = memory["points"][tracks][filled]
+        write_tracks(
+            folder / "tracks.vtp",
+            Tracks(
+                points[:, :3].copy(),
+                np.concatenate([[0], np.cumsum(count)]),
+                {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
+                 "taylorDeformation": points[:, 10], "shearRate": points[:, 11]},
+                {"origId": rows, "d": 2.0 * p.R[rows], "Ca": p.Ca[rows], "injector": p.injector[rows],
+                 "status": p.status[rows], "patch": p.patch[rows]},
+                {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)},
+                {"status": STATUS_NAMES, "patch": cloud.patches, "injector": cloud.injectors},
+            ),
+        )  # fmt: skip

@@ -1,0 +1,78 @@
+"""The stress that particles add to a dilute suspension."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from foamprb.body.tensor import dev, sym
+from foamprb.cloud.measures import MEASURES
+from foamprb.cloud.state import Status
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows
+from foamprb.cloudfunctions.rows import names_of
+from foamprb.output.tables import write_table
+
+__all__ = ["SuspensionStress"]
+
+
+@dataclass(frozen=True)
+class SuspensionStress:
+    """What the moving particles add to the fluid's stress in a dilute suspension: ``suspensionStress.csv``.
+
+    Of each injection model its number of particles and their volume V, m³; the sum of the stresslets over
+    that of the volumes, Pa, which times the volume fraction φ is the particles' stress; and the intrinsic
+    viscosity Σ S:d_f/(2 μ_f Σ V d_f:d_f), 5/2 for rigid spheres: what they add to the dissipation, per φ.
+    """
+
+    @property
+    def interval(self) -> int:
+        """The write times are enough."""
+        return 0
+
+    def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+        """Return an empty table."""
+        return {"history": np.empty((0, 11))}
+
+    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Leave all to :meth:`write`."""
+
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+        """Write the table, with a row more for each injection model."""
+        p = cloud.particles
+        lines = []
+        for index in range(len(cloud.injectors)):
+            rows = np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == index))
+            lines.append([cloud.time, index, len(rows), *_suspension(cloud, rows)])
+        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 11))])
+        time, index, n, *values = memory["history"].T
+        names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
+        write_table(
+            folder / "suspensionStress.csv",
+            {
+                "time": time,
+                "injector": names_of(cloud.injectors, index.astype(np.int64)),
+                "parcels": n.astype(np.int64),
+                **dict(zip(names, values, strict=True)),
+            },
+        )
+
+
+def _suspension(cloud: ObservedCloud, rows: Rows) -> list[float]:
+    """Return volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity; NaN without particles."""
+    # The components off the diagonal count twice.
+    weight = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    total, added, dissipated = np.zeros(7), 0.0, 0.0
+    for c in cloud.contexts(rows):
+        volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
+        S = MEASURES["stresslet"].value(c)
+        d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
+        total += np.column_stack([volume, S]).sum(axis=0)
+        added += (weight * S * d).sum()
+        dissipated += (volume[:, None] * weight * d * d).sum()
+    with np.errstate(invalid="ignore"):
+        stress = total[1:] / total[0]
+        viscosity = added / (2.0 * cloud.cloud.medium.mu * np.float64(dissipated))
+    return [float(total[0]), *map(float, stress), float(viscosity)]

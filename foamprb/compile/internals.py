@@ -1,0 +1,516 @@
+"""All that foamprb uses of numba's inner workings, and how it does without.
+
+Numba documents none of what is used here, and the next version may lack it. So it is divided into parts.
+Each is a function of :data:`PARTS` that says what it gains, and each can be left out: machine code is then
+made more slowly, but it is made, and its results differ by round-off at most.
+
+A part is left out
+
+* if the environment variable ``FOAMPRB_PLAIN_NUMBA`` is ``1``, or a list that names it (``cache,inlining``);
+* if numba lacks what the part takes;
+* if numba is of a version with which the part was never tried, and the small program in
+  :mod:`foamprb.compile.trial` goes wrong with it; what came of that is saved in the cache.
+
+What a part gains is told in seconds of one core, to compile one particle loop from nothing. It took 9.2 s in
+all, and 23.5 s without any part (numba 0.68.1, integrator stokes, steady flow on a mesh;
+``tools/benchmarks/compile_parts`` measures it again).
+"""
+
+from __future__ import annotations
+
+import copy
+import gc
+import logging
+import operator
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.metadata import version
+from typing import Any, Literal, TypeAlias
+
+import numba
+
+from foamprb.compile.cache import Store
+from foamprb.errors import InputError, suggestion
+
+__all__ = ["Internals", "Role", "internals", "use_cache_for_cuda"]
+
+log = logging.getLogger("foamprb")
+
+TRIED = "0.68"
+"""The version of numba, but for its last number, for which the parts were written."""
+SWITCH = "FOAMPRB_PLAIN_NUMBA"
+
+Role: TypeAlias = Literal["entry", "separate", "inlined"]
+"""Python calls an entry; compiled code calls a separate function; an inlined one is a part of its callers."""
+_ROLES: tuple[Role, ...] = ("entry", "separate", "inlined")
+_TIMEOUT = 300.0
+"""Of a trial, s."""
+
+
+@dataclass
+class _Changes:
+    """What a part changes of how functions of each role are compiled."""
+
+    options: dict[Role, dict[str, Any]] = field(default_factory=dict)
+    """Options of ``numba.njit``."""
+    passes: dict[Role, dict[type, type | None]] = field(default_factory=dict)
+    """Passes of the compiler, and what takes their place, if anything."""
+    rebuild: dict[Role, Callable[..., Any]] = field(default_factory=dict)
+    """How the result of a compilation is made from what was saved of it, if not as numba makes it."""
+    use_cache: Callable[..., Store] | None = None
+    """How a dispatcher is given its :class:`~foamprb.compile.cache.Store`."""
+
+
+def _collector() -> _Changes:
+    """No garbage is collected while numba compiles.
+
+    Gains 1.4 s: numba makes millions of objects, and to look through them again and again is of no use.
+    """
+    from numba.core.event import Event, Listener, register
+
+    class WithoutCollector(Listener):  # type: ignore[misc]
+        # Compilations are nested, but only one thread at a time compiles.
+        depth, enabled = 0, True
+
+        def on_start(self, event: Event) -> None:  # noqa: ARG002
+            if self.depth == 0:
+                self.enabled = gc.isenabled()
+                gc.disable()
+            self.depth += 1
+
+        def on_end(self, event: Event) -> None:  # noqa: ARG002
+            self.depth -= 1
+            if self.depth == 0 and self.enabled:
+                gc.enable()
+
+    register("numba:compile", WithoutCollector())
+    return _Changes()
+
+
+def _references() -> _Changes:
+    """References to arrays are not counted.
+
+    Gains 1.2 s: no function allocates an array or outlives those it is given, so that all counts are undone
+    in the end, and LLVM takes long to see it.
+    """
+    return _Changes(options={role: {"_nrt": False} for role in _ROLES})
+
+
+def _wrappers() -> _Changes:
+    """Python cannot call what only compiled code calls, and C nothing at all.
+
+    Gains 3.9 s: without it numba compiles a function to convert the arguments for each that it compiles.
+    """
+    neither = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return _Changes(options={"entry": {"no_cfunc_wrapper": True}, "separate": neither, "inlined": neither})
+
+
+def _inlining() -> _Changes:
+    """Functions are inlined by order, not at LLVM's choice.
+
+    Gains a loop that is faster: without it LLVM leaves calls in stages, which are then not vectorised.
+    """
+    # What is not said is inherited from the caller.
+    return _Changes(options={role: {"forceinline": role == "inlined"} for role in _ROLES})
+
+
+def _machine_code() -> _Changes:
+    """Machine code is made of entries only, with all that they call in them.
+
+    Gains 3.6 s. Numba makes machine code of every function by itself; of one that is always inlined it is
+    never used, and as functions are nested, that was half of LLVM's work. Such a function is left as
+    LLVM's intermediate code. So is a separate one, which is optimised by itself and marked not to be inlined,
+    or LLVM would make one huge function of a loop and its stages.
+    """
+    from llvmlite import binding  # type: ignore[import-untyped]
+    from numba import _dynfunc
+    from numba.core.codegen import JITCodeLibrary
+    from numba.core.compiler import CompileResult
+    from numba.core.compiler_machinery import register_pass
+    from numba.core.typed_passes import NativeLowering
+
+    replaced = ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals", "_finalized")
+    _need(JITCodeLibrary, *replaced)
+
+    class Separate(JITCodeLibrary):  # type: ignore[misc]
+        """Intermediate code that others link in and call, optimised."""
+
+        def _finalize_final_module(self) -> None:
+            self._finalize_dynamic_globals()
+            self._finalized = True
+
+        def serialize_using_object_code(self) -> Any:
+            """What numba saves: there is no machine code."""
+            return self.serialize_using_bitcode()
+
+    class Inlined(Separate):
+        """Intermediate code that others link in and inline."""
+
+        def _optimize_final_module(self) -> None:
+            pass
+
+    class Reader:
+        """A code generator that reads what was saved of a :class:`Separate`."""
+
+        def __init__(self, codegen: Any) -> None:
+            self._codegen = codegen
+
+        def unserialize_library(self, state: Any) -> Any:
+            name, _, code = state
+            library = Separate(self._codegen, name)
+            library._final_module = binding.parse_bitcode(code)
+            library._finalize_final_module()
+            return library
+
+    def not_executable(library: Any, fndesc: Any, env: Any) -> Any:
+        """Stand-in for what Python would call, which numba wants of every function."""
+        library._ensure_finalized()
+        name = fndesc.qualname.split(".")[-1]
+        return _dynfunc.make_function(fndesc.lookup_module(), name, "", 0, env, (library,))
+
+    def for_code(context: Any) -> Any:
+        """Numba's context of a target, for a function that only compiled code calls."""
+        context = copy.copy(context)
+        context.get_executable = not_executable
+        return context
+
+    def lower(lowering: Any, state: Any, library: Any) -> bool:
+        """Numba's last pass, into a library of another kind and without machine code."""
+        state.library = library
+        context, state.targetctx = state.targetctx, for_code(state.targetctx)
+        try:
+            return bool(NativeLowering.run_pass(lowering, state))
+        finally:
+            state.targetctx = context
+
+    @register_pass(mutates_CFG=True, analysis_only=False)
+    class LoweringOfInlined(NativeLowering):  # type: ignore[misc]
+        _name = "lowering_of_inlined"
+
+        def run_pass(self, state: Any) -> bool:
+            return lower(self, state, Inlined(state.targetctx.codegen(), state.func_id.func_qualname))
+
+    @register_pass(mutates_CFG=True, analysis_only=False)
+    class LoweringOfSeparate(NativeLowering):  # type: ignore[misc]
+        _name = "lowering_of_separate"
+
+        def run_pass(self, state: Any) -> bool:
+            library = Separate(state.targetctx.codegen(), state.func_id.func_qualname)
+            changed = lower(self, state, library)
+            library.get_function(state.cr.fndesc.mangled_name).add_function_attribute("noinline")
+            return changed
+
+    def rebuild(context: Any, payload: Any) -> Any:
+        """What numba makes of what was saved of a separate function."""
+        context, codegen = for_code(context), context.codegen()
+        context.codegen = lambda: Reader(codegen)
+        # The last are environments of interpreted code, to be put into machine code that is not there.
+        return CompileResult._rebuild(context, *payload[:-1], ())
+
+    return _Changes(
+        passes={
+            "separate": {NativeLowering: LoweringOfSeparate},
+            "inlined": {NativeLowering: LoweringOfInlined},
+        },
+        rebuild={"separate": rebuild},
+    )
+
+
+def _arithmetic() -> _Changes:
+    """The types of results of operators between numbers are remembered.
+
+    Gains 0.8 s: numba finds out anew for each sum and product which type it has, and the formulas have
+    hardly another than float.
+    """
+    from numba import types
+    from numba.core.compiler_machinery import register_pass
+    from numba.core.typed_passes import NopythonTypeInference
+
+    operators = frozenset(getattr(operator, name) for name in operator.__all__)
+    known: dict[tuple[Any, ...], Any] = {}
+
+    @contextmanager
+    def remembering(context: Any) -> Iterator[None]:
+        """Let numba's context remember."""
+        if "resolve_function_type" in vars(context):
+            yield
+            return
+        resolve = context.resolve_function_type
+
+        def remembered(function: Any, arguments: Any, keywords: Any) -> Any:
+            plain = not keywords and all(isinstance(argument, types.Number) for argument in arguments)
+            if not plain or getattr(function, "typing_key", None) not in operators:
+                return resolve(function, arguments, keywords)
+            key = function, *arguments
+            if key not in known:
+                known[key] = resolve(function, arguments, keywords)
+            return known[key]
+
+        context.resolve_function_type = remembered
+        try:
+            yield
+        finally:
+            del context.resolve_function_type
+
+    @register_pass(mutates_CFG=True, analysis_only=False)
+    class TypeInference(NopythonTypeInference):  # type: ignore[misc]
+        _name = "type_inference_of_arithmetic"
+
+        def run_pass(self, state: Any) -> bool:
+            with remembering(state.typingctx):
+                return bool(NopythonTypeInference.run_pass(self, state))
+
+    return _Changes(passes={role: {NopythonTypeInference: TypeInference} for role in _ROLES})
+
+
+def _needless() -> _Changes:
+    """Numba does not look for closures, nor for operations on whole arrays: the formulas have neither.
+
+    Gains 0.4 s.
+    """
+    from numba.core.typed_passes import NopythonRewrites
+    from numba.core.untyped_passes import InlineClosureLikes
+
+    return _Changes(passes={role: {InlineClosureLikes: None, NopythonRewrites: None} for role in _ROLES})
+
+
+def _cache() -> _Changes:
+    """Compiled code is saved on disk, as :mod:`foamprb.compile.cache` does it.
+
+    Gains all 9.2 s in each process after the first. Numba's own cache goes by the path of a function's file
+    and not by the code of what it calls, loads what it finds without a checksum, whoever wrote it, and ends a
+    program that cannot write there; so that without this part there is none.
+    """
+    from numba.core.compiler import CompileResult
+    from numba.core.dispatcher import Dispatcher
+    from numba.core.serialize import dumps
+
+    _need(CompileResult, "_reduce", "_rebuild")
+    _need(Dispatcher, "enable_caching")
+
+    class Cache:
+        """What numba asks before it compiles a function for some types of arguments, and tells after."""
+
+        def __init__(self, store: Store, rebuild: Callable[..., Any]) -> None:
+            self._store, self._rebuild = store, rebuild
+            self.cache_path = str(store.folder)
+
+        def load_overload(self, signature: Any, context: Any) -> Any:
+            context.refresh()
+            saved = self._store.load((signature, context.codegen().magic_tuple()))
+            try:
+                return None if saved is None else self._rebuild(context, saved)
+            except Exception:
+                # It names something that has gone.
+                return None
+
+        def save_overload(self, signature: Any, result: Any) -> None:
+            # Machine code with addresses in it serves one process only.
+            if not result.library.has_dynamic_globals:
+                codegen = result.target_context.codegen()
+                self._store.save((signature, codegen.magic_tuple()), result._reduce())
+
+        def flush(self) -> None:
+            self._store.flush()
+
+    def use_cache(dispatcher: Any, name: str, rebuild: Callable[..., Any] | None) -> Store:
+        store = Store(name, dumps)
+        _need(dispatcher, "_cache")
+        dispatcher._cache = Cache(store, rebuild or _rebuild)
+        return store
+
+    def _rebuild(context: Any, payload: Any) -> Any:
+        return CompileResult._rebuild(context, *payload)
+
+    return _Changes(use_cache=use_cache)
+
+
+def use_cache_for_cuda(kernel: Any, name: str) -> Store | None:
+    """Give a CUDA kernel a place in the cache under a name, as :func:`_cache` does for the processor.
+
+    It belongs to the same part. Without it numba-cuda compiles the kernel in each process.
+    """
+    if "cache" not in internals().parts:
+        return None
+    try:
+        from numba.cuda.dispatcher import CUDACache, CUDACacheImpl
+        from numba.cuda.serialize import dumps
+
+        store = Store(name, dumps)
+
+        class Locator:
+            """Where numba-cuda would look for files of its own."""
+
+            @classmethod
+            def from_function(cls, function: Any, file: str) -> Locator:  # noqa: ARG003
+                return cls()
+
+            def ensure_cache_path(self) -> None:
+                """The store makes it."""
+
+            def get_cache_path(self) -> str:
+                return str(store.folder)
+
+            def get_source_stamp(self) -> str:
+                return name
+
+            def get_disambiguator(self) -> str:
+                return ""
+
+        class Impl(CUDACacheImpl):  # type: ignore[misc]
+            _locator_classes = (Locator,)
+
+        class Cache(CUDACache):  # type: ignore[misc]
+            _impl_class = Impl
+
+            def load_overload(self, signature: Any, context: Any) -> Any:
+                with suppress(Exception):
+                    return super().load_overload(signature, context)
+                return None
+
+        own = Cache(kernel.py_func)
+        _need(own, "_cache_file")
+        _need(kernel, "_cache")
+        own._cache_file = store
+        kernel._cache = own
+    except Exception as error:
+        log.debug("numba-cuda has not what the cache takes: %r", error)
+        return None
+    return store
+
+
+PARTS: dict[str, Callable[[], _Changes]] = {
+    "collector": _collector,
+    "references": _references,
+    "wrappers": _wrappers,
+    "inlining": _inlining,
+    "machineCode": _machine_code,
+    "arithmetic": _arithmetic,
+    "needless": _needless,
+    "cache": _cache,
+}
+
+
+@dataclass(frozen=True)
+class Internals:
+    """What this process uses of numba's inner workings."""
+
+    parts: tuple[str, ...]
+    options: Mapping[Role, Mapping[str, Any]]
+    """Options of ``numba.njit`` for functions of each role."""
+    _rebuild: Mapping[Role, Callable[..., Any]]
+    _use_cache: Callable[..., Store] | None
+
+    def use_cache(self, dispatcher: Any, name: str, role: Role) -> Store | None:
+        """Give a dispatcher a place in the cache under a name, if there is a cache."""
+        return self._use_cache(dispatcher, name, self._rebuild.get(role)) if self._use_cache else None
+
+
+def internals() -> Internals:
+    """What this process uses: found out once, unless :data:`SWITCH` changes.
+
+    Raises
+    ------
+    InputError
+        If :data:`SWITCH` names what is no part.
+    """
+    return _with(*_chosen(os.environ.get(SWITCH, "")))
+
+
+@cache
+def _chosen(switch: str) -> tuple[str, ...]:
+    """The parts that are not left out."""
+    if switch == "1":
+        return ()
+    without = [name for name in switch.split(",") if name not in ("", "0")]
+    for name in without:
+        if name not in PARTS:
+            raise InputError(f"{SWITCH}={switch}: there is no part {name}. {suggestion(name, PARTS)}")
+    parts = tuple(name for name in PARTS if name not in without and _changes(name) is not None)
+    if not switch and not numba.__version__.startswith(f"{TRIED}."):
+        parts = _tried(parts)
+    missing = [name for name in PARTS if name not in (*parts, *without)]
+    if missing:
+        log.info(
+            "numba %s is not the version that foamprb knows best, %s: it compiles more slowly, without %s.",
+            numba.__version__, TRIED, ", ".join(missing),
+        )  # fmt: skip
+    return parts
+
+
+@cache
+def _changes(name: str) -> _Changes | None:
+    """What a part changes; None if numba lacks what it takes."""
+    try:
+        made = PARTS[name]()
+        for role, replaced in made.passes.items():
+            _pipeline(role, replaced)
+    except Exception as error:
+        log.debug("numba has not what %s takes: %r", name, error)
+        return None
+    return made
+
+
+@cache
+def _with(*parts: str) -> Internals:
+    options: dict[Role, dict[str, Any]] = {role: {} for role in _ROLES}
+    passes: dict[Role, dict[type, type | None]] = {role: {} for role in _ROLES}
+    rebuild: dict[Role, Callable[..., Any]] = {}
+    use_cache = None
+    for name in parts:
+        changes = _changes(name)
+        assert changes is not None
+        for role in _ROLES:
+            options[role] |= changes.options.get(role, {})
+            passes[role] |= changes.passes.get(role, {})
+        rebuild |= changes.rebuild
+        use_cache = changes.use_cache or use_cache
+    for role in _ROLES:
+        options[role] |= _pipeline(role, passes[role])
+    return Internals(parts, options, rebuild, use_cache)
+
+
+def _pipeline(role: Role, replaced: Mapping[type, type | None]) -> dict[str, Any]:
+    """The option that makes numba's compiler go through other passes."""
+    if not replaced:
+        return {}
+    from numba.core.compiler import CompilerBase, DefaultPassBuilder
+    from numba.core.compiler_machinery import PassManager
+
+    class Compiler(CompilerBase):  # type: ignore[misc]
+        def define_pipelines(self) -> list[Any]:
+            passes = PassManager(f"foamprb_{role}")
+            for step, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:
+                instead = replaced.get(step, step)
+                if instead is not None:
+                    passes.add_pass(instead, description)
+            passes.finalize()
+            return [passes]
+
+    return {"pipeline_class": Compiler}
+
+
+def _need(owner: Any, *names: str) -> None:
+    """Raise AttributeError if an object of numba's lacks something."""
+    for name in names:
+        getattr(owner, name)
+
+
+def _tried(parts: tuple[str, ...]) -> tuple[str, ...]:
+    """Those parts with which :mod:`foamprb.compile.trial` runs, and comes out right."""
+    store = Store("trials")
+    key = numba.__version__, version("llvmlite"), sys.version, parts
+    found: tuple[str, ...] | None = store.load(key)
+    if found is None:
+        command = [sys.executable, "-m", "foamprb.compile.trial", *parts]
+        found = ()
+        with suppress(OSError, subprocess.SubprocessError):
+            done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=True)
+            found = tuple(done.stdout.split())
+        store.save(key, found)
+    return found

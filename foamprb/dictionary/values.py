@@ -1,0 +1,190 @@
+"""What the text of an entry means: numbers, words, vectors, lists, names of files."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple, NewType
+
+from foamprb.dictionary.constraints import Axes, Constant, Pairs, Vector3, Words
+from foamprb.dictionary.dimensions import (
+    ACCELERATION,
+    DENSITY,
+    KINEMATIC_VISCOSITY,
+    Dimensions,
+    described,
+    read_dimensions,
+    written,
+)
+from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
+
+__all__ = ["READERS", "Acceleration", "Density", "Files", "Line", "Reader", "Viscosity"]
+
+Line = NewType("Line", str)
+"""An entry's whole text, of one word or more."""
+Files = NewType("Files", tuple[Path, ...])
+"""Names of existing files, in the case's ``constant`` folder or absolute."""
+Viscosity = NewType("Viscosity", float)
+"""A kinematic viscosity, m2/s, that may be written with its name and dimensions."""
+Density = NewType("Density", float)
+"""A density, kg/m3, that may be written with its name and dimensions."""
+Acceleration = NewType("Acceleration", str)
+"""The dimensions of an acceleration."""
+
+
+class Reader(NamedTuple):
+    """How the value of one type is read, and how a message calls it."""
+
+    read: Callable[[Stream], Any]
+    """Returns the value of an entry, or None if its text is something else.
+
+    It may raise ValueError with what a message shall say of the text.
+    """
+    text: str
+
+
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
+_INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
+_DIMENSIONED = re.compile(r"(?:(?:[^\W\d]\S* )?(?P<dimensions>\[ .* \]) )?(?P<value>\S+)")
+_SWITCHES = {"yes": True, "on": True, "true": True, "no": False, "off": False, "false": False}
+
+
+def _number(text: str) -> float | None:
+    number = float(text) if _NUMBER.fullmatch(text) else math.nan
+    return number if math.isfinite(number) else None
+
+
+def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
+    """Return a reader of numbers with their name and dimensions, or with neither."""
+
+    def read(entry: Stream) -> float | None:
+        match = _DIMENSIONED.fullmatch(entry.text)
+        if match and match["dimensions"]:
+            _require(match["dimensions"], expected)
+        return _number(match["value"]) if match else None
+
+    return read
+
+
+def _require(text: str, expected: Dimensions) -> None:
+    """Raise ValueError, which says what they look like, for dimensions that are not those expected."""
+    dimensions = read_dimensions(text)
+    if dimensions is None:
+        raise ValueError("whose dimensions cannot be read")
+    if dimensions != expected:
+        raise ValueError(f"with the dimensions {described(dimensions)}, not {described(expected)}")
+
+
+def _dimensions_of_acceleration(entry: Stream) -> str:
+    _require(entry.text, ACCELERATION)
+    return entry.text
+
+
+def _constant(entry: Stream) -> float | None:
+    match entry.tokens:
+        case (value,) | ("constant", value):
+            return _number(value)
+    return None
+
+
+def _vector(entry: Stream) -> Any:
+    return _numbers(_nested(entry), 3)
+
+
+def _pairs(entry: Stream) -> Any:
+    return _each(_nested(entry), lambda item: _numbers(item, 2))
+
+
+def _axes(entry: Stream) -> Any:
+    return _each(_nested(entry), _two_vectors)
+
+
+def _words(entry: Stream) -> Any:
+    return _each(_nested(entry), lambda item: unquoted(item) if isinstance(item, str) else None)
+
+
+def _two_vectors(item: Any) -> Any:
+    vectors = _each(item, lambda part: _numbers(part, 3))
+    return vectors if vectors is not None and len(vectors) == 2 else None
+
+
+def _numbers(item: Any, n: int) -> Any:
+    """A tuple of n numbers; None if the item is something else."""
+    numbers = _each(item, lambda part: _number(part) if isinstance(part, str) else None)
+    return numbers if numbers is not None and len(numbers) == n else None
+
+
+def _each(item: Any, read: Callable[[Any], Any]) -> Any:
+    """A tuple of what is read of each part of a list; None if it is no list, or a part cannot be read."""
+    if not isinstance(item, tuple):
+        return None
+    parts = tuple(map(read, item))
+    return None if any(part is None for part in parts) else parts
+
+
+def _nested(entry: Stream) -> Any:
+    """Parentheses as nested tuples of words, the number of items before the outermost left out."""
+    tokens = entry.tokens
+    if len(tokens) > 1 and _INTEGER.fullmatch(tokens[0]):
+        tokens = tokens[1:]
+    lists: list[list[Any]] = [[]]
+    for token in tokens:
+        if token == "(":
+            lists.append([])
+        elif token == ")" and len(lists) > 1:
+            last = tuple(lists.pop())
+            lists[-1].append(last)
+        else:
+            lists[-1].append(token)
+    return lists[0][0] if len(lists) == 1 and len(lists[0]) == 1 else None
+
+
+def _word(entry: Stream) -> str | None:
+    return (unquoted(entry.text) or None) if len(entry.tokens) == 1 else None
+
+
+def _file(entry: Stream) -> Path | None:
+    name = _word(entry)
+    return _existing(entry, name) if name else None
+
+
+def _existing(entry: Stream, name: str) -> Path | None:
+    path = entry.source.case / "constant" / name
+    try:
+        return path if path.is_file() else None
+    except OSError:
+        return None
+
+
+def _files(entry: Stream) -> tuple[Path, ...] | None:
+    if len(entry.tokens) < 2 or (entry.tokens[0], entry.tokens[-1]) != ("(", ")"):
+        return None
+    paths = [_existing(entry, unquoted(name)) for name in entry.tokens[1:-1]]
+    found = tuple(path for path in paths if path is not None)
+    return found if len(found) == len(paths) else None
+
+
+READERS: dict[Any, Reader] = {
+    float: Reader(lambda entry: _number(entry.text), "a number"),
+    int: Reader(lambda entry: int(entry.text) if _INTEGER.fullmatch(entry.text) else None, "a whole number"),
+    bool: Reader(lambda entry: _SWITCHES.get(entry.text), ", ".join(_SWITCHES)),
+    str: Reader(_word, "a word"),
+    Line: Reader(lambda entry: entry.text, "any text"),
+    Viscosity: Reader(
+        _dimensioned(KINEMATIC_VISCOSITY), f"a number, or {written(KINEMATIC_VISCOSITY)} and a number"
+    ),
+    Density: Reader(_dimensioned(DENSITY), f"a number, or {written(DENSITY)} and a number"),
+    Acceleration: Reader(_dimensions_of_acceleration, written(ACCELERATION)),
+    Path: Reader(_file, "the name of an existing file, in constant/ or absolute"),
+    Files: Reader(_files, "a list (file file) of existing files, in constant/ or absolute"),
+    Vector3: Reader(_vector, "a vector (x y z)"),
+    Constant: Reader(_constant, "a number, constant in time"),
+    Words: Reader(_words, "a list of words ( word word … )"),
+    Pairs: Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),
+    Axes: Reader(_axes, "a list of positions with an axis ( ((x y z) (x y z)) … )"),
+    Dictionary: Reader(lambda _: None, DICTIONARY_TEXT),
+    DictionaryList: Reader(lambda _: None, "a list ( name { … } name { … } )"),
+}
+"""By the type that a schema's hint names."""

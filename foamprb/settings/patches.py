@@ -1,0 +1,223 @@
+"""Which patch does what to a particle: OpenFOAM's patch interaction models, and how their rules are matched.
+
+A new patch interaction model is a function from its ``…Coeffs`` to rules and a line in
+:data:`INTERACTION_MODELS`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Literal, TypeAlias
+
+from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
+from foamprb.dictionary.constraints import Bounds, Choice
+from foamprb.dictionary.mistakes import Mistakes, ReportedError
+from foamprb.dictionary.schema import read_entries, read_entry, selected
+from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import WALLS, Patch
+
+__all__ = [
+    "INTERACTION_MODELS",
+    "KindRule",
+    "PatchRule",
+    "Rule",
+    "Touching",
+    "coefficient_names",
+    "match_patches",
+    "read_patch_interaction",
+]
+
+Touching: TypeAlias = Literal["ellipsoid", "centre"]
+"""What of a particle touches a wall."""
+
+
+@dataclass(frozen=True)
+class PatchRule:
+    """What the patches do whose name or group is ``pattern`` or, if that is a ``regex``, matches it."""
+
+    pattern: str
+    interaction: Interaction
+    regex: bool = False
+
+    def matches(self, word: str) -> bool:
+        """Whether the whole ``word`` is or matches the pattern."""
+        return re.fullmatch(self.pattern, word) is not None if self.regex else self.pattern == word
+
+
+@dataclass(frozen=True)
+class KindRule:
+    """What all patches of a kind do: the walls, the open ones (neither walls nor constrained), or any."""
+
+    kind: Literal["wall", "open", "any"]
+    interaction: Interaction
+
+
+Rule: TypeAlias = PatchRule | KindRule
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Patch interaction models
+
+
+def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
+    """Read the coefficients of the ``patchInteractionModel`` of ``subModels``.
+
+    Returns
+    -------
+    The rules for the patches, and what of a particle touches a wall.
+
+    Raises
+    ------
+    InputError
+        If there are mistakes, all of them.
+    """
+    if "patchInteractionModel" not in sub_models.entries:
+        raise ReportedError("patchInteractionModel is missing")
+    model = read_entry(sub_models, "patchInteractionModel", Annotated[str, Choice(INTERACTION_MODELS)])
+    coefficients: Dictionary = read_entry(sub_models, f"{model}Coeffs", Dictionary)
+    touching: Touching = "ellipsoid"
+    mistakes = Mistakes()
+    with mistakes:
+        if "touching" in coefficients.entries:
+            touching = read_entry(coefficients, "touching", Touching)
+    with mistakes:
+        rules = INTERACTION_MODELS[model](coefficients)
+    mistakes.raise_any()
+    return rules, touching
+
+
+@dataclass(frozen=True, kw_only=True)
+class _LocalInteraction:
+    patches: DictionaryList
+
+
+def _local_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
+    """Return a rule for each entry of ``patches``."""
+    mistakes, rules = Mistakes(), []
+    with mistakes:
+        entries = read_entries(_LocalInteraction, coefficients, also=("touching",))
+        for entry in entries.patches.items:
+            with mistakes:
+                rules.append(_patch_rule(entry))
+    mistakes.raise_any()
+    return tuple(rules)
+
+
+def _patch_rule(dictionary: Dictionary) -> PatchRule:
+    pattern, regex = unquoted(dictionary.key), dictionary.key.startswith('"')
+    if regex:
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            raise dictionary.mistake(f"is not a regular expression: {error}.") from error
+    interaction = read_entries(selected(INTERACTIONS, dictionary), dictionary, also=("type",))
+    return PatchRule(pattern, interaction, regex)
+
+
+def _standard_wall_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
+    """Return one rule for all walls, and that particles leave through what is open."""
+    walls = read_entries(selected(INTERACTIONS, coefficients), coefficients, also=("type", "touching"))
+    return KindRule("wall", walls), KindRule("open", Escape())
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Rebound:
+    UFactor: Annotated[float, Bounds(0.5, 1.0, False, False, "a number from 0.5 to 1")]
+
+
+def _rebound(coefficients: Dictionary) -> tuple[Rule, ...]:
+    """Return that particles bounce off every patch; twice UFactor of the normal velocity is taken away."""
+    entries = read_entries(_Rebound, coefficients, also=("touching",))
+    return (KindRule("any", Rebound(e=2.0 * entries.UFactor - 1.0)),)
+
+
+INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
+    "localInteraction": _local_interaction,
+    "rebound": _rebound,
+    "standardWallInteraction": _standard_wall_interaction,
+}
+"""The rules that follow from the coefficients, by the word that ``patchInteractionModel`` selects."""
+
+
+def coefficient_names() -> tuple[str, ...]:
+    """Return the names of the entries of ``subModels`` that hold the models' coefficients."""
+    return tuple(f"{model}Coeffs" for model in INTERACTION_MODELS)
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Rules and patches
+
+
+_MIRRORS = frozenset({"empty", "symmetry", "symmetryPlane", "wedge"})
+_COUPLED = ("cyclic", "processor")
+
+
+def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | str) -> list[Interaction]:
+    """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
+
+    The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
+    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a cyclic
+    patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
+
+    Parameters
+    ----------
+    rules, patches
+        Of the settings and of the mesh, in their order.
+    file
+        The file that a message names.
+
+    Returns
+    -------
+    An interaction for each patch.
+
+    Raises
+    ------
+    InputError
+        If rules match no patch, or patches of another kind are left without a rule; all of them.
+    """
+    where = f"{file}: subModels/localInteractionCoeffs/patches"
+    names = [patch.name for patch in patches]
+    mistakes, interactions = Mistakes(), []
+    for rule in rules:
+        if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
+            text = f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}"
+            mistakes.add(InputError(text))
+    # First: a rule that matches no patch may be meant for one that is left without.
+    mistakes.raise_any()
+    for patch in patches:
+        with mistakes:
+            interactions.append(_interaction(rules, patch, file, where))
+    mistakes.raise_any()
+    return interactions
+
+
+def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
+    for rule in rules:
+        if _applies(rule, patch):
+            return rule.interaction
+    if patch.neighbour and patch.type in ("cyclic", "wedge"):
+        return Cyclic()
+    if patch.type in _MIRRORS:
+        return Mirror()
+    if patch.type == "cyclic":
+        raise InputError(f"{where}: the cyclic patch '{patch.name}' names no neighbourPatch to go on from.")
+    if patch.type.startswith(_COUPLED):
+        raise InputError(
+            f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
+            "coupled patches only cyclic ones, whose faces fit one to one, let them through. Give it an "
+            f"entry of its own ({', '.join(INTERACTIONS)})."
+        )
+    raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
+
+
+def _applies(rule: Rule, patch: Patch) -> bool:
+    group = "wall" if patch.type in WALLS else patch.type
+    constrained = group in _MIRRORS or group.startswith(_COUPLED)
+    if isinstance(rule, KindRule):
+        kind = "wall" if group == "wall" else "constrained" if constrained else "open"
+        return rule.kind in (kind, "any")
+    return rule.matches(patch.name) or ((group == "wall" or constrained) and rule.matches(group))

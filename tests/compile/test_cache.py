@@ -1,0 +1,390 @@
+"""Compiled code on disk is used if it is whole, for this processor, and nobody else wrote it."""
+
+from __future__ import annotations
+
+import logging
+import os
+import pickle
+import random as chance
+import resource
+import signal
+import stat
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from paths import ROOT
+
+from foamprb.compile import cache as caching
+from foamprb.compile import link as linking
+from foamprb.compile import trial
+from foamprb.compile.cache import Store
+from foamprb.compile.internals import use_cache_for_cuda
+from foamprb.compile.link import is_compiled, link
+
+IS_ROOT = os.geteuid() == 0
+SOMEBODY = 54321
+
+PROGRAM = """
+import logging, sys
+logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
+from foamprb.compile.link import is_compiled, link
+from foamprb.compile import trial
+f = link(trial.swapped)
+print(is_compiled(f), f((1.0, 3.0)), is_compiled(f), sum(f.stats.cache_hits.values()))
+"""
+FOUND, NOT_FOUND = "True (3.0, -5.0) True 1", "False (3.0, -5.0) True 0"
+
+
+def swapped_by_hand(pair):
+    return pair[1], pair[0]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """An empty cache, with nothing compiled in this process and nothing said."""
+    folder = tmp_path / "cache"
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
+    monkeypatch.setattr(linking, "_parts", {})
+    monkeypatch.setattr(caching, "_told", set())
+    return folder
+
+
+@pytest.fixture
+def forget(monkeypatch):
+    """Do as if another process began."""
+    return lambda: monkeypatch.setattr(linking, "_parts", {})
+
+
+def start(cache, before=None, **variables):
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "FOAMPRB_CACHE_DIR": str(cache), **variables}
+    return subprocess.Popen(
+        [sys.executable, "-c", PROGRAM], env=environment, stdout=subprocess.PIPE, text=True, preexec_fn=before
+    )
+
+
+def said(process):
+    output, _ = process.communicate()
+    assert process.returncode == 0
+    return output.splitlines()
+
+
+def compiled():
+    """Compile the small program, or find it; how often it was found."""
+    f = link(trial.outer, separate=(trial.middle,))
+    numbers = trial.Numbers(np.linspace(-1.0, 2.0, 50), 0.75)
+    assert f(numbers) == pytest.approx(
+        trial.outer(trial.Numbers(np.linspace(-1.0, 2.0, 50), 0.75)), rel=1e-13
+    )
+    return sum(f.stats.cache_hits.values())
+
+
+class TestDamage:
+    def test_any_byte_that_changed_is_seen(self, folder):
+        store = Store("name")
+        store.save("key", list(range(50)))
+        (file,) = folder.rglob("*.code")
+        whole = file.read_bytes()
+        assert store.load("key") == list(range(50))
+        for at in range(len(whole)):
+            file.write_bytes(whole[:at] + bytes([whole[at] ^ 1 << at % 8]) + whole[at + 1 :])
+            assert store.load("key") is None
+            file.write_bytes(whole[:at])
+            assert store.load("key") is None
+        file.write_bytes(whole + b"\0")
+        assert store.load("key") is None
+        file.write_bytes(whole)
+        assert store.load("key") == list(range(50))
+
+    @pytest.mark.usefixtures("folder")
+    def test_a_file_of_another_function_or_type_is_not_used(self):
+        """Whoever copies files about, a tool for backups or somebody else, may mix them up."""
+        store, other = Store("name"), Store("other")
+        store.save("key", 1)
+        other.save("key", 2)
+        store.save("key 2", 3)
+        one, another = (s._file("key") for s in (store, other))
+        one.write_bytes(another.read_bytes())
+        assert store.load("key") is None
+        one.write_bytes(store._file("key 2").read_bytes())
+        assert store.load("key") is None
+
+    def test_damaged_code_is_compiled_again_and_never_run(self, folder):
+        """Machine code and intermediate code; a process that ran damaged code could end without a word."""
+        compiled()
+        number = os.fork()
+        if number == 0:
+            status = 1
+            try:
+                self.flip_and_compile(folder, 20)
+                status = 0
+            finally:
+                os._exit(status)
+        assert os.waitpid(number, 0)[1] == 0
+
+    @staticmethod
+    def flip_and_compile(folder, times):
+        random = chance.Random(1)
+        files = sorted(folder.rglob("*.code"))
+        assert len(files) == 2
+        for _ in range(times):
+            file = random.choice(files)
+            data = bytearray(file.read_bytes())
+            for _ in range(random.choice((1, 1, 2, 100))):
+                data[random.randrange(len(data))] ^= 1 << random.randrange(8)
+            if random.random() < 0.3:
+                del data[random.randrange(len(data)) :]
+            file.write_bytes(data)
+            linking._parts.clear()
+            hits = compiled()
+            # The loop has the machine code of what it calls in it.
+            assert hits == (0 if file.parent.name == files_of("outer", files) else 1)
+            linking._parts.clear()
+            assert compiled() == 1
+
+    @pytest.mark.usefixtures("folder")
+    def test_what_names_a_class_that_has_gone_is_compiled_again(self, monkeypatch):
+        store = Store("name")
+        store.save("key", trial.Numbers(1, 2.0))
+        monkeypatch.delattr(trial, "Numbers")
+        assert store.load("key") is None
+
+
+def files_of(function, files):
+    """Name of the folder of a function that was compiled in this process."""
+    (part,) = {p.key for p in linking._parts.values() if p.dispatcher.py_func.__name__ == function}
+    return part
+
+
+class Intruder:
+    """Whoever loads it runs what it says."""
+
+    def __init__(self, file):
+        self.file = file
+
+    def __reduce__(self):
+        return Path.touch, (self.file,)
+
+
+def belongs_to_somebody(path, monkeypatch):
+    """Let a file belong to somebody else, or this process to another user."""
+    if IS_ROOT:
+        os.chown(path, SOMEBODY, -1)
+    else:
+        monkeypatch.setattr(os, "geteuid", lambda: SOMEBODY)
+
+
+class TestOwners:
+    @pytest.mark.parametrize("mode", [0o020, 0o002], ids=["group", "others"])
+    @pytest.mark.parametrize("which", ["root", "folder", "file"])
+    def test_what_others_may_write_to_is_not_used(self, folder, which, mode, caplog, forget):
+        assert link(swapped_by_hand)((1.0, 2.0)) == (2.0, 1.0)
+        (file,) = folder.rglob("*.code")
+        path = {"root": folder, "folder": file.parent, "file": file}[which]
+        path.chmod(path.stat().st_mode | mode)
+        # A file of their own, sound in itself.
+        wrong = folder.parent / "run by an intruder"
+        f = link(swapped_by_hand)
+        store = linking._stores[id(f)]
+        signature = f.signatures[0]
+        key = signature, f.targetctx.codegen().magic_tuple()
+        caching._write(file, pickle.dumps(((file.parent.name, key), Intruder(wrong))))
+        if which == "file":
+            file.chmod(0o600 | mode)
+        with caplog.at_level(logging.INFO, "foamprb"):
+            for _ in range(2):
+                forget()
+                again = link(swapped_by_hand)
+                assert store.load(key) is None
+                assert again((1.0, 2.0)) == (2.0, 1.0)
+                assert not again.stats.cache_hits
+                if which == "file":
+                    # What is compiled takes its place.
+                    file.chmod(0o600 | mode)
+        assert not wrong.exists()
+        assert [record.getMessage() for record in caplog.records] == [
+            f"The compiled code in {folder} is not used: others may write to {path} (chmod go-w helps)"
+        ]
+
+    @pytest.mark.parametrize("which", ["root", "folder", "file"])
+    def test_what_belongs_to_another_user_is_not_used(self, folder, which, caplog, monkeypatch, forget):
+        assert link(swapped_by_hand)((1.0, 2.0)) == (2.0, 1.0)
+        (file,) = folder.rglob("*.code")
+        path = {"root": folder, "folder": file.parent, "file": file}[which]
+        belongs_to_somebody(path, monkeypatch)
+        forget()
+        again = link(swapped_by_hand)
+        assert again((1.0, 2.0)) == (2.0, 1.0)
+        assert not again.stats.cache_hits
+        assert is_compiled(again)
+        (record,) = caplog.records
+        assert re_path(record) == str(path) or not IS_ROOT
+        assert record.levelno == logging.WARNING
+
+    @pytest.mark.usefixtures("folder")
+    def test_nothing_is_said_of_a_cache_that_is_the_users(self, caplog, forget):
+        with caplog.at_level(logging.INFO, "foamprb"):
+            assert compiled() == 0
+            forget()
+            assert compiled() == 1
+        assert not caplog.records
+
+    def test_nobody_else_may_write_to_what_is_made(self, folder, monkeypatch):
+        monkeypatch.setattr(os, "geteuid", lambda: max(1, os.getuid()))
+        before = os.umask(0)
+        try:
+            Store("name").save("key", 1)
+        finally:
+            os.umask(before)
+        (file,) = folder.rglob("*.code")
+        assert [stat.S_IMODE(path.stat().st_mode) for path in (folder, file.parent, file)] == [
+            0o700, 0o700, 0o600
+        ]  # fmt: skip
+
+    @pytest.mark.skipif(not IS_ROOT, reason="only root can do as another user")
+    def test_what_root_prepared_others_use(self, folder):
+        """As in a container's image: whoever runs it can read the cache and not write to it."""
+        before = os.umask(0o022)
+        try:
+            compiled()
+        finally:
+            os.umask(before)
+        for parent in (folder.parent, *folder.parent.parents):
+            if stat.S_IMODE(parent.stat().st_mode) & 0o001 == 0:
+                parent.chmod(parent.stat().st_mode | 0o011)
+        found = sorted(folder.rglob("*"))
+        number = os.fork()
+        if number == 0:
+            status = 1
+            try:
+                os.setuid(SOMEBODY)
+                linking._parts.clear()
+                status = 0 if compiled() == 1 and not os.access(folder, os.W_OK) else 2
+                # Another function is compiled, and not saved.
+                status = status or (0 if link(swapped_by_hand)((1.0, 2.0)) == (2.0, 1.0) else 3)
+            finally:
+                os._exit(status)
+        assert os.waitstatus_to_exitcode(os.waitpid(number, 0)[1]) == 0
+        assert sorted(folder.rglob("*")) == found
+
+    @pytest.mark.usefixtures("folder")
+    def test_a_pipe_in_the_place_of_a_file_stops_nobody(self):
+        store = Store("name")
+        store.save("key", 1)
+        file = store._file("key")
+        file.unlink()
+        os.mkfifo(file)
+        assert store.load("key") is None
+        store.save("key", 2)
+        assert store.load("key") == 2
+
+
+def re_path(record):
+    """The path that a warning names."""
+    return record.getMessage().partition(": ")[2].partition(" belongs")[0]
+
+
+class TestProcessors:
+    def test_code_of_another_processor_is_not_used(self, folder, monkeypatch, forget):
+        """A home may be shared by many machines."""
+        assert compiled() == 0
+        monkeypatch.setattr(linking, "_processor", lambda: "another with other features")
+        forget()
+        assert not is_compiled(link(trial.outer, separate=(trial.middle,)))
+        assert compiled() == 0
+        monkeypatch.undo()
+        monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
+        monkeypatch.setattr(linking, "_parts", {})
+        assert is_compiled(link(trial.outer, separate=(trial.middle,)))
+        assert compiled() == 1
+
+    def test_numba_may_be_told_which_processor_it_is(self, tmp_path):
+        """Both what numba asks of the processor and what its user says are in the key."""
+        assert said(start(tmp_path)) == [NOT_FOUND]
+        assert said(start(tmp_path, NUMBA_CPU_NAME="generic")) == [NOT_FOUND]
+        assert said(start(tmp_path, NUMBA_CPU_FEATURES="")) == [NOT_FOUND]
+        assert said(start(tmp_path)) == [FOUND]
+
+    def test_the_name_and_the_features_are_those_of_this_machine(self):
+        """As the kernel tells them."""
+        text = Path("/proc/cpuinfo").read_text()
+        known = linking._processor()
+        for flag, feature in (("avx2", "+avx2"), ("fma", "+fma"), ("sse4_2", "+sse4.2"), ("asimd", "+neon")):
+            assert (f" {flag} " in text.replace("\n", " ")) == (feature in known)
+
+
+class TestSpace:
+    def test_two_processes_that_compile_at_once_leave_one_file(self, tmp_path):
+        both = [start(tmp_path) for _ in range(2)]
+        for process in both:
+            (line,) = said(process)
+            assert " (3.0, -5.0) True " in line
+        (file,) = (path for path in tmp_path.rglob("*") if path.is_file())
+        assert file.suffix == ".code"
+        assert said(start(tmp_path)) == [FOUND]
+
+    def test_a_full_disk_costs_the_compilation_and_one_line(self, tmp_path):
+        def no_space():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        reason = "File too large"
+        for _ in range(2):
+            assert said(start(tmp_path, no_space)) == [
+                f"The compiled code in {tmp_path} is not complete: {reason}",
+                "False (3.0, -5.0) True 0",
+            ]
+        assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+
+    def test_a_cache_that_cannot_be_made_costs_the_compilation(self, folder, caplog):
+        folder.write_text("a file where the folder would be")
+        with caplog.at_level(logging.INFO, "foamprb"):
+            f = link(swapped_by_hand)
+            assert f((1.0, 2.0)) == (2.0, 1.0)
+        assert is_compiled(f)
+        (record,) = caplog.records
+        assert record.getMessage() == f"The compiled code in {folder} is not complete: File exists"
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.skipif(find_spec("numba_cuda") is None, reason="numba-cuda is not installed")
+class TestCuda:
+    """The cache of kernels, with a kernel and a device that are stand-ins: there need not be a device."""
+
+    @pytest.fixture
+    def kernel(self, monkeypatch):
+        from numba.cuda.dispatcher import CUDACacheImpl
+
+        monkeypatch.setattr(CUDACacheImpl, "reduce", lambda *given: given[-1].code)
+        monkeypatch.setattr(CUDACacheImpl, "rebuild", lambda *given: given[-1])
+        kernel = SimpleNamespace(py_func=swapped_by_hand, _cache=None)
+        assert use_cache_for_cuda(kernel, "name") is not None
+        return kernel
+
+    @pytest.fixture
+    def device(self):
+        codegen = SimpleNamespace(magic_tuple=lambda: ("cuda", (9, 0)))
+        return SimpleNamespace(refresh=lambda: None, codegen=lambda: codegen)
+
+    def test_kernels_are_found_again_unless_they_are_damaged(self, kernel, device, folder):
+        cache = kernel._cache
+        assert cache.load_overload("signature", device) is None
+        cache.save_overload("signature", SimpleNamespace(code=b"code", codegen=device.codegen()))
+        assert cache.load_overload("signature", device) == b"code"
+        assert cache.load_overload("another", device) is None
+        (file,) = folder.rglob("*.code")
+        data = file.read_bytes()
+        file.write_bytes(data[:-1] + bytes([data[-1] ^ 4]))
+        assert cache.load_overload("signature", device) is None
+
+    def test_kernels_that_others_can_have_written_are_not_used(self, kernel, device, folder, caplog):
+        cache = kernel._cache
+        cache.save_overload("signature", SimpleNamespace(code=b"code", codegen=device.codegen()))
+        folder.chmod(0o777)
+        assert cache.load_overload("signature", device) is None
+        (record,) = caplog.records
+        assert "is not used: others may write to" in record.getMessage()

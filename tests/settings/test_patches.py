@@ -1,0 +1,112 @@
+"""Which patch does what: rules, groups and constraint types."""
+
+from __future__ import annotations
+
+import pytest
+from cloud_dictionary import CLOUD, Reader
+
+from foamprb.cloud.patches import Cyclic, Escape, Mirror, Rebound, Stick
+from foamprb.errors import InputError
+from foamprb.flow.base import Patch
+from foamprb.settings import patches as module
+from foamprb.settings.patches import PatchRule
+
+FILE = "constant/softCloudProperties"
+
+
+def match_patches(rules: list[PatchRule], patches: list[Patch]) -> list[object]:
+    return module.match_patches(rules, patches, FILE)
+
+
+def patch(name: str, kind: str = "patch", neighbour: str = "") -> Patch:
+    return Patch(name, kind, neighbour)
+
+
+@pytest.mark.parametrize(
+    ("rules", "expected"),
+    [
+        (
+            [PatchRule("in", Stick()), PatchRule("out", Escape()), PatchRule("side", Stick())],
+            [Stick(), Escape(), Stick()],
+        ),
+        (
+            [PatchRule("side|.*n", Stick(), regex=True), PatchRule("out", Escape())],
+            [Stick(), Escape(), Stick()],
+        ),
+        ([PatchRule("out", Escape()), PatchRule(".*", Stick(), regex=True)], [Stick(), Escape(), Stick()]),
+        ([PatchRule(".*", Stick(), regex=True), PatchRule("out", Escape())], [Stick(), Stick(), Stick()]),
+        (
+            [PatchRule("(in|out)", Escape(), regex=True), PatchRule("wall", Stick())],
+            [Escape(), Escape(), Stick()],
+        ),
+    ],
+)
+def test_the_first_rule_that_matches_counts(rules: list[PatchRule], expected: list[object]) -> None:
+    assert match_patches(rules, [patch("in"), patch("out"), patch("side", "wall")]) == expected
+
+
+def test_patches_of_a_constraint_type() -> None:
+    planes = [patch(name, name) for name in ("empty", "symmetry", "symmetryPlane", "wedge")]
+    assert match_patches([], planes) == [Mirror()] * 4
+    assert match_patches([PatchRule("symmetry", Stick())], planes)[1] == Stick()
+    assert match_patches([PatchRule("wall", Stick())], [patch("to_solid", "mappedWall")]) == [Stick()]
+    for kind in ("cyclic", "wedge"):
+        pair = [patch("left", kind, "right"), patch("right", kind, "left")]
+        assert match_patches([], pair) == [Cyclic()] * 2
+    with pytest.raises(InputError, match="the cyclic patch 'left' names no neighbourPatch"):
+        match_patches([], [patch("left", "cyclic")])
+    with pytest.raises(InputError, match="cannot pass through 'left', a patch of type cyclicAMI"):
+        match_patches([], [patch("left", "cyclicAMI", "right")])
+    assert match_patches([PatchRule("left", Escape())], [patch("left", "cyclicAMI")]) == [Escape()]
+
+
+def test_standard_wall_interaction(read: Reader) -> None:
+    """Walls do what the entries say, open patches let through, constraint types keep their meaning."""
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read(
+        (
+            text,
+            "patchInteractionModel standardWallInteraction; localInteractionCoeffs { } "
+            "standardWallInteractionCoeffs { type rebound; e 0.97; mu 0.09; touching centre; }",
+        )
+    )
+    assert (settings.interaction, settings.touching) == ("standardWallInteraction", "centre")
+    patches = [
+        patch("wall"),
+        patch("side", "wall"),
+        patch("mid", "symmetryPlane"),
+        patch("out", "mappedPatch"),
+    ]
+    bounce = Rebound(e=0.97, mu=0.09)
+    assert match_patches(settings.patches, patches) == [Escape(), bounce, Mirror(), Escape()]
+    with pytest.raises(InputError, match="names no neighbourPatch"):
+        match_patches(settings.patches, [patch("left", "cyclic")])
+
+
+def test_rebound_from_every_patch(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    settings = read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.8; }"))
+    patches = [patch("in"), patch("side", "wall"), patch("mid", "symmetryPlane")]
+    assert match_patches(settings.patches, patches) == [Rebound(e=pytest.approx(0.6))] * 3
+    with pytest.raises(InputError, match=r"UFactor is '0\.4'\. Allowed: a number from 0\.5 to 1"):
+        read((text, "patchInteractionModel rebound; reboundCoeffs { UFactor 0.4; }"))
+
+
+@pytest.mark.parametrize(
+    ("rule", "message"),
+    [
+        (
+            PatchRule("inlt", Stick()),
+            "patches/inlt matches no patch. Did you mean 'inlet'? Allowed: inlet, outlet.",
+        ),
+        (PatchRule("in", Stick(), regex=True), "patches/in matches no patch."),
+        (PatchRule("in.*", Stick()), "patches/in.* matches no patch."),
+        (PatchRule("inlet", Stick()), "patches has no entry for the patch 'outlet'."),
+    ],
+)
+def test_patches_without_a_rule_and_rules_without_a_patch(rule: PatchRule, message: str) -> None:
+    with pytest.raises(InputError) as caught:
+        match_patches([rule], [patch("inlet"), patch("outlet")])
+    assert str(caught.value).startswith(
+        "constant/softCloudProperties: subModels/localInteractionCoeffs/" + message
+    )

@@ -1,0 +1,534 @@
+"""Settings of a cloud: what is read, and the one message for each mistake."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cloud_dictionary import CLOUD, Reader
+from paths import PIPE, ROOT
+
+from foamprb import PressureGradient, VirtualMass
+from foamprb.cloud.injection.distribution import DISTRIBUTIONS
+from foamprb.cloud.injection.models import INJECTIONS, ManualInjection, PatchInjection
+from foamprb.cloud.injection.shapes import SHAPES
+from foamprb.cloud.patches import INTERACTIONS, Escape, Rebound, Stick
+from foamprb.cloudfunctions.particle_collector import ParticleCollector
+from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
+from foamprb.cloudfunctions.particle_tracks import ParticleTracks
+from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
+from foamprb.cloudfunctions.registry import FUNCTIONS
+from foamprb.dictionary.positions import read_positions
+from foamprb.errors import InputError
+from foamprb.flow.base import Patch
+from foamprb.settings import entries, patches
+from foamprb.settings.patches import INTERACTION_MODELS, KindRule, PatchRule, match_patches
+from foamprb.settings.reading import read_settings
+
+
+def test_defaults(read: Reader, case: Path) -> None:
+    settings = read()
+    assert settings.case == case
+    assert settings.file == case / "constant/softCloudProperties"
+    assert settings.name == "softCloud"
+    assert settings.solution.writeInterval == settings.solution.endTime == 0.4
+    assert settings.solution.deltaT == 2e-5
+    assert (settings.solution.shape, settings.solution.tolerance) == ("auto", 1e-4)
+    assert settings.fluid.mu == pytest.approx(1.208 * 1.5e-5, rel=1e-15)
+    assert settings.gravity == (0.0, 0.0, 0.0)
+    assert (settings.traction, settings.drag, settings.touching) == ("roscoe", "oberbeck", "ellipsoid")
+    (inlet,) = settings.injections
+    assert inlet.name == "inlet"
+    assert inlet.model == PatchInjection(patch="inlet", parcelsPerSecond=1000.0, duration=0.1)
+    assert inlet.rho == 2560.0
+    assert inlet.size.value == 5e-6
+    assert settings.patches == (PatchRule("wall", Stick()), PatchRule("(inlet|outlet)", Escape(), regex=True))
+
+
+def test_selections(read: Reader) -> None:
+    settings = read(
+        ("ellipsoidDrag;", "ellipsoidDrag { type brennerProlate; } gravity;"),
+        ("injectionModels", "tractionModel jeffery; injectionModels"),
+        ("patches (", "touching centre; patches ( side { type rebound; e 0.9; mu 0.1; }"),
+        ("endTime         0.4;", "endTime 0.4; writeInterval 0.02;"),
+    )
+    assert settings.gravity == (0.0, -9.81, 0.0)
+    assert (settings.traction, settings.drag, settings.touching) == ("jeffery", "brennerProlate", "centre")
+    assert settings.patches[0] == PatchRule("side", Rebound(e=0.9, mu=0.1))
+    assert settings.solution.writeInterval == 0.02
+
+
+def test_what_means_the_same_in_openfoam_is_accepted(read: Reader) -> None:
+    plain = read()
+    assert plain == read(
+        ("deltaT ", "active yes; coupled off; transient no; cellValueSourceCorrection off; deltaT "),
+        ("endTime ", "interpolationSchemes { U linear; } integrationSchemes { U Euler; } endTime "),
+        ("duration 0.1;", "duration 0.1; massTotal 0; parcelBasisType fixed; nParticle 1;"),
+        ("patch inlet;", "patch inlet; flowRateProfile constant 1;"),
+        ("injectionModels", "dispersionModel none; collisionModel none; injectionModels"),
+    )
+
+
+def test_manual_injection(read: Reader, case: Path) -> None:
+    settings = read(
+        ("patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;", "manualInjection; $more;"),
+        (
+            "FoamFile",
+            'more { positionsFile "positions"; U0 (0 1 -2e-3); SOI 0.1; ignoreOutOfBounds yes; } FoamFile',
+        ),
+    )
+    model = settings.injections[0].model
+    assert model == ManualInjection(case / "constant/positions", (0.0, 1.0, -2e-3), 0.1, True)
+    assert isinstance(model, ManualInjection)
+    np.testing.assert_array_equal(read_positions(model.positionsFile), [[0.0, 0.0, 0.0]])
+
+
+MISTAKES = [
+    # one word of the dictionary, what stands there instead, and what the message says
+    ("deltaT ", "deltat ", "line 5: solution/deltat is not known. Did you mean 'deltaT'?"),
+    ("deltaT          2e-05;", "", "line 3: solution/deltaT is missing. Allowed: a number > 0."),
+    ("2e-05", "-2e-05", "line 5: solution/deltaT is '-2e-05'. Allowed: a number > 0."),
+    ("2e-05", "nan", "solution/deltaT is 'nan'"),
+    ("2e-05", "1e400", "solution/deltaT is '1e400'"),
+    ("2e-05", "fast", "solution/deltaT is 'fast'. Allowed: a number > 0."),
+    ("2e-05;", "2e-05", "solution/deltaT is '2e-05 endTime 0.4'"),
+    (
+        "deltaT ",
+        "writeInterval 3e-5; deltaT ",
+        "solution/writeInterval is 3e-05. Allowed: a multiple of deltaT",
+    ),
+    (
+        "deltaT ",
+        "active false; deltaT ",
+        "solution/active is 'false'. Allowed: true (the cloud is not active",
+    ),
+    ("deltaT ", "active maybe; deltaT ", "solution/active is 'maybe'. Allowed: true"),
+    (
+        "deltaT ",
+        "coupled true; deltaT ",
+        "solution/coupled is 'true'. Allowed: false (the particles do not act",
+    ),
+    ("deltaT ", "period 1; deltaT ", "solution/period needs a flow that changes in time: transient yes."),
+    ("deltaT ", "transient yes; period 0; deltaT ", "solution/period is '0'. Allowed: a number > 0."),
+    (
+        "deltaT ",
+        "interpolationSchemes { U cell; } deltaT ",
+        "interpolationSchemes/U is 'cell'. Did you mean 'cellPoint'? Allowed: cellPoint, linear.",
+    ),
+    ("deltaT ", "integrationSchemes { shape papre; } deltaT ", "Did you mean 'paper'?"),
+    ("rhoInf          1.208;", "", "constantProperties/rhoInf is missing"),
+    ("2560", "-1", "constantProperties/rho0 is '-1'. Allowed: a number > 0, or a dictionary"),
+    (
+        "poissonsRatio 0.4",
+        "poissonsRatio 0.5",
+        "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5.",
+    ),
+    ("poissonsRatio 0.4;", "", "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1"),
+    ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
+    ("neoHooke", "neoHook", "solid/type is 'neoHook'. Did you mean 'neoHooke'?"),
+    ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
+    ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
+    ("shearModulus 1000", "Ca 1", "constantProperties/solid/referenceShearRate is missing"),
+    ("ellipsoidDrag;", "", "subModels/particleForces/ellipsoidDrag is missing. Allowed: a dictionary"),
+    (
+        "ellipsoidDrag;",
+        "sphereDrag;",
+        "line 16: subModels/particleForces/sphereDrag is not known: use ellipsoidDrag, which for a rigid "
+        "sphere is Stokes' drag.",
+    ),
+    (
+        "ellipsoidDrag;",
+        "ellipsoidDrag { type stokes; }",
+        "ellipsoidDrag/type is 'stokes'. Allowed: brennerProlate",
+    ),
+    ("ellipsoidDrag;", "ellipsoidDrag; gravity no;", "particleForces/gravity is 'no'. Allowed: a dictionary"),
+    (
+        "subModels\n{",
+        "subModels { tractionModel rosco;",
+        "subModels/tractionModel is 'rosco'. Did you mean 'roscoe'?",
+    ),
+    ("patchInjection", "conicalInjection", "inlet/type is 'conicalInjection'. Did you mean 'coneInjection'?"),
+    (
+        "parcelsPerSecond 1000",
+        "parcelsPerSecond 0",
+        "subModels/injectionModels/inlet/parcelsPerSecond is '0'. All",
+    ),
+    (
+        "duration 0.1;",
+        "",
+        "line 19: subModels/injectionModels/inlet/duration is missing. Allowed: a number > 0.",
+    ),
+    ("duration 0.1;", "duration 0.1; U0 (0 0);", "inlet/U0 is '(0 0)'. Allowed: a vector (x y z)."),
+    ("duration 0.1;", "duration 0.1; U0 (0 0 a);", "inlet/U0 is '(0 0 a)'. Allowed: a vector (x y z)."),
+    (
+        "duration 0.1;",
+        "duration 0.1; massTotal 1;",
+        "inlet/massTotal is '1'. Allowed: 0.0 (particles are single",
+    ),
+    (
+        "duration 0.1;",
+        "duration 0.1; nParticle 9;",
+        "inlet/nParticle is '9'. Allowed: 1.0 (particles are single",
+    ),
+    (
+        "duration 0.1;",
+        "duration 0.1; flowRateProfile table ((0 1) (1 2));",
+        "is 'table ((0 1) (1 2))'. Allowed: con",
+    ),
+    ("patch inlet;", "patch in let;", "inlet/patch is 'in let'. Allowed: a word."),
+    ("value 5e-6;", "", "inlet/sizeDistribution/fixedValueDistribution/value is missing"),
+    ("fixedValueDistribution { value 5e-6; }", "", "sizeDistribution/fixedValueDistribution is missing"),
+    ("type fixedValue;", "type norml;", "inlet/sizeDistribution/type is 'norml'. Did you mean 'normal'?"),
+    (
+        "type fixedValue;",
+        "type normal;",
+        "inlet/sizeDistribution/fixedValueDistribution is not known. Did you",
+    ),
+    (
+        "localInteraction;",
+        "standardWallInteraction;",
+        "subModels/standardWallInteractionCoeffs is missing. Allowed: a dictionary",
+    ),
+    ("type escape", "type escpae", "patches/(inlet|outlet)/type is 'escpae'. Did you mean 'escape'?"),
+    ("type stick", "type rebound; e 2", "patches/wall/e is '2'. Allowed: a number from 0 to 1."),
+    ("type stick", "type stick; e 1", "patches/wall/e is not known. Allowed: type."),
+    ("(inlet|outlet)", "(inlet|outlet", "patches/(inlet|outlet is not a regular expression"),
+    ("patches (", "touching edge; patches (", "touching is 'edge'. Allowed: centre, ellipsoid."),
+    (
+        "FoamFile",
+        "cloudFunctions { facePostProcessing { } } FoamFile",
+        "cloudFunctions/facePostProcessing/type is missing. Allowed: particleCollector, ",
+    ),
+    ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("dimensions [0 1 -1 0 0 0 0];", "line 1: dimensions is '[0 1 -1 0 0 0 0]', with the dimensions "
+         "[0 1 -1 0 0 0 0], those of a velocity, not [0 1 -2 0 0 0 0], those of an acceleration."),
+        ("dimensions [0 1];", "whose dimensions cannot be read"),
+    ],
+)  # fmt: skip
+def test_dimensions_of_gravity(case: Path, read: Reader, text: str, message: str) -> None:
+    (case / "constant/g").write_text(f"{text} value (0 -9.81 0);")
+    with pytest.raises(InputError) as caught:
+        read(("ellipsoidDrag;", "ellipsoidDrag; gravity;"))
+    assert str(caught.value).startswith("constant/g, line 1: ")
+    assert message in str(caught.value)
+    for sound in ("", "dimensions [0 1 -2 0 0 0 0];", "dimensions [0 1 -2 0 0];"):
+        (case / "constant/g").write_text(f"{sound} value (0 -9.81 0);")
+        assert read(("ellipsoidDrag;", "ellipsoidDrag; gravity;")).gravity == (0.0, -9.81, 0.0)
+
+
+@pytest.mark.parametrize(("old", "new", "message"), MISTAKES)
+def test_a_mistake_gives_its_one_message(read: Reader, old: str, new: str, message: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read((old, new))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+SEVERAL = [
+    (
+        [("patchInjection", 'manualInjection; positionsFile "no"')],
+        ["line 21: subModels/injectionModels/inlet/patch is not", "duration is not known", "parcelsPerSecond",
+         """positionsFile is '"no"'. Allowed: the name of an existing file"""],
+    ),
+    ([("solution\n{", "solution 3; other {")], ["other is not known", "solution is '3'. Allowed: a dict"]),
+    (
+        # One in each section, and of each kind: misspelt, missing, of the wrong type, out of bounds.
+        [("deltaT ", "deltat "), ("rho0 ", "rho "), ("ellipsoidDrag", "sphereDrag"), ("neoHooke", "neoHook"),
+         ("patch inlet;", ""), ("value 5e-6;", "value -1;"), ("type stick", "type stik"),
+         ("type escape", "kind escape"), ("FoamFile", "cloudFunctions { a; b { type c; } } FoamFile")],
+        ["line 2: cloudFunctions/a/type is missing", "line 2: cloudFunctions/b/type is 'c'",
+         "line 5: solution/deltat is not known. Did you mean 'deltaT'",
+         "line 10: constantProperties/rho is not known. Did you mean 'rho0'",
+         "line 12: constantProperties/solid/type is 'neoHook'. Did you mean 'neoHooke'",
+         "line 16: subModels/particleForces/sphereDrag is not known: use ellipsoidDrag",
+         "line 19: subModels/injectionModels/inlet/patch is missing",
+         "line 22: subModels/injectionModels/inlet/sizeDistribution/fixedValueDistribution begins at -1",
+         "line 28: subModels/localInteractionCoeffs/patches/wall/type is 'stik'. Did you mean 'stick'",
+         "line 28: subModels/localInteractionCoeffs/patches/(inlet|outlet)/type is missing"],
+    ),
+    ([("subModels\n{", "models {"), ("rhoInf          1.208;", "")],
+     ["line 8: constantProperties/rhoInf is missing", "models is not known. Did you mean 'subModels'"]),
+    ([("localInteractionCoeffs", "localInteractonCoeffs"), ("rhoInf ", "rhoinf ")],
+     ["line 11: constantProperties/rhoinf is not known. Did you mean 'rhoInf'",
+      "localInteractonCoeffs is not known. Did you mean 'localInteractionCoeffs'"]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("changes", "expected"), SEVERAL)
+def test_all_mistakes_come_at_once(read: Reader, changes: list[tuple[str, str]], expected: list[str]) -> None:
+    with pytest.raises(InputError) as caught:
+        read(*changes)
+    first, *lines = str(caught.value).split("\n")
+    assert first == f"{len(expected)} mistakes:"
+    assert len(lines) == len(expected)
+    for text in expected:
+        assert sum(text in line for line in lines) == 1, text
+    assert all(line.startswith("    constant/softCloudProperties") for line in lines)
+    numbers = [int(found[1]) if (found := re.search(r", line (\d+):", line)) else 0 for line in lines]
+    assert numbers == sorted(numbers)
+
+
+def test_mistakes_of_several_files_come_together(case: Path, read: Reader) -> None:
+    (case / "constant/transportProperties").write_text("transportModel CrossPowerLaw;\nnu air;")
+    with pytest.raises(InputError) as caught:
+        read(("2e-05", "fast"))
+    assert [line.split(":")[0].strip() for line in str(caught.value).split("\n")[1:]] == [
+        "constant/softCloudProperties, line 5",
+        "constant/transportProperties, line 1",
+        "constant/transportProperties, line 2",
+    ]
+
+
+def test_a_mistake_that_all_injection_models_share_counts_once(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("    }\n    patchInter")]
+    two = text + text.replace("inlet\n", "second\n", 1)
+    with pytest.raises(InputError) as caught:
+        read((text, two), ("poissonsRatio 0.4", "poissonsRatio 1"), ("rhoInf          1.208;", "rhoInf 0;"))
+    assert str(caught.value).startswith("2 mistakes:")
+
+
+def test_no_injection_model(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("    }\n    patchInter")]
+    with pytest.raises(InputError, match="subModels/injectionModels is empty"):
+        read((text, ""))
+
+
+def test_what_to_do_without_a_dictionary(case: Path) -> None:
+    with pytest.raises(InputError) as caught:
+        read_settings(case)
+    assert str(caught.value) == (
+        f"constant/softCloudProperties: No such file or directory (case {case}). To begin, copy the "
+        "dictionary at the top of docs/settings.md to constant/softCloudProperties, and adapt its patches, "
+        "particles and times; or name another with -dict."
+    )
+    with pytest.raises(
+        InputError, match=r"^constant/other: No such file or directory .* copy the dictionary"
+    ):
+        read_settings(case, Path("constant/other"))
+    with pytest.raises(
+        InputError, match=r"^/nowhere/other: No such file or directory .* copy the dictionary"
+    ):
+        read_settings(case, Path("/nowhere/other"))
+    (template,) = re.findall(
+        r"<!-- template -->\n```\n(.*?)```", (ROOT / "docs/settings.md").read_text(), re.DOTALL
+    )
+    (case / "constant/softCloudProperties").write_text(template)
+    settings = read_settings(case)
+    assert settings.gravity == (0.0, -9.81, 0.0)
+    interactions = match_patches(
+        settings.patches, [Patch("inlet", "patch"), Patch("side", "wall")], settings.file
+    )
+    assert interactions == [Escape(), Stick()]
+
+
+def test_files_that_are_missing(case: Path, read: Reader) -> None:
+    with pytest.raises(InputError, match=r"^constant/softCloudProperties: No such file or directory \(case "):
+        read_settings(case)
+    (case / "constant/g").unlink()
+    read()
+    with pytest.raises(InputError, match=r"^constant/g: No such file"):
+        read(("ellipsoidDrag;", "ellipsoidDrag; gravity;"))
+    with pytest.raises(
+        InputError, match=r"inlet/positionsFile is '\"no\"'\. Allowed: the name of an existing"
+    ):
+        read(
+            (
+                "patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;",
+                'manualInjection; positionsFile "no";',
+            )
+        )
+
+
+def test_forces(read: Reader) -> None:
+    assert read().forces == {}
+    settings = read(("ellipsoidDrag;", "virtualMass { Cvm 0.5; } ellipsoidDrag; pressureGradient { U U; }"))
+    # In the order of the registry.
+    both = [("pressureGradient", PressureGradient()), ("virtualMass", VirtualMass(Cvm=0.5))]
+    assert list(settings.forces.items()) == both
+    with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
+        read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
+
+
+def test_libs_must_be_files(read: Reader) -> None:
+    with pytest.raises(InputError, match=r"libs is .*no.py.*Allowed: a list \(file file\)"):
+        read(("solution", 'libs ("no.py");\nsolution'))
+
+
+# Fluid
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "nu 1e-5;",
+        "nu [0 2 -1 0 0 0 0] 1e-5;",
+        "nu [ 0 2 -1 0 0 ] 1e-5;",
+        "nu nu [0 2 -1 0 0 0 0] 1e-5;",
+        "transportModel Newtonian; NewtonianCoeffs { nu 1e-5; } nu 3;",
+        'air 1e-5; rho #calc "1+1"; nu $air;',
+        "R 2; area #eval{ $R*sqrt(0.5); }; nu 1e-5;",
+    ],
+)
+def test_viscosity(case: Path, read: Reader, text: str) -> None:
+    (case / "constant/transportProperties").write_text(text)
+    assert read().fluid.nu == 1e-5
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("nu 0;", "nu is '0'. Allowed: a number > 0."),
+        (
+            "nu [0 1 -1 0 0 0 0] 1e-5;",
+            "nu is '[0 1 -1 0 0 0 0] 1e-5', with the dimensions [0 1 -1 0 0 0 0], those of a velocity, not "
+            "[0 2 -1 0 0 0 0], those of a kinematic viscosity.",
+        ),
+        ("nu nu [1 -1 -1 0 0 0 0] 1e-3;", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity, not [0 2 -1"),
+        ("nu [1 0 0 0 0 0 2] 1e-5;", "with the dimensions [1 0 0 0 0 0 2], not [0 2 -1 0 0 0 0], those of"),
+        ("nu [0 2 -1] 1e-5;", "whose dimensions cannot be read"),
+        ('nu #calc "1e-5";', "nu is '#calc \"1e-5\"', which is not evaluated: write the value itself."),
+        ("transportModel Newtonian;", "transportProperties: nu is missing"),
+        ("transportModel CrossPowerLaw; nu 1e-5;", "transportModel is 'CrossPowerLaw'. Allowed: Newtonian."),
+    ],
+)
+def test_viscosity_mistakes(case: Path, read: Reader, text: str, message: str) -> None:
+    (case / "constant/transportProperties").write_text(text)
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read()
+    assert str(caught.value).startswith("constant/transportProperties")
+
+
+# Cloud functions
+
+
+def test_cloud_functions(read: Reader) -> None:
+    assert read().functions == {}
+    block = """
+    cloudFunctions
+    {
+        paths { type particleTracks; trackInterval 5; maxSamples 100; maxTracks 7; }
+        hits { type patchPostProcessing; patches (wall "out let"); maxStoredParcels 20; }
+        gate { type particleCollector; mode plane; origin (1 2 3); normal (0 0 1); resetOnWrite yes; }
+        spread { type particleHistogram; fields (shearExposure); nBins 7; }
+    }
+    solution"""
+    assert read(("solution", block)).functions == {
+        "paths": ParticleTracks(trackInterval=5, maxSamples=100, maxTracks=7),
+        "hits": PatchPostProcessing(patches=("wall", "out let"), maxStoredParcels=20),
+        "gate": ParticleCollector("plane", (1.0, 2.0, 3.0), (0.0, 0.0, 1.0), resetOnWrite=True),
+        "spread": ParticleHistogram(fields=("shearExposure",), nBins=7, sampleInterval=10),
+    }
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        ("f { type particleTrack; }", "f/type is 'particleTrack'. Did you mean 'particleTracks'?"),
+        (
+            "f { type particleTracks; maxSamples 5; }",
+            "f/trackInterval is missing. Allowed: a whole number >= 1.",
+        ),
+        (
+            "f { type particleTracks; trackInterval 0; maxSamples 5; }",
+            "is '0'. Allowed: a whole number >= 1.",
+        ),
+        ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: a whole number"),
+        ("f { type patchPostProcessing; patches wall; }", "patches is 'wall'. Allowed: a list of words"),
+        (
+            "f { type particleCollector; mode polygon; origin (0 0 0); normal (1 0 0); }",
+            "mode is 'polygon'. Allowed: plane.",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (1 0 0); removeCollected yes; }",
+            "removeCollected is 'yes'. Allowed: false (the particles go on).",
+        ),
+        (
+            "f { type particleCollector; mode plane; origin (0 0 0); normal (0 0 0); }",
+            "has a normal (0 0 0).",
+        ),
+        (
+            "f { type particleHistogram; fields (age); }",
+            "cloudFunctions/f has the field age. Allowed: maxDef",
+        ),
+        ('"a/b" { type particleHistogram; }', "cloudFunctions/a/b is no name of a folder"),
+        ("a/../../b { type particleHistogram; }", "is no name of a folder, which the results need: it conta"),
+        (".. { type particleHistogram; }", "cloudFunctions/.. is no name of a folder"),
+        ('"a b" { type particleHistogram; }', "it contains ' '"),
+        ("fates.csv { type particleHistogram; }", "the results have a file of that name"),
+        ("checkpoint { type particleHistogram; }", "the results have a file of that name"),
+        ("softCloud_000000 { type particleHistogram; }", "the results have a file of that name"),
+        ("f;", "cloudFunctions/f/type is missing"),
+    ],
+)
+def test_a_wrong_cloud_function_has_its_message(read: Reader, function: str, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)) as caught:
+        read(("solution", f"cloudFunctions {{ {function} }} solution"))
+    assert str(caught.value).startswith("constant/softCloudProperties, line ")
+
+
+def test_names_that_are_no_words_are_refused(case: Path, read: Reader) -> None:
+    text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("        {\n            type patchInj")]
+    with pytest.raises(InputError, match=r"injectionModels/a/b is no name of an injection model: it cont"):
+        read((text, "        a/b\n"))
+    for file in ("constant/..Properties", "constant/a bProperties"):
+        (case / file).write_text(CLOUD)
+        with pytest.raises(InputError, match=r"its name gives the cloud the name '.*', which is none"):
+            read_settings(case, Path(file))
+    with pytest.raises(InputError, match=r"'\.\./\.\./x' is no name of a region: it contains '/'"):
+        read_settings(case, region="../../x")
+
+
+def test_the_documentation_names_every_entry() -> None:
+    text = (ROOT / "docs/settings.md").read_text()
+    code = re.findall(r"`([^`]+)`", text.replace("```", "`"))
+    words = set(re.findall(r"[A-Za-z]\w*", " ".join(code)))
+    declared = [*vars(entries).values(), *vars(patches).values()]
+    schemas = {s for s in declared if isinstance(s, type) and is_dataclass(s) and "settings" in s.__module__}
+    schemas -= {PatchRule, KindRule}
+    registries = (DISTRIBUTIONS, FUNCTIONS, INJECTIONS, INTERACTIONS, SHAPES)
+    for registry in registries:
+        schemas.update(registry.values())
+    names = {field.name for schema in schemas for field in fields(schema)}
+    names |= {name for registry in (*registries, INTERACTION_MODELS) for name in registry}
+    assert names - words == set()
+    assert len(names) > 90
+
+
+# The case in the tree
+
+
+def test_the_pipes_settings(tmp_path: Path) -> None:
+    shutil.copytree(PIPE / "constant", tmp_path / "constant", ignore=shutil.ignore_patterns("polyMesh"))
+    settings = read_settings(tmp_path)
+    Ca = {
+        injection.name: settings.fluid.mu
+        * (injection.solid.reference_shear_rate or 0.0)
+        / injection.solid.shear_modulus
+        for injection in settings.injections
+    }
+    expected = {"Ca00001": 0.0001, "Ca025": 0.25, "Ca05": 0.5, "Ca075": 0.75, "Ca1": 1.0, "inlet": 0.5}
+    assert Ca == pytest.approx(expected)
+    *points, inlet = (injection.model for injection in settings.injections)
+    assert isinstance(inlet, PatchInjection)
+    assert inlet.U0 is None
+    assert inlet.parcelsPerSecond * inlet.duration == pytest.approx(300.0)
+    for point in points:
+        assert isinstance(point, ManualInjection)
+        np.testing.assert_array_equal(read_positions(point.positionsFile), [[0.0, -0.00165, 0.0]])
+    assert settings.gravity == (0.0, -9.81, 0.0)
+    match_patches(
+        settings.patches,
+        [Patch("inlet", "patch"), Patch("outlet", "patch"), Patch("wall", "wall")],
+        settings.file,
+    )
