@@ -25,7 +25,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import draw
-from foamprb.cloud.injection.models import release
+from foamprb.cloud.injection.models import START_OF_FLOW, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES, automatic
 from foamprb.cloud.measures import context, shear_rate_at
@@ -248,7 +248,7 @@ def _start(settings: Settings, flow: Flow) -> float:
             f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."
         )
     for injection in settings.injections:
-        if injection.model.SOI < start:  # noqa: SIM300
+        if START_OF_FLOW < injection.model.SOI < start:
             raise InputError(
                 f"{settings.file}: injection model {injection.name}: SOI is {injection.model.SOI:g}. "
                 f"Allowed: from {start:g} on, the first time of the flow."
@@ -291,7 +291,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         )
     rate: Any = solid.reference_shear_rate
     if rate is None:
-        rate = shear_rate_at(flow, p, injection.model.SOI)
+        rate = shear_rate_at(flow, p, start_of_injection(injection.model, flow))
     p.Ca[:] = medium.mu * rate / p.mu
     return p
 
