@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from foamprb.errors import InputError
-from foamprb.flow.read.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
-from foamprb.flow.read.meshfile import Division, read_mesh_file, read_mesh_series
-from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.read.decomposed import (
+    describe_decomposed,
+    is_only_decomposed,
+    read_decomposed_case,
+    read_decomposed_series,
+)
+from foamprb.flow.read.meshfile import Division, describe_file, read_mesh_file, read_mesh_series
+from foamprb.flow.read.openfoam import describe, read_case
 from foamprb.flow.series import SeriesFlow, read_series
 from foamprb.flow.walk import MeshFlow
 
-__all__ = ["Source", "read_flow", "read_transient_flow"]
+__all__ = ["Source", "describe_source", "read_flow", "read_transient_flow"]
 
 
 @dataclass(frozen=True)
@@ -31,6 +37,20 @@ class Source:
     """How the boundary of a mesh file without named patches is divided."""
     decomposed: bool = False
     """Whether to read the processor folders even if there is a flow beside them."""
+
+
+def describe_source(case: Path, source: Source) -> Sequence[str]:
+    """Lines that say what a case or a mesh file holds.
+
+    Raises
+    ------
+    InputError
+        As :func:`~foamprb.flow.read.openfoam.describe` and :func:`~foamprb.flow.read.meshfile.describe_file`.
+    """
+    if source.file is not None:
+        return describe_file(source.file, source.velocity, source.division)
+    decomposed = source.decomposed or is_only_decomposed(case, source.region)
+    return (describe_decomposed if decomposed else describe)(case, source.region).lines()
 
 
 def read_flow(case: Path, time: float | str = "latestTime", source: Source | None = None) -> MeshFlow:
