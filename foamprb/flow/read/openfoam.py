@@ -20,9 +20,18 @@ from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
-from foamprb.flow.read.case import cell_zones, field_path, mesh_folder, select_time, shown
+from foamprb.flow.read.case import (
+    cell_zones,
+    field_path,
+    mesh_files,
+    mesh_folder,
+    notes_of_forms,
+    select_time,
+    shown,
+)
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
+from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.reconstruct import Reconstruction
 
@@ -39,6 +48,8 @@ class CaseMesh(NamedTuple):
 
     mesh: Mesh
     patches: tuple[PatchInfo, ...]
+    notes: tuple[str, ...] = ()
+    """What the user should know."""
 
 
 def read_case(
@@ -80,7 +91,7 @@ def read_case(
     cells, boundary = velocities(field, whole)
     given = gradients(read(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
     u, l = Reconstruction(whole.mesh)(cells, boundary, given)
-    notes = [PRECISION_NOTE]
+    notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([case / name / region / velocity])]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     return MeshFlow(whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)))
@@ -128,7 +139,8 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
     patches = read_boundary(folder / "boundary", case)
     noted = noted_counts(folder)
     require_labels(folder, noted)
-    blocks, messages = read_blocks(case, time, region, patches=True)
+    files = mesh_files(case, time, region)
+    blocks, messages = read_blocks(files, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
         if word in noted and noted[word] != found:
@@ -136,7 +148,7 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
                 f"{shown(folder / 'owner')}: the header says {word} {noted[word]}, but the mesh that the "
                 f"files describe has {found}; the mesh is damaged."
             )
-    raise_first_error(case, messages)
+    raise_first_error(folder, messages)
     surfaces = []
     for patch in patches:
         block = blocks.get(patch.name)
@@ -146,10 +158,11 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
                 f"{0 if block is None else block.n_cells} could be read."
             )
         surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
-    require_numbers(np.asarray(grid.points, dtype=np.float64), folder / "points", "point")
+    require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
-    return CaseMesh(mesh, patches)
+    require_patch_shapes(mesh, folder)
+    return CaseMesh(mesh, patches, (*notes_of_forms(files), *notes_of_types(patches)))
 
 
 def velocities(field: Field, whole: CaseMesh) -> tuple[Floats, Floats]:

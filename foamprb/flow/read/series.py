@@ -13,7 +13,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import cell_zones, mesh_folder, select_times
+from foamprb.flow.read.case import cell_zones, mesh_folder, notes_of_forms, select_times
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD
 from foamprb.flow.read.openfoam import (
     PRECISION_NOTE,
@@ -76,7 +76,9 @@ def read_series(
         given = gradients(read_field(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
         return reconstruct(cells, boundary, given)
 
-    return series_of(case, whole.mesh, names, read, period, [PRECISION_NOTE], lambda: cell_zones(folder))
+    notes = [PRECISION_NOTE, *whole.notes]
+    notes += notes_of_forms(case / name / region / velocity for name in names)[:1]
+    return series_of(case, whole.mesh, names, read, period, notes, lambda: cell_zones(folder))
 
 
 def series_of(
