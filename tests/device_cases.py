@@ -23,8 +23,9 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import RunStopped
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.parallel.team import OnDevice
-from foamprb.run.job import execute, prepare
+from foamprb.parallel.launch import choose_executor
+from foamprb.run.job import prepare
+from foamprb.run.loop import execute
 
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
@@ -98,7 +99,7 @@ def states(device):
 
 def on(device, cloud):
     if device == "cuda":
-        OnDevice().take(cloud)
+        cloud.hand_over(choose_executor("cuda", None))
     return cloud
 
 
@@ -135,7 +136,7 @@ def states_by_pieces(device):
 def run_in_two_parts(case):
     job = prepare(case)
     with pytest.raises(RunStopped):
-        execute(job, stop=lambda: job.cloud.step >= 5, team=OnDevice())
+        execute(job, stop=lambda: job.cloud.step >= 5, executor=choose_executor("cuda", None))
     assert main(["run", "-case", case, "-device", "cuda", "-resume"]) == 0
 
 
