@@ -25,6 +25,12 @@ class Patch(NamedTuple):
     """The patch to which a particle goes on that meets this one, if the two are coupled."""
 
 
+class Caveat(str):
+    """A note on a flow that warns: what particles will not feel of it, and what that means."""
+
+    __slots__ = ()
+
+
 class PatchFaces(NamedTuple):
     """The triangles of a patch, for placing particles on it."""
 
@@ -82,6 +88,7 @@ class Flow(Sampled, Protocol):
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
     notes: tuple[str, ...]
+    """What the user should know about the flow; a :class:`Caveat` is a warning."""
 
     def load(self, start: float, end: float) -> float:
         """Make the flow ready from time ``start`` to ``end`` (s), at least; return until when it then is.

@@ -28,7 +28,7 @@ from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
 from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
-from foamprb.flow.base import Flow
+from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import Source, read_flow, read_transient_flow
 from foamprb.flow.series import SeriesFlow
@@ -124,7 +124,10 @@ def prepare(
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
         for note in flow.notes:
-            log.info("    %s", note)
+            if isinstance(note, Caveat):
+                log.warning("%s", note)
+            else:
+                log.info("    %s", note)
         return replace(assemble(settings, flow, threads), precompiler=precompiler)
     except BaseException:
         if precompiler:

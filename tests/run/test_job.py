@@ -223,6 +223,16 @@ def of(p, injector):
     return p.take(np.flatnonzero(p.injector == injector))
 
 
+def test_what_particles_do_not_feel_of_the_flow_is_a_warning(case, capsys):
+    (time_folder(case) / "nut").write_text(
+        "FoamFile { version 2.0; format ascii; class volScalarField; object nut; }\n"
+        "dimensions [0 2 -1 0 0 0 0]; internalField uniform 1e-3; boundaryField {}"
+    )
+    assert main(["run", "-case", str(case), "-dry-run"]) == 0
+    written = capsys.readouterr()
+    assert "--> foamprb Warning : the flow is the mean or the resolved part" in written.out + written.err
+
+
 def test_a_population_is_spread_and_reproducible(case):
     """Size, density and stiffness are drawn by the model's name, whatever else is injected."""
     plain = of(population(case), 5)

@@ -94,7 +94,7 @@ def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
 
 def test_a_first_time_at_rest_is_named_where_nothing_enters(case, capsys):
     """The first time of a solution that changes in time is often one at rest."""
-    start = "type manualInjection; positionsFile \"positions\"; SOI 0.3;"
+    start = 'type manualInjection; positionsFile "positions"; SOI 0.3;'
     edit(case, start, "type patchInjection; patch floor; parcelsPerSecond 100; duration 0.1;")
     velocity = case / "0/U"
     velocity.write_text(re.sub(r"\((\S+) (\S+) (\S+)\)", "(0 0 0)", velocity.read_text()))

@@ -17,8 +17,17 @@ import numpy as np
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
+from foamprb.flow.base import Caveat
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import available_times, regions, require_choice, require_region
+from foamprb.flow.read.case import (
+    available_times,
+    regions,
+    require_choice,
+    require_region,
+    select_time,
+    select_times,
+)
+from foamprb.flow.read.caveats import caveats_of_case
 from foamprb.flow.read.describe import CaseInfo, TimeInfo, describe
 from foamprb.flow.read.field import Field, Kind, read_field
 from foamprb.flow.read.foamfile import header
@@ -113,10 +122,14 @@ class ReconstructedCase:
         except InputError as error:
             raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
 
-    def noted(self, flow: AFlow) -> AFlow:
-        """The flow, with a note that it comes from here; the folder is removed after the flow."""
+    def noted(self, flow: AFlow, time: str) -> AFlow:
+        """The flow, with notes on where it comes from, at a time; the folder is removed after the flow."""
         weakref.finalize(flow, _let_go, self)
-        flow.notes = (f"The flow was put together from {len(self._parts)} processor folders.", *flow.notes)
+        folder = self._folders[0] / time / self.region
+        at_rest = isinstance(flow, MeshFlow)
+        caveats: list[Caveat] = caveats_of_case(self.case, folder, self.region, moving=at_rest)
+        note = f"The flow was put together from {len(self._parts)} processor folders."
+        flow.notes = (note, *flow.notes, *caveats)
         return flow
 
 
@@ -135,7 +148,8 @@ def read_decomposed_case(
         What is missing, broken or inconsistent in the processor folders.
     """
     whole = ReconstructedCase(case, region)
-    return whole.noted(whole.call(read_case, time, velocity, region, gradient, whole.field))
+    name = whole.call(select_time, time, region)
+    return whole.noted(whole.call(read_case, name, velocity, region, gradient, whole.field), name)
 
 
 def read_decomposed_series(
@@ -154,7 +168,8 @@ def read_decomposed_series(
         What is missing, broken or inconsistent in the processor folders.
     """
     whole = ReconstructedCase(case, region)
-    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, whole.field))
+    name = whole.call(select_times, times, region)[-1]
+    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, whole.field), name)
 
 
 def describe_decomposed(case: Path, region: str = "") -> CaseInfo:

@@ -60,6 +60,7 @@ class Field(NamedTuple):
     """(n_cells, components), or (1, components) if they are all alike."""
     patches: Mapping[str, PatchField]
     """By name or pattern, in their order."""
+    dimensions: Dimensions
 
     def of(self, patch: PatchInfo) -> PatchField | None:
         """The entry that counts for a patch, found as OpenFOAM does.
@@ -115,7 +116,7 @@ def read_field(path: Path, kind: Kind, case: Path) -> Field:
     text, lists = _without_lists(file, kind)
     try:
         root = parse_dictionary(text, file.path, case)
-        _check_dimensions(root, kind)
+        dimensions = _dimensions(root, kind)
         reader = _Reader(file, kind, lists)
         cells = reader.field(root.entries["internalField"]) if "internalField" in root.entries else None
         patches = root.entries.get("boundaryField")
@@ -127,7 +128,7 @@ def read_field(path: Path, kind: Kind, case: Path) -> Field:
         of_patches = {unquoted(key): reader.patch(key, entry.dictionary()) for key, entry in entries.items()}
     except InputError as error:
         raise InputError(f"{case}: {error}" if str(case) not in str(error) else str(error)) from None
-    return Field(file.path, kind, cells, of_patches)
+    return Field(file.path, kind, cells, of_patches, dimensions)
 
 
 def _without_lists(file: FoamFile, kind: Kind) -> tuple[str, list[ListAt]]:
@@ -151,7 +152,7 @@ def _without_lists(file: FoamFile, kind: Kind) -> tuple[str, list[ListAt]]:
     return text.decode("utf-8", "replace"), lists
 
 
-def _check_dimensions(root: Dictionary, kind: Kind) -> None:
+def _dimensions(root: Dictionary, kind: Kind) -> Dimensions:
     entry = root.entries.get("dimensions")
     if entry is None:
         raise root.missing("dimensions", f"Allowed: {_allowed(kind)}.")
@@ -160,6 +161,7 @@ def _check_dimensions(root: Dictionary, kind: Kind) -> None:
         raise entry.mistake(f"is {entry}. Allowed: {_allowed(kind)}.")
     if kind.dimensions and found not in kind.dimensions:
         raise entry.mistake(f"is {described(found)}; this should be {kind.meaning}: {_allowed(kind)}.")
+    return found
 
 
 def _allowed(kind: Kind) -> str:

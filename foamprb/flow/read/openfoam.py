@@ -29,6 +29,7 @@ from foamprb.flow.read.case import (
     select_time,
     shown,
 )
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
 from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
@@ -91,9 +92,12 @@ def read_case(
     cells, boundary = velocities(field, whole)
     given = gradients(read(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
     u, l = Reconstruction(whole.mesh)(cells, boundary, given)
-    notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([case / name / region / velocity])]
+    folder = case / name / region
+    notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([folder / velocity])]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
+    notes += caveats_of_case(case, folder, region)
+    notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, folder, velocity)
     return MeshFlow(whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)))
 
 

@@ -174,7 +174,7 @@ def join_fields(
         for index, patch in enumerate(patches)
     }
     entries = {name: entry for name, entry in found.items() if entry is not None}
-    return Field(fields[0].path, fields[0].kind, cells, entries)
+    return fields[0]._replace(cells=cells, patches=entries)
 
 
 def _join_patch(

@@ -14,6 +14,7 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import cell_zones, mesh_folder, notes_of_forms, select_times
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD
 from foamprb.flow.read.openfoam import (
     PRECISION_NOTE,
@@ -67,7 +68,7 @@ def read_series(
     read_field = fields or fields_of_case(case, region)
     field = read_field(names[0], velocity, VELOCITY_FIELD)
     whole = read_mesh(case, names[0], region)
-    velocities(field, whole)
+    _, boundary = velocities(field, whole)
     reconstruct = Reconstruction(whole.mesh)
     folder = mesh_folder(case, names[0], region)
 
@@ -78,6 +79,9 @@ def read_series(
 
     notes = [PRECISION_NOTE, *whole.notes]
     notes += notes_of_forms(case / name / region / velocity for name in names)[:1]
+    first = case / names[0] / region
+    notes += caveats_of_case(case, case / names[-1] / region, region, moving=False)
+    notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, first, velocity)
     return series_of(case, whole.mesh, names, read, period, notes, lambda: cell_zones(folder))
 
 

@@ -1,0 +1,160 @@
+"""Warnings of what a case says of its flow that particles will not feel."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import numpy as np
+import pytest
+from foam_writer import decompose, header, write_case
+
+from foamprb.flow.base import Caveat
+from foamprb.flow.read.decomposed import read_decomposed_case
+from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.read.series import read_series
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    return tmp_path
+
+
+def caveats(case, **options):
+    return [str(note) for note in read_case(case, **options).notes if isinstance(note, Caveat)]
+
+
+def put(path, text, kind="dictionary"):
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(header(kind, path.name) + text)
+
+
+def scalars(values):
+    return "nonuniform List<scalar> {}({})".format(len(values), " ".join(map(str, values)))
+
+
+def rho(values):
+    boundary = '".*" { type calculated; value uniform 1; }'
+    return f"dimensions [1 -3 0 0 0 0 0]; internalField {values}; boundaryField {{ {boundary} }}"
+
+
+MRF = "rotor { cellZone rotor; active yes; omega 100; } other { active no; }"
+POROUS = "filter { type explicitPorositySource; cellZone filter; } heat { type scalarSemiImplicitSource; }"
+PORES = "bed { type DarcyForchheimer; cellZone bed; }"
+MOTION = "dynamicFvMesh dynamicMotionSolverFvMesh; motionSolver displacementLaplacian;"
+NUT = "dimensions [0 2 -1 0 0 0 0]; internalField uniform 1e-5; boundaryField {}"
+CASES = {
+    "rotating zones": (("constant/MRFProperties", MRF), r"rotating zones \(MRFProperties: rotor\), but"),
+    "zones that cannot be read": (("constant/MRFProperties", "rotor {"), r"MRFProperties: which cannot be"),
+    "a rotating frame": (("constant/SRFProperties", "SRFModel rpm;"), r"a rotating frame \(SRFProperties\)"),
+    "porous zones": (("constant/fvOptions", POROUS), r"porous zones \(filter\): particles go through"),
+    "porous zones elsewhere": (("system/fvOptions", POROUS), r"porous zones \(filter\)"),
+    "porous zones of old": (("constant/porosityProperties", PORES), r"porous zones \(bed\)"),
+    "a mean flow": (("1e1/nut", NUT, "volScalarField"), r"turbulent one \(there is nut\): particles"),
+    "a density": (
+        ("1e1/rho", rho(scalars(range(1, 9))), "volScalarField"),
+        r"the fluid's density is from 1 to 8 kg/m3 \(there is rho\), but to particles it is constant, rhoInf",
+    ),
+    "a mesh that moves": (("constant/dynamicMeshDict", MOTION), r"moves \(dynamicMotionSolverFvMesh\)"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_one_warning_for_what_particles_do_not_feel(name, case):
+    assert caveats(case) == []
+    file, words = CASES[name]
+    put(case / file[0], *file[1:])
+    (found,) = caveats(case)
+    assert re.search(words, found)
+
+
+NOTHING = {
+    "no zone is active": ("constant/MRFProperties", "rotor { active false; }"),
+    "no source is porous": ("constant/fvOptions", "heat { type scalarSemiImplicitSource; }"),
+    "laminar": ("1e1/nut", NUT.replace("1e-5", "0"), "volScalarField"),
+    "a constant density": ("1e1/rho", rho("uniform 1000"), "volScalarField"),
+    "a mesh at rest": ("constant/dynamicMeshDict", "dynamicFvMesh staticFvMesh;"),
+}
+
+
+@pytest.mark.parametrize("name", NOTHING)
+def test_no_warning_where_it_would_say_nothing(name, case):
+    file = NOTHING[name]
+    put(case / file[0], *file[1:])
+    assert caveats(case) == []
+
+
+def test_the_files_of_a_region_go_before_those_of_the_case(case):
+    put(case / "constant/MRFProperties", "whole { }")
+    for folder in (case / "constant", case / "1e1"):
+        (folder / "air").mkdir()
+        for path in [p for p in folder.iterdir() if p.name not in ("air", "MRFProperties")]:
+            path.rename(folder / "air" / path.name)
+    assert "MRFProperties: whole" in caveats(case, region="air")[0]
+    put(case / "constant/air/MRFProperties", MRF)
+    assert "MRFProperties: rotor" in caveats(case, region="air")[0]
+
+
+def test_points_of_a_time_are_a_mesh_that_moves(case):
+    (case / "1e1/polyMesh").mkdir()
+    shutil.copy(case / "constant/polyMesh/points", case / "1e1/polyMesh/points")
+    (found,) = caveats(case)
+    assert "the mesh moves (points at this time)" in found
+
+
+def test_a_series_warns_once_and_of_its_own_times(case):
+    put(case / "1e1/nut", NUT, "volScalarField")
+    put(case / "constant/dynamicMeshDict", MOTION)
+    (found,) = (str(note) for note in read_series(case).notes if isinstance(note, Caveat))
+    assert "there is nut" in found
+
+
+def test_a_decomposed_case_warns_alike(tmp_path):
+    mesh = write_case(tmp_path)
+    decompose(tmp_path, mesh, np.arange(mesh.n_cells) % 2, ("0", "0.5", "1e1"))
+    put(tmp_path / "constant/MRFProperties", MRF)
+    put(tmp_path / "processor0/1e1/nut", NUT, "volScalarField")
+    found = [str(note) for note in read_decomposed_case(tmp_path).notes if isinstance(note, Caveat)]
+    assert len(found) == 2
+    assert "MRFProperties: rotor" in found[0]
+
+
+def fluxes(case, floor, lid, dimensions="[0 3 -1 0 0 0 0]"):
+    put(
+        case / "1e1/phi",
+        f"dimensions {dimensions}; internalField uniform 0; boundaryField {{ floor {{ type calculated; "
+        f"value {scalars([floor / 4] * 4)}; }} lid {{ type calculated; value uniform {lid / 4}; }} "
+        "sides { type calculated; value uniform 0; } }",
+        "surfaceScalarField",
+    )
+
+
+def test_fluid_that_is_lost_is_counted_by_phi(case):
+    fluxes(case, -2.0, 2.0)
+    assert caveats(case) == []
+    fluxes(case, -2.0, 1.5)
+    (found,) = caveats(case)
+    assert "does not conserve volume: 2 m3/s enter and 1.5 m3/s leave (from phi)" in found
+    fluxes(case, -2.0, 3.0, "[1 0 -1 0 0 0 0]")
+    (found,) = caveats(case)
+    assert "does not conserve mass: 2 kg/s enter and 3 kg/s leave (from phi)" in found
+
+
+def test_fluid_that_is_lost_is_counted_by_the_velocity(case):
+    """Without phi, or with one that is no flux."""
+    velocity = case / "1e1/U"
+    text = velocity.read_text()
+    walls = "floor { type fixedValue; value uniform (0 0 3); } sides { type noSlip; }"
+    head = text[: text.index("boundaryField")]
+    velocity.write_text(
+        f"{head}boundaryField {{ {walls} lid {{ type fixedValue; value uniform (0 0 1); }} }}"
+    )
+    for dimensions in (None, "[0 1 -1 0 0 0 0]"):
+        if dimensions:
+            fluxes(case, 0.0, 0.0, dimensions)
+        (found,) = caveats(case)
+        assert "does not conserve volume: 3 m3/s enter and 1 m3/s leave (from U on the patches)" in found
+    # What a compressible fluid's mass does, its volume does not tell.
+    put(case / "1e1/rho", rho(scalars(range(1, 9))), "volScalarField")
+    assert [note for note in caveats(case) if "conserve" in note] == []
