@@ -1,4 +1,51 @@
-"""Where soft micro-particles go in an OpenFOAM flow, and what shape they take."""
+"""Where soft micro-particles go in an OpenFOAM flow, and what shape they take.
+
+The public names; everything else may change from one version to the next.
+
+From a case to its results, as ``foamprb run`` goes:
+
+    prepare             read a case and place its particles
+    Job                 what ``prepare`` returns: the settings and the cloud of a run
+    execute             advance a job's cloud to its end time and write the results
+    InputError          a mistake in the input; its message says where, and what is allowed
+    RunStopped          a run that ended early; its message says why, and how to go on
+
+Flows:
+
+    read_case           the flow of an OpenFOAM case at one time
+    read_series         that of a case at several times
+    read_mesh_file      the flow of a file of VTK's or meshio's formats
+    read_mesh_series    that of a file with several times
+    Division            how the boundary of a mesh file without patches is divided
+    SeriesFlow          a flow on a mesh at several times, from any function that knows it
+    select_times        the times of a case that ``-time`` would select
+    analytic            flows in closed form, a module
+
+Particles in a flow:
+
+    spheres             particles at rest, as many as there are positions
+    set_rest_shape      make ellipsoids at rest of them
+    Particles           the arrays of all particles
+    Status              what a particle is doing: pending, active, stuck, escaped or failed
+    Cloud               particles, the flow that carries them, and the models that act on them
+    Medium              viscosity and density of the fluid, and gravity
+    Models              names of traction, drag, solid, wall test and integrator, and the forces
+    Gravity             a force: weight less buoyancy
+    PressureGradient    a force: that of the undisturbed flow's pressure gradient
+    VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    Stick               a patch that holds the particles that touch it
+    Rebound             one from which they bounce off
+    Escape              one through which they leave
+    context             prepare particles for measuring
+    measure             shape, orientation, rotation and load of particles
+
+Solids:
+
+    add_material        add a solid by its energy
+    Parameter           the third parameter of such a solid, its name and limits
+    Material            a solid: its energy, the derivatives of it, and what the integrators need
+    log_ratio           an accurate logarithm near 1, for energies
+"""
 
 from __future__ import annotations
 
@@ -7,68 +54,96 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from foamprb.body.material import Parameter, add_material
+    from foamprb.body.material import Material, Parameter, add_material
+    from foamprb.body.tensor import log_ratio
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud
+    from foamprb.cloud.forces.gravity import Gravity
+    from foamprb.cloud.forces.pressure_gradient import PressureGradient
+    from foamprb.cloud.forces.virtual_mass import VirtualMass
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.tracker import Models
     from foamprb.errors import InputError, RunStopped
     from foamprb.flow import analytic
-    from foamprb.flow.read.meshfile import read_mesh_file
+    from foamprb.flow.read.case import select_times
+    from foamprb.flow.read.division import Division
+    from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
     from foamprb.flow.read.openfoam import read_case
     from foamprb.flow.read.series import read_series
-    from foamprb.run.job import execute, prepare
+    from foamprb.flow.series import SeriesFlow
+    from foamprb.run.job import Job, prepare
+    from foamprb.run.loop import execute
 
 __version__ = version("foamprb")
 
 _HOMES = {
     "Cloud": "foamprb.cloud.cloud",
+    "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
+    "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
+    "Job": "foamprb.run.job",
+    "Material": "foamprb.body.material",
     "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.tracker",
     "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
+    "PressureGradient": "foamprb.cloud.forces.pressure_gradient",
     "Rebound": "foamprb.cloud.patches",
     "RunStopped": "foamprb.errors",
+    "SeriesFlow": "foamprb.flow.series",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
+    "VirtualMass": "foamprb.cloud.forces.virtual_mass",
     "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",
     "context": "foamprb.cloud.measures",
-    "execute": "foamprb.run.job",
+    "execute": "foamprb.run.loop",
+    "log_ratio": "foamprb.body.tensor",
     "measure": "foamprb.cloud.measures",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_mesh_file": "foamprb.flow.read.meshfile",
+    "read_mesh_series": "foamprb.flow.read.meshfile",
     "read_series": "foamprb.flow.read.series",
+    "select_times": "foamprb.flow.read.case",
     "set_rest_shape": "foamprb.cloud.state",
     "spheres": "foamprb.cloud.state",
 }
 
 __all__ = [
     "Cloud",
+    "Division",
     "Escape",
+    "Gravity",
     "InputError",
+    "Job",
+    "Material",
     "Medium",
     "Models",
     "Parameter",
     "Particles",
+    "PressureGradient",
     "Rebound",
     "RunStopped",
+    "SeriesFlow",
     "Status",
     "Stick",
+    "VirtualMass",
     "add_material",
     "analytic",
     "context",
     "execute",
+    "log_ratio",
     "measure",
     "prepare",
     "read_case",
     "read_mesh_file",
+    "read_mesh_series",
     "read_series",
+    "select_times",
     "set_rest_shape",
     "spheres",
 ]

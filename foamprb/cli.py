@@ -4,26 +4,22 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import re
 import signal
 import sys
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import foamprb
-from foamprb.errors import InputError, RankError, RunStopped, suggestion
+from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
 
 if TYPE_CHECKING:
     from foamprb.flow.read.source import Source
-    from foamprb.parallel.ranks import Root
-    from foamprb.parallel.team import OnDevice
+    from foamprb.parallel.ranks import Ranks
     from foamprb.settings.settings import StartFrom
-
-_COMMANDS = ("run", "info", "validate", "compile")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -42,36 +38,30 @@ def _parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     version = f"foamprb {foamprb.__version__}"
-    parser.add_argument("--help", action="help", help="show this text and stop")
+    parser.add_argument("-h", "--help", action="help", help="show this text and stop")
     parser.add_argument("--version", action="version", version=version, help="show the version and stop")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
 
-    run = commands.add_parser(
-        "run", help="track the particles of constant/softCloudProperties", add_help=False, allow_abbrev=False
-    )
-    info = commands.add_parser("info", help="say what a case holds", add_help=False, allow_abbrev=False)
-    validate = commands.add_parser(
-        "validate", help="compare with independent solutions", add_help=False, allow_abbrev=False
-    )
-    compiling = commands.add_parser(
-        "compile",
-        help="compile the particle loops, so that no run has to",
-        add_help=False,
-        allow_abbrev=False,
-    )
-    for command in (run, info, validate, compiling):
-        command.add_argument("--help", action="help", help="show this text and stop")
-        command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
-    for command in (run, info):
-        command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
-        command.add_argument("--decomposed", action="store_true", help="read the processor folders")
-        command.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
-        command.add_argument(
+    def command(name: str, purpose: str) -> argparse.ArgumentParser:
+        added = commands.add_parser(name, help=purpose, add_help=False, allow_abbrev=False)
+        added.add_argument("-h", "--help", action="help", help="show this text and stop")
+        added.add_argument("--debug", action="store_true", help="show where in the code an error arose")
+        return added
+
+    run = command("run", "track the particles of constant/softCloudProperties")
+    info = command("info", "say what a case holds")
+    validate = command("validate", "compare with independent solutions")
+    command("compile", "compile the particle loops, so that no run has to")
+    for reading in (run, info):
+        reading.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+        reading.add_argument("--decomposed", action="store_true", help="read the processor folders")
+        reading.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+        reading.add_argument(
             "--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's"
         )
-        command.add_argument("--velocity", default="U", metavar="NAME", help="velocity field [U]")
-        command.add_argument("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
-        divided = command.add_mutually_exclusive_group()
+        reading.add_argument("--velocity", default="U", metavar="NAME", help="velocity field [U]")
+        reading.add_argument("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+        divided = reading.add_mutually_exclusive_group()
         divided.add_argument(
             "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
         )
@@ -110,74 +100,32 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(arguments: argparse.Namespace, team: Root | None) -> int:
-    from foamprb.run.job import describe, execute, prepare
+def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
+    from foamprb.parallel.launch import choose_executor
+    from foamprb.run.job import prepare
+    from foamprb.run.log import describe, log_dry_run
+    from foamprb.run.loop import execute_until_signal
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    threads = arguments.threads or (team.threads if team else None)
-    time = "latestTime" if arguments.latestTime else arguments.time
-    on_device = _on_device(arguments, team)
-    # With others to compile as well, or for a device, it is done when the loop is wanted, if it ever is.
-    ahead = team is None and on_device is None and not arguments.dry_run
-    job = prepare(arguments.case, time, arguments.dict, threads, _source(arguments), ahead)
+    executor = choose_executor(arguments.device, ranks)
+    job = prepare(
+        arguments.case,
+        "latestTime" if arguments.latestTime else arguments.time,
+        arguments.dict,
+        arguments.threads or executor.threads,
+        _source(arguments),
+        precompile=executor.precompiles and not arguments.dry_run,
+    )
     describe(job)
     if arguments.dry_run:
-        steps = job.steps
-        logging.getLogger("foamprb").info(
-            "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, steps
-        )
+        log_dry_run(job)
         return 0
     start_from: StartFrom | None = None
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"
-    with _stopped_by_signals() as received:
-        elsewhere = team.signals if team else ()
-        try:
-            execute(job, start_from, stop=lambda: bool(received or elsewhere), team=on_device or team)
-        except RunStopped as stopped:
-            signals: list[int] = [*received, *elsewhere]
-            if not signals:
-                raise
-            print(f"--> foamprb {stopped}", file=sys.stderr)
-            return 128 + signals[0]
+    execute_until_signal(job, executor, start_from)
     return 0
-
-
-def _on_device(arguments: argparse.Namespace, team: Root | None) -> OnDevice | None:
-    if arguments.device == "cpu":
-        return None
-    if team is not None:
-        raise InputError("-device cuda does not go together with -parallel: it is for one process.")
-    from foamprb.parallel.team import OnDevice
-
-    return OnDevice()
-
-
-@contextmanager
-def _stopped_by_signals() -> Iterator[list[int]]:
-    """Collect the first Ctrl-C or SIGTERM in a list; a second one acts at once, as without this."""
-    received: list[int] = []
-    if threading.current_thread() is not threading.main_thread():
-        # Only the main thread may say what a signal does.
-        yield received
-        return
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-
-    def restore() -> None:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-    def receive(number: int, _: FrameType | None) -> None:
-        received.append(number)
-        restore()
-
-    for number in before:
-        signal.signal(number, receive)
-    try:
-        yield received
-    finally:
-        restore()
 
 
 def _source(arguments: argparse.Namespace) -> Source:
@@ -198,23 +146,14 @@ def _source(arguments: argparse.Namespace) -> Source:
     )
 
 
-def _info(arguments: argparse.Namespace, _: Root | None) -> int:
-    from foamprb.flow.read.decomposed import describe_decomposed, is_only_decomposed
-    from foamprb.flow.read.describe import describe
-    from foamprb.flow.read.meshfile import describe_file
+def _info(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.flow.read.source import describe_source
 
-    source = _source(arguments)
-    if source.file is not None:
-        lines = describe_file(source.file, source.velocity, source.division)
-    elif source.decomposed or is_only_decomposed(arguments.case, source.region):
-        lines = describe_decomposed(arguments.case, source.region).lines()
-    else:
-        lines = describe(arguments.case, source.region).lines()
-    print("\n".join(lines))
+    print("\n".join(describe_source(arguments.case, _source(arguments))))
     return 0
 
 
-def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
+def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
 
@@ -226,26 +165,38 @@ def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
     return 0 if validate(chosen, arguments.output, arguments.quick) else 1
 
 
-def _compile(_: argparse.Namespace, __: Root | None) -> int:
-    from foamprb.run.everything import compile_all
+def _compile(_: argparse.Namespace, __: Ranks | None) -> int:
+    from foamprb.run.precompile import compile_all
 
     compile_all()
     return 0
 
 
-class _Format(logging.Formatter):
+_COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
+    "run": _run,
+    "info": _info,
+    "validate": _validate,
+    "compile": _compile,
+}
+
+
+class _Handler(logging.StreamHandler[TextIO]):
     """Plain lines; a warning in OpenFOAM's manner."""
 
     def format(self, record: logging.LogRecord) -> str:
         text = record.getMessage()
         return f"--> foamprb Warning : {text}" if record.levelno >= logging.WARNING else text
 
+    def handleError(self, record: logging.LogRecord) -> None:
+        """Let the program end where nobody reads its log any more."""
+        if isinstance(sys.exception(), BrokenPipeError):
+            raise
+        super().handleError(record)
+
 
 def _log_to_stdout() -> None:
-    handler = logging.StreamHandler(sys.stdout)
-    handler.setFormatter(_Format())
     logger = logging.getLogger("foamprb")
-    logger.handlers[:] = [handler]
+    logger.handlers[:] = [_Handler(sys.stdout)]
     logger.setLevel(logging.INFO)
     logger.propagate = False
 
@@ -254,31 +205,50 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status.
 
     It is 0; 1 for a mistake in the input, a run that had to end early or a validation that fails; 130 after
-    Ctrl-C and 143 after SIGTERM.
+    Ctrl-C, 143 after SIGTERM, and 141 where nobody reads the output any more.
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
     _log_to_stdout()
-    return _run_together(words) if "--parallel" in words else _answer(words)
+
+    def answer(ranks: Ranks | None) -> int:
+        return _exit_status(words, lambda: _do(words, ranks))
+
+    if "--parallel" not in words:
+        return answer(None)
+    from foamprb.parallel.launch import run_together
+
+    return _exit_status(words, lambda: run_together(answer))
 
 
-def _answer(words: Sequence[str], team: Root | None = None) -> int:
+def _do(words: Sequence[str], ranks: Ranks | None) -> int:
     """Do what the words of the command line say."""
+    if words and not words[0].startswith("-") and words[0] not in _COMMANDS:
+        raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], _COMMANDS)}")
+    parsed = _parser().parse_args(words)
+    if parsed.command is None:
+        _parser().print_help()
+        return 1
+    return _COMMANDS[parsed.command](parsed, ranks)
+
+
+def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
+    """Call a command, print what went wrong, and return the exit status."""
     try:
-        command = next((word for word in words if not word.startswith("-")), None)
-        if command is not None and words[0] == command and command not in _COMMANDS:
-            raise InputError(f"unknown command '{command}'. {suggestion(command, _COMMANDS)}")
-        parsed = _parser().parse_args(words)
-        if parsed.command is None:
-            _parser().print_help()
-            return 1
-        commands: dict[str, Callable[[argparse.Namespace, Root | None], int]] = {
-            "run": _run,
-            "info": _info,
-            "validate": _validate,
-            "compile": _compile,
-        }
-        return commands[parsed.command](parsed, team)
+        try:
+            status = command()
+        except SystemExit as done:
+            status = 1 if done.code else 0
+        sys.stdout.flush()
+        return status
+    except RunInterrupted as stopped:
+        print(f"--> foamprb {stopped}", file=sys.stderr)
+        return 128 + stopped.signal
+    except BrokenPipeError:
+        # What is left of the output goes nowhere, or Python would say at its end that it could not write it.
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
     except (InputError, RunStopped, RankError, OSError) as error:
         if "--debug" in words:
             raise
@@ -287,32 +257,6 @@ def _answer(words: Sequence[str], team: Root | None = None) -> int:
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
         return 130
-
-
-def _run_together(words: Sequence[str]) -> int:
-    """Do what the words of the command line say with the other processes of ``mpirun``, if there are any."""
-    from foamprb.parallel.ranks import Rank, connect, is_first
-
-    try:
-        rank = connect()
-    except InputError as error:
-        if is_first():
-            print(f"--> foamprb Error : {error}", file=sys.stderr)
-        return 1
-    if rank is None:
-        return _answer(words)
-    if isinstance(rank, Rank):
-        logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
-        with _stopped_by_signals() as received:
-            return rank.serve(received)
-    status = 1
-    try:
-        status = _answer(words, rank)
-    except SystemExit as left:
-        status = 1 if left.code else 0
-    finally:
-        rank.dismiss(status)
-    return status
 
 
 if __name__ == "__main__":

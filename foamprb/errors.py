@@ -14,8 +14,27 @@ class RunStopped(Exception):  # noqa: N818
     """A run that ended before its end time: its message says why, and how to go on."""
 
 
+class RunInterrupted(RunStopped):
+    """A run that a signal ended before its end time.
+
+    Parameters
+    ----------
+    message
+        Why it ended, and how to go on.
+    signal
+        The number of the signal.
+    """
+
+    def __init__(self, message: str, signal: int) -> None:
+        super().__init__(message)
+        self.signal = signal
+
+    def __reduce__(self) -> tuple[type[RunInterrupted], tuple[str, int]]:
+        return RunInterrupted, (str(self), self.signal)
+
+
 class RankError(Exception):
-    """What went wrong on one of the processes of a parallel run, in words; ``trace`` says where."""
+    """What went wrong on one of the processes of a parallel run; ``trace`` is its traceback, a text."""
 
     def __init__(self, message: str, trace: str) -> None:
         super().__init__(message)

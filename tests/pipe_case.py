@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 import shutil
 from pathlib import Path
@@ -61,8 +62,16 @@ def fates(case: Path) -> list[dict[str, str]]:
 
 
 def results(case: Path) -> dict[str, bytes]:
-    """All files of a run but the checkpoint before the last, which tells of interruptions."""
+    """All files of a run but the checkpoint before the last, which tells of interruptions.
+
+    So does the manifest, which lists it: of the manifest only the other names. It must list all files.
+    """
     folder = case / "postProcessing/softCloud"
-    files = [file for file in folder.rglob("*") if file.is_file() and file.suffix != ".checkpoint"]
-    files.append(max(folder.glob("checkpoint/*"), key=lambda file: float(file.stem)))
-    return {str(file.relative_to(folder)): file.read_bytes() for file in files}
+    files = [file for file in folder.rglob("*") if file.is_file()]
+    manifest = folder / "manifest.json"
+    listed = {folder / name for name in json.loads(manifest.read_text())["files"]}
+    assert listed == {*files} - {manifest}
+    early = sorted(folder.glob("checkpoint/*"), key=lambda file: float(file.stem))[:-1]
+    found = {file: file.read_bytes() for file in files if file not in (*early, manifest)}
+    found[manifest] = b"\n".join(str(file.relative_to(folder)).encode() for file in sorted(found))
+    return {str(file.relative_to(folder)): data for file, data in found.items()}

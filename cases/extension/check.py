@@ -20,7 +20,6 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
 import foamprb
-from foamprb.run.job import Job
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +53,7 @@ class Track(NamedTuple):
     """Deformation there."""
 
 
-def axis(job: Job, points: int = 2000) -> Axis:
+def axis(job: foamprb.Job, points: int = 2000) -> Axis:
     """Sample the flow on the axis, as the beads see it."""
     flow, start = job.cloud.flow, job.cloud.particles.x0[0, 0]
     outlet = flow.patch_faces("outlet", 0.0).vertices[..., 0].min()
@@ -65,7 +64,7 @@ def axis(job: Job, points: int = 2000) -> Axis:
     return Axis(x, u[:, 0], gradient[:, 0, 0])
 
 
-def track(job: Job) -> list[Track]:
+def track(job: foamprb.Job) -> list[Track]:
     """Advance the beads to the outlet and keep where they were and how deformed, a track for each."""
     cloud, solution = job.cloud, job.settings.solution
     x, D = [], []

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from scipy.special import jv
 
 import foamprb
-from foamprb.flow.read.case import select_times
 
 Floats = NDArray[np.float64]
 
@@ -60,7 +59,7 @@ class FlowErrors(NamedTuple):
 
 def flow_errors(case: Path, n: int = 2000) -> FlowErrors:
     """Compare the flow at its written times with the exact one, away from the ends."""
-    times = select_times(case, "3:4")
+    times = foamprb.select_times(case, "3:4")
     flow = foamprb.read_series(case, "3:4")
     random = np.random.default_rng(1)
     r, phi = 0.99 * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
@@ -105,7 +104,7 @@ def track(cloud: foamprb.Cloud, periods: int = 4) -> Track:
 
 def in_files(case: Path, stride: int = 1) -> foamprb.Cloud:
     """The particles of the case in its flow, with every ``stride``-th written time of the last period."""
-    return foamprb.prepare(case, " ".join(select_times(case, "3:4")[::stride])).cloud
+    return foamprb.prepare(case, " ".join(foamprb.select_times(case, "3:4")[::stride])).cloud
 
 
 def in_exact_flow(cloud: foamprb.Cloud) -> foamprb.Cloud:
@@ -143,7 +142,7 @@ def main() -> None:
     for case in cases:
         for stride in STRIDES:
             error = distances(track(in_files(case, stride)), exact) / [[moved], [1.0]]
-            n = (len(select_times(case, "3:4")) - 1) // stride
+            n = (len(foamprb.select_times(case, "3:4")) - 1) // stride
             print(f"| {case.name} | {n} | {100 * error[0, 0]:.2f} | {100 * error[0, 1]:.2f} |"
                   f" {error[1, 0]:.4f} | {error[1, 1]:.4f} |")  # fmt: skip
     shape = np.abs(exact.F - np.eye(3).ravel()).max()

@@ -106,7 +106,8 @@ class Cloud:
             shaped=bool((np.eye(3).ravel() != p.F0).any()),
             tense=tense,
         )
-        self.executor: Executor = Threads(self)
+        self.executor: Executor = Threads()
+        self.executor.take(self)
 
     @property
     def compiled(self) -> bool:
@@ -121,7 +122,8 @@ class Cloud:
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, whatever becomes of single particles.
 
-        Where others than this process' own threads carry the particles, :meth:`gather` brings the result.
+        Where another executor than this process' threads carries the particles, :meth:`gather` brings the
+        result.
 
         Raises
         ------
@@ -130,7 +132,7 @@ class Cloud:
         """
         last = self.step + steps
         while self.step < last:
-            flow, ready = self._prepare(last - self.step)
+            flow, ready = self.load_flow(last - self.step)
             self.recovered += self.executor.advance(flow, ready)
             self.step += ready
 
@@ -140,17 +142,29 @@ class Cloud:
         Until :meth:`advance` is called with the same number nothing is seen of them, and when it is called
         with another they are dropped.
         """
-        self.executor.begin(lambda: self._prepare(steps))
+        self.executor.begin(steps)
 
-    def _prepare(self, steps: int) -> tuple[Any, int]:
-        """Make the flow ready for as many steps as it can be, of ``steps``: its arrays, and how many."""
+    def load_flow(self, steps: int) -> tuple[Any, int]:
+        """Make the flow ready for the next ``steps`` steps, or for as many of them as it can be.
+
+        Returns
+        -------
+        What the flow's kernels read, and the number of steps, at least 1.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read.
+        """
         until = self.flow.load(self.time, self.start + (self.step + 1) * self.dt)
         ready = (until - self.time) / self.dt + _ROUND_OFF
         self._grow_reach()
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
     def hand_over(self, executor: Executor) -> None:
-        """Let others carry the particles, which know them and the flow."""
+        """Let an executor carry the particles from now on."""
+        self.gather()
+        executor.take(self)
         self.executor = executor
 
     def counts(self) -> dict[Status, int]:

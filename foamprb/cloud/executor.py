@@ -3,15 +3,22 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from foamprb.cloud.measures import gradients
 from foamprb.cloud.motion import longest_of
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
 if TYPE_CHECKING:
-    from foamprb.cloud.cloud import Cloud
+    from pathlib import Path
+
+    from foamprb.cloud.cloud import Cloud, Snapshot
+    from foamprb.output.pvd import Series
 
 __all__ = ["Executor", "Threads", "available_threads", "longest_semi_axis"]
 
@@ -25,67 +32,121 @@ AT_ONCE = 20_000_000
 """Steps of a particle that threads take in some seconds; to take up its state and put it down costs a few."""
 
 
-class Executor(Protocol):
-    """Who carries the particles of a cloud through their steps, and knows the state of each until asked."""
+class Executor(ABC):
+    """Carries the particles of a cloud through their steps, and writes them.
+
+    :meth:`foamprb.cloud.cloud.Cloud.hand_over` gives a cloud to an executor. From then on the executor knows
+    the state of each particle, and the cloud's arrays may be behind until :meth:`gather`. What stands here is
+    for executors that leave the particles in the cloud's arrays.
+    """
 
     at_once: int
     """Number of steps of a particle that it takes in a second or so."""
+    precompiles: bool = False
+    """Whether another process may compile the loop for it before it is wanted."""
+    signals: Sequence[int] = ()
+    """Signals, Ctrl-C for one, that other processes than this have received."""
+    _cloud: Cloud
+
+    def take(self, cloud: Cloud) -> None:
+        """Take over the particles of a cloud that is ready to be advanced."""
+        self._cloud = cloud
 
     @property
+    def threads(self) -> int:
+        """Number of threads that each of its processes has for particles, unless the user says otherwise."""
+        return available_threads()
+
+    @property
+    @abstractmethod
     def compiled(self) -> bool:
         """Whether the loop is compiled."""
 
-    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+    def begin(self, steps: int) -> None:  # noqa: B027
         """Begin with steps while the cloud's arrays stay as they are or are gathered, if that can be done.
 
-        ``prepare`` gives what the flow's kernels read, and the number of steps. The next :meth:`advance`
-        takes these steps if it asks for as many; else they are as if they had never been begun.
+        The next :meth:`advance` takes these steps if it asks for as many; else they are as if they had never
+        been begun.
         """
 
+    @abstractmethod
     def advance(self, flow: Any, steps: int) -> int:
         """Take steps with what the flow's kernels read; return the number of walks mended by the tree."""
 
     def counts(self) -> dict[Status, int]:
         """Number of particles of each status."""
+        return self._cloud.particles.counts()
 
+    @abstractmethod
     def longest(self) -> float:
         """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
 
-    def gather(self) -> None:
+    def gather(self) -> None:  # noqa: B027
         """Put the state of every particle into the cloud's arrays."""
 
+    def snapshot_files(self, stem: Path) -> tuple[Path, ...]:
+        """The files that :meth:`begin_write` may write for a snapshot.
 
-class Threads:
-    """The executor of a cloud by itself: the threads of this process, in the cloud's own arrays."""
+        Parameters
+        ----------
+        stem
+            The snapshot's file without its ending.
+        """
+        from foamprb.output.pvd import with_ending
+
+        return (with_ending(stem, ".vtp"),)
+
+    def begin_write(
+        self, series: Series, snapshot: Snapshot, names: Mapping[str, Sequence[str]]
+    ) -> Callable[[], object]:
+        """Begin to write a snapshot of the cloud as it is now, and to list it in a series.
+
+        Parameters
+        ----------
+        series
+            The series of files; the snapshot is later than those that it lists.
+        snapshot
+            Made after :meth:`gather`.
+        names
+            For each array of codes, what the codes 0, 1, … mean.
+
+        Returns
+        -------
+        What ends that; another thread may call it while this one advances the cloud.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written; what is returned raises it, too.
+        """
+        # Whoever only compiles need not load VTK.
+        from foamprb.cloud.report import report
+
+        p, flow, mu, time = snapshot.particles, snapshot.flow, self._cloud.medium.mu, snapshot.time
+        # By then another flow than a steady one may have gone on to other times.
+        seen = flow if flow.span == (-np.inf, np.inf) else gradients(p, flow, time)
+        return lambda: series.append(report(p, seen, mu, time, names))
+
+
+class Threads(Executor):
+    """The threads of this process, as many as the cloud says, in the cloud's own arrays."""
 
     at_once = AT_ONCE
-
-    def __init__(self, cloud: Cloud) -> None:
-        self._cloud = cloud
+    precompiles = True
 
     @property
     def compiled(self) -> bool:
         """Whether the loop is compiled."""
         return self._cloud.tracker.compiled
 
-    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
-        """They would take the time from what is done meanwhile."""
-
     def advance(self, flow: Any, steps: int) -> int:
         """Take steps in the cloud's arrays; return the number of walks mended by the tree."""
         cloud = self._cloud
         return cloud.tracker.advance(flow, cloud.particles, cloud.step, steps, cloud.threads)
 
-    def counts(self) -> dict[Status, int]:
-        """Number of particles of each status."""
-        return self._cloud.particles.counts()
-
     def longest(self) -> float:
         """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
         return longest_semi_axis(self._cloud.particles)
-
-    def gather(self) -> None:
-        """They are there."""
 
 
 def longest_semi_axis(p: Particles) -> float:

@@ -9,6 +9,7 @@ by which the entry function calls it, and so is a constant that is not the same 
 
 from __future__ import annotations
 
+import dis
 import hashlib
 import inspect
 import platform
@@ -242,8 +243,9 @@ def _compile_for_cuda(function: Callable[..., Any], role: Role, key: str) -> Any
 
 
 def _global_names(code: CodeType) -> set[str]:
-    inner = (_global_names(constant) for constant in code.co_consts if isinstance(constant, CodeType))
-    return set(code.co_names).union(*inner)
+    """Names that the code reads from its module; ``co_names`` has those of attributes as well."""
+    own = {step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL"}
+    return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
 def _fingerprint(code: CodeType) -> bytes:

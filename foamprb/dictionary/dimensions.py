@@ -1,4 +1,4 @@
-"""Dimensions as OpenFOAM writes them: exponents of kg, m, s, K, mol, A and cd."""
+"""Dimensions as OpenFOAM writes them: exponents of kg, m, s, K, mol, A and cd, or units, ``[m s^-1]``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,12 @@ from typing import TypeAlias
 __all__ = [
     "ACCELERATION",
     "DENSITY",
+    "DYNAMIC_VISCOSITY",
     "KINEMATIC_VISCOSITY",
+    "MASS_FLUX",
+    "RATE",
+    "VELOCITY",
+    "VOLUME_FLUX",
     "Dimensions",
     "described",
     "read_dimensions",
@@ -18,7 +23,12 @@ __all__ = [
 Dimensions: TypeAlias = tuple[float, ...]
 """Seven exponents."""
 
+VELOCITY: Dimensions = (0, 1, -1, 0, 0, 0, 0)
+RATE: Dimensions = (0, 0, -1, 0, 0, 0, 0)
+VOLUME_FLUX: Dimensions = (0, 3, -1, 0, 0, 0, 0)
+MASS_FLUX: Dimensions = (1, 0, -1, 0, 0, 0, 0)
 KINEMATIC_VISCOSITY: Dimensions = (0, 2, -1, 0, 0, 0, 0)
+DYNAMIC_VISCOSITY: Dimensions = (1, -1, -1, 0, 0, 0, 0)
 DENSITY: Dimensions = (1, -3, 0, 0, 0, 0, 0)
 ACCELERATION: Dimensions = (0, 1, -2, 0, 0, 0, 0)
 
@@ -27,30 +37,63 @@ _NAMES: dict[Dimensions, str] = {
     (0, 1, 0, 0, 0, 0, 0): "a length",
     (0, 0, 1, 0, 0, 0, 0): "a time",
     (1, 0, 0, 0, 0, 0, 0): "a mass",
-    (0, 0, -1, 0, 0, 0, 0): "a rate",
-    (0, 1, -1, 0, 0, 0, 0): "a velocity",
+    RATE: "a rate, such as a velocity's gradient",
+    VELOCITY: "a velocity",
     ACCELERATION: "an acceleration",
     KINEMATIC_VISCOSITY: "a kinematic viscosity",
-    (1, -1, -1, 0, 0, 0, 0): "a dynamic viscosity",
+    DYNAMIC_VISCOSITY: "a dynamic viscosity",
     DENSITY: "a density",
     (1, -2, -1, 0, 0, 0, 0): "a momentum per volume (rhoU)",
-    (0, 3, -1, 0, 0, 0, 0): "a flux of volume (phi)",
-    (1, 0, -1, 0, 0, 0, 0): "a flux of mass (phi)",
+    VOLUME_FLUX: "a flux of volume (phi)",
+    MASS_FLUX: "a flux of mass (phi)",
     (1, -1, -2, 0, 0, 0, 0): "a pressure",
     (0, 2, -2, 0, 0, 0, 0): "a kinematic pressure",
     (1, 1, -2, 0, 0, 0, 0): "a force",
 }
 _EXPONENT = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)", re.ASCII)
+_UNITS: dict[str, Dimensions] = {
+    "kg": (1, 0, 0, 0, 0, 0, 0),
+    "m": (0, 1, 0, 0, 0, 0, 0),
+    "s": (0, 0, 1, 0, 0, 0, 0),
+    "K": (0, 0, 0, 1, 0, 0, 0),
+    "mol": (0, 0, 0, 0, 1, 0, 0),
+    "A": (0, 0, 0, 0, 0, 1, 0),
+    "cd": (0, 0, 0, 0, 0, 0, 1),
+    "N": (1, 1, -2, 0, 0, 0, 0),
+    "Pa": (1, -1, -2, 0, 0, 0, 0),
+}
+_UNIT = re.compile(rf"(/\s*)?({'|'.join(sorted(_UNITS, key=len, reverse=True))})(?:\^([-+]?\d+))?")
 
 
 def read_dimensions(text: str) -> Dimensions | None:
-    """Read ``[0 1 -1 0 0 0 0]``, or the first five of these exponents; None if the text is something else."""
-    words = text.strip().removeprefix("[").removesuffix("]").split()
-    if not (text.strip().startswith("[") and text.strip().endswith("]")) or len(words) not in (5, 7):
+    """Read ``[0 1 -1 0 0 0 0]``, the first five of these exponents, or ``[m s^-1]``; None otherwise."""
+    text = text.strip()
+    if not (text.startswith("[") and text.endswith("]")):
+        return None
+    words = text[1:-1].split()
+    if not words or not _EXPONENT.fullmatch(words[0]):
+        return _of_units(text[1:-1].strip())
+    if len(words) not in (5, 7):
         return None
     if not all(_EXPONENT.fullmatch(word) for word in words):
         return None
     return tuple(float(word) for word in (*words, "0", "0")[:7])
+
+
+def _of_units(text: str) -> Dimensions | None:
+    """Read a product of units, ``kg m^-3`` or ``m/s``."""
+    sum_of_exponents, at = [0.0] * 7, 0
+    while at < len(text):
+        match = _UNIT.match(text, at)
+        if match is None:
+            return None
+        power = float(match[3] or 1) * (-1.0 if match[1] else 1.0)
+        sum_of_exponents = [a + power * b for a, b in zip(sum_of_exponents, _UNITS[match[2]], strict=True)]
+        at = match.end()
+        if at < len(text) and text[at] not in " /":
+            return None
+        at += len(text[at:]) - len(text[at:].lstrip(" "))
+    return tuple(sum_of_exponents)
 
 
 def written(dimensions: Dimensions) -> str:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gzip
+import logging
+import os
 import re
 import zlib
 from collections.abc import Callable, Collection, Iterator
@@ -10,10 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from foamprb.dictionary.files import existing, has_both_forms
 from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["read_dictionary", "read_dictionary_list"]
+__all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
+
+log = logging.getLogger("foamprb")
 
 
 def read_dictionary(path: Path, case: Path) -> Dictionary:
@@ -26,7 +31,7 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     * ``$:a.b``, sought from the top of the file; ``$.name`` and ``$..name``, sought in this dictionary and in
       the enclosing one only;
     * ``$name;`` in place of an entry, which merges the dictionary ``name``;
-    * ``#include``, ``#includeIfPresent`` and ``#sinclude``.
+    * ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``.
 
     As in OpenFOAM, a macro sees what is complete before it, which the dictionary where it stands is not.
 
@@ -46,6 +51,14 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     root = Dictionary("", None, source, 0)
     text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
     _Parser(source, text, (), spent).fill(root)
+    root.entries.pop(_HEADER, None)
+    return root
+
+
+def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
+    """Make of a text what :func:`read_dictionary` would of the file, which it comes from."""
+    root = Dictionary("", None, Source(path, case), 0)
+    _Parser(root.source, text, (), _Spent()).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
@@ -91,11 +104,14 @@ class _Spent:
 
 
 def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) -> str:
+    found = existing(path) or path
+    if has_both_forms(path):
+        log.warning("%s and %s.gz are both there: the first is read, as by OpenFOAM.", path, path.name)
     try:
         # The others, pipes and devices, may have no end, or never begin.
-        if path.exists() and not path.is_file():
+        if found.exists() and not found.is_file():
             raise mistake("is not a file")
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
+        with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
             data = stream.read(MOST_BYTES - spent.bytes + 1)
             spent.bytes += len(data)
             text = data.decode("utf-8")
@@ -128,7 +144,8 @@ _HEADER = "FoamFile"
 _COUNT = re.compile(r"\d{1,18}", re.ASCII)
 _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
-_INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False}
+_INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False, "#includeEtc": True}
+_ETC = "#includeEtc"
 _CASE_FOLDERS = {
     "$FOAM_CASE": "",
     "${FOAM_CASE}": "",
@@ -323,7 +340,9 @@ class _Parser:
         if name.text in _MARKS or name.text == "":
             raise self.mistake(directive, "names no file.")
         path = self.source.path.parent / self.in_case(unquoted(name.text))
-        if not (_INCLUDES[directive.text] or _is_file(path)):
+        if directive.text == _ETC:
+            path = self.in_etc(name)
+        if not (_INCLUDES[directive.text] or existing(path)):
             return
         self.spent.files += 1
         if self.spent.files > MOST_FILES:
@@ -343,6 +362,24 @@ class _Parser:
                 return f"{self.source.case.resolve() / folder}{name.removeprefix(tag)}"
         return name
 
+    def in_etc(self, name: _Token) -> Path:
+        """Find a file in OpenFOAM's folders ``etc``: the user's, the site's, and that of the installation."""
+        etc = [Path.home() / ".OpenFOAM"]
+        etc += [
+            Path(os.environ[key], "etc")
+            for key in ("WM_PROJECT_SITE", "WM_PROJECT_DIR")
+            if os.environ.get(key)
+        ]
+        for folder in etc:
+            if existing(folder / unquoted(name.text)):
+                return folder / unquoted(name.text)
+        raise self.mistake(
+            name,
+            "is in none of the folders "
+            + ", ".join(map(str, etc))
+            + "; is WM_PROJECT_DIR set? (OpenFOAM's bashrc sets it)",
+        )
+
     def peek(self, ahead: int = 0) -> _Token:
         """Return a coming token; the last one has no text."""
         return self.tokens[min(self.position + ahead, len(self.tokens) - 1)]
@@ -358,13 +395,6 @@ class _Parser:
         if len(self.files) > 1 and not self.files[-1].is_relative_to(self.source.case.resolve()):
             return self.source.mistake(token.line, "this is no dictionary; it was included.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except OSError:
-        return False
 
 
 def _depth(entry: Entry) -> int:

@@ -68,6 +68,10 @@ class Checkpoints:
         times = {float(match[1]): file for file in found if (match := _NAME.fullmatch(file.name))}
         return dict(sorted(times.items()))
 
+    def file(self, time: float) -> Path:
+        """The file of a checkpoint at a time, s."""
+        return self.folder / f"{time:.12g}.checkpoint"
+
     def write(self, checkpoint: Checkpoint) -> Path:
         """Write a checkpoint, and remove those before the last two.
 
@@ -76,7 +80,7 @@ class Checkpoints:
         OSError
             If the file cannot be written.
         """
-        path = self.folder / f"{checkpoint.time:.12g}.checkpoint"
+        path = self.file(checkpoint.time)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
             file.unlink(missing_ok=True)

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
-import numpy as np
-
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, remove_unfinished
+from foamprb.output.atomic import atomic_write
 from foamprb.output.vtk import Parts, PointCloud, write_snapshot
 
 
@@ -44,30 +41,12 @@ class Series:
         Where the files are; made when the first is written.
     name
         The cloud's name.
-    after
-        Time, s, from which the run resumes: files of later times are removed, as they will be written anew.
-        By default the run is a new one, and all are removed. Files named like those of the series that
-        its ``.pvd`` does not list, left behind by killed runs, are removed as well.
-
-    Raises
-    ------
-    InputError
-        If there is a ``.pvd`` that cannot be read.
-    OSError
-        If the list cannot be rewritten, or old files not removed.
     """
 
-    def __init__(self, folder: Path, name: str, *, after: float = -np.inf) -> None:
+    def __init__(self, folder: Path, name: str) -> None:
         self.folder = folder
         self.name = name
-        self.entries: tuple[Entry, ...] = read_pvd(self.pvd) if self.pvd.exists() else ()
-        earlier = tuple(entry for entry in self.entries if entry.time <= after)
-        if not earlier:
-            self.pvd.unlink(missing_ok=True)
-            self.entries = ()
-        elif len(earlier) < len(self.entries):
-            self._list(earlier)
-        self._remove_unlisted()
+        self.entries: tuple[Entry, ...] = ()
 
     @property
     def pvd(self) -> Path:
@@ -88,13 +67,13 @@ class Series:
         OSError
             If a file cannot be written.
         """
-        file = self.next(cloud.time).with_suffix(".vtp")
+        file = with_ending(self.next(cloud.time), ".vtp")
         write_snapshot(file, cloud)
         self.add(cloud.time, file)
         return file
 
     def next(self, time: float) -> Path:
-        """The file for the cloud of a time, s, but for its suffix.
+        """The file for the cloud of a time, s, without its ending.
 
         Raises
         ------
@@ -117,23 +96,29 @@ class Series:
         """
         self._list((*self.entries, Entry(float(time), file.name)))
 
-    def _remove_unlisted(self) -> None:
-        """Remove the files that the list does not name, and those that killed processes were writing."""
-        listed = {entry.file for entry in self.entries}
-        own = re.compile(re.escape(self.name) + r"_\d{6,}(\.p?vtp)?")
-        for file in tuple(self.folder.iterdir()) if self.folder.is_dir() else ():
-            if not own.fullmatch(file.name) or file.name in listed:
-                continue
-            if file.suffix:
-                file.unlink(missing_ok=True)
-            elif f"{file.name}.pvtp" not in listed:
-                shutil.rmtree(file)
-        remove_unfinished(self.folder)
+    def relist(self, entries: Sequence[Entry]) -> None:
+        """List clouds that an earlier run has written, in order of time, and no others.
+
+        Raises
+        ------
+        OSError
+            If the list cannot be written, or removed when it is empty.
+        """
+        if entries:
+            self._list(tuple(entries))
+        else:
+            self.pvd.unlink(missing_ok=True)
+            self.entries = ()
 
     def _list(self, entries: tuple[Entry, ...]) -> None:
         with atomic_write(self.pvd) as temporary:
             temporary.write_text(_pvd_text(entries), encoding="utf-8")
         self.entries = entries
+
+
+def with_ending(stem: Path, ending: str) -> Path:
+    """The file of a cloud, of whose name a dot may be a part; ``ending`` is ``.vtp`` or ``.pvtp``."""
+    return stem.with_name(stem.name + ending)
 
 
 def read_pvd(path: Path) -> tuple[Entry, ...]:
@@ -152,9 +137,7 @@ def read_pvd(path: Path) -> tuple[Entry, ...]:
         root = ElementTree.fromstring(path.read_bytes())
         entries = [Entry(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
     except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
-        raise InputError(
-            f"{path}: not a readable list of VTK files ({error}). Remove it to begin anew."
-        ) from error
+        raise InputError(f"{path}: not a readable list of VTK files ({error}).") from error
     for entry in entries:
         if Path(entry.file).name != entry.file or not entry.file.endswith((".vtp", ".pvtp")):
             raise InputError(

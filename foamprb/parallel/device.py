@@ -8,7 +8,7 @@ device.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import logging
 from contextlib import suppress
 from typing import Any
 
@@ -18,14 +18,17 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.executor import Executor
 from foamprb.cloud.integrators.paper import track_block as track
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
-from foamprb.cloud.state import CHANGING, Particles, Status
+from foamprb.cloud.state import CHANGING, Particles
 from foamprb.cloud.tracker import Tracker
 from foamprb.compile.link import is_compiled, link
 from foamprb.errors import InputError
 
 __all__ = ["Device", "device_name"]
+
+log = logging.getLogger("foamprb")
 
 _THREADS = 64
 """Threads of a block; few, as a particle takes all registers that a thread can have."""
@@ -95,11 +98,12 @@ def find_longest(p: Particles, longest: NDArray[np.float64]) -> None:
             cuda.atomic.max(longest, 0, length)
 
 
-class Device:
-    """The crew of a cloud whose particles are in the memory of a device, and are carried there.
+class Device(Executor):
+    """A CUDA device, which has the particles in its own memory.
 
-    Of the cloud's arrays ``status`` follows every :meth:`advance`, the others :meth:`gather`. What is changed
-    in them after the first step is not seen on the device, but a cloud may be given other particles.
+    Of the cloud's arrays ``status`` is up to date after every :meth:`advance`, the others after
+    :meth:`gather`. The device does not see what is changed in them after the first step, but a cloud may be
+    given other particles.
 
     Work is queued on one stream, copies to the host on another, so that a copy does not wait for steps that
     were begun after it.
@@ -112,9 +116,12 @@ class Device:
 
     at_once = 1_000_000_000
 
-    def __init__(self, cloud: Cloud) -> None:
-        device_name()
-        self._cloud = cloud
+    def __init__(self) -> None:
+        self._name = device_name()
+
+    def take(self, cloud: Cloud) -> None:
+        """Compile for the models of a cloud; its particles are copied when they are first needed."""
+        super().take(cloud)
         self._track, self._find_longest = kernels(cloud.tracker)
         self._work, self._back = cuda.stream(), cuda.stream()
         self._copies: list[tuple[NDArray[Any], Any]] = []
@@ -129,19 +136,20 @@ class Device:
         self._begun = 0
         # Whether the cloud's arrays are up to date, and whether copies of the device's arrays are under way.
         self._gathered, self._coming = True, False
+        log.info("\nParticles on the CUDA device %s", self._name)
 
     @property
     def compiled(self) -> bool:
         """Whether the kernel is compiled."""
         return bool(cuda.config.ENABLE_CUDASIM) or is_compiled(self._track)
 
-    def begin(self, prepare: Callable[[], tuple[Any, int]]) -> None:
+    def begin(self, steps: int) -> None:
         """Begin with steps; what :meth:`gather` brings is the state before them."""
         self._hold()
         self._keep()
         # What is wrong with the flow is said when the steps are due.
         with suppress(InputError):
-            self._launch(*prepare())
+            self._launch(*self._cloud.load_flow(steps))
 
     def advance(self, flow: Any, steps: int) -> int:
         """Take steps, those that were begun if they are as many, and wait for them."""
@@ -160,10 +168,6 @@ class Device:
         self._held.status[:] = status
         self._begun, self._gathered = 0, False
         return int(mended[0])
-
-    def counts(self) -> dict[Status, int]:
-        """Number of particles of each status."""
-        return self._cloud.particles.counts()
 
     def longest(self) -> float:
         """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""

@@ -1,13 +1,14 @@
-"""Compilation before the code is wanted.
+"""Compilation before the code is wanted: of one run, and of all that most runs need.
 
 Where the particle loop has never been compiled and there is a processor to spare, another process compiles it
-while the first compiles some of its stages and reads the flow. Each finds what the other has made where
-compiled code is kept; if the other process fails, or made what is not wanted, the first compiles.
+while the first compiles some of its stages and reads the flow. Each finds in the cache what the other has
+made; if the other process fails, or made what is not wanted, the first compiles.
 """
 
 from __future__ import annotations
 
 import atexit
+import logging
 import pickle
 import subprocess
 import sys
@@ -15,19 +16,23 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from foamprb.cloud.executor import available_threads
-from foamprb.cloud.state import empty
-from foamprb.cloud.tracker import Tracker
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.state import empty, spheres
+from foamprb.cloud.tracker import Models, Tracker
+from foamprb.compile.cache import cache_directory
 
 if TYPE_CHECKING:
     # The process that compiles should soon begin to.
     from foamprb.flow.meshflow import MeshFlow
     from foamprb.flow.series import SeriesFlow
 
-__all__ = ["Ahead"]
+__all__ = ["Precompiler", "compile_all"]
+
+log = logging.getLogger("foamprb")
 
 
-class Ahead:
-    """The process that compiles.
+class Precompiler:
+    """Another process that compiles a loop.
 
     Parameters
     ----------
@@ -58,15 +63,50 @@ class Ahead:
         return self._process is not None
 
     def wait(self) -> None:
-        """Wait until it has ended."""
+        """Wait until the process has ended."""
         if self._process is not None:
             self._process.wait()
 
     def stop(self) -> None:
-        """Let it make nothing more."""
+        """End the process; what it has made so far stays in the cache."""
         if self._process is not None:
             self._process.kill()
             self._process.wait()
+
+
+def compile_all() -> None:
+    """Compile what runs need that select nothing of their own: reading of meshes, all loops, the output.
+
+    Steady and transient flows have loops of their own, and so has each integrator.
+    """
+    import numpy as np
+    import pyvista
+
+    from foamprb.cloud.block import Medium
+    from foamprb.cloud.cloud import Cloud
+    from foamprb.cloud.measures import context, measure
+    from foamprb.cloud.patches import Stick
+    from foamprb.flow.mesh.mesh import build_mesh
+    from foamprb.flow.meshflow import MeshFlow
+    from foamprb.flow.reconstruct import Reconstruction
+    from foamprb.flow.series import SeriesFlow
+
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    cells = {pyvista.CellType.HEXAHEDRON: np.arange(8).reshape(1, 8)}
+    mesh = build_mesh(pyvista.UnstructuredGrid(cells, np.array(corners, dtype=float)))
+    nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
+    steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
+    flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
+    medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
+    for kind, flow in flows.items():
+        for integrator in INTEGRATORS:
+            log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
+            particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
+            models = Models(integrator=integrator)
+            cloud = Cloud(particle, flow, medium, [Stick()] * len(mesh.patches), 1e-3, models, threads=1)
+            cloud.advance(1)
+        measure(context(cloud.particles, flow, medium.mu, cloud.time))
+    log.info("The code is kept in %s", cache_directory())
 
 
 def main() -> None:

@@ -7,12 +7,14 @@ interval, the number of threads. Nothing here depends on how the particles are s
 
 from __future__ import annotations
 
+import logging
 import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,8 +25,10 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.output.checkpoint import Checkpoint
-from foamprb.output.pvd import Entry, files_of, read_pvd
+from foamprb.output.pvd import Entry, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
+
+log = logging.getLogger("foamprb")
 
 Sums: TypeAlias = list[list[float]]
 Fingerprint: TypeAlias = dict[str, str | Sums]
@@ -73,42 +77,41 @@ def save(
     return Checkpoint(cloud.time, header, arrays)
 
 
-def restore(
-    cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, marks: Fingerprint, pvd: Path
-) -> None:
-    """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
+def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> None:
+    """Raise InputError if a run began with other physics.
 
     Parameters
     ----------
+    checkpoint
+        One of the run.
     marks
-        Fingerprint of the cloud.
-    pvd
-        The list of the results that the run goes on with.
-
-    Raises
-    ------
-    InputError
-        If the run began with other physics, or its results are not those of the checkpoint.
+        Fingerprint of the cloud that is to go on from it.
+    where
+        What the message begins with.
     """
-    header = checkpoint.header
-    where = f"{pvd.parent}: cannot go on from t = {checkpoint.time:.12g} s"
-    changed = _differences(header["fingerprint"], marks)
+    changed = _differences(checkpoint.header["fingerprint"], marks)
     if changed:
         more = f", and {len(changed) - _MOST_NAMED} more" if len(changed) > _MOST_NAMED else ""
         raise InputError(
             f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. Undo "
             "the change, or begin anew: -overwrite, or startFrom startTime."
         )
-    listed = read_pvd(pvd) if pvd.exists() else ()
-    earlier = [entry for entry in listed if entry.time <= checkpoint.time]
-    files = [file for entry in earlier for file in files_of(pvd.parent / entry.file)]
-    missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
-    if _stems(earlier) != header["series"] or missing:
-        fault = f"{missing[0]} is missing" if missing else f"{pvd.name} lists other times"
-        raise InputError(
-            f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or begin "
-            "anew: -overwrite, or startFrom startTime."
-        )
+
+
+def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, where: str) -> None:
+    """Put a cloud that has not been advanced, and its functions, into the state that a checkpoint holds.
+
+    Parameters
+    ----------
+    where
+        What a message begins with.
+
+    Raises
+    ------
+    InputError
+        If another version of foamprb, or a run with other cloud functions, wrote the checkpoint.
+    """
+    header = checkpoint.header
     arrays = _part(checkpoint, _CLOUD)
     n = cloud.particles.size
     layout = {name: ((n, *variable.shape), np.dtype(variable.dtype)) for name, variable in VARIABLES.items()}
@@ -120,6 +123,52 @@ def restore(
     functions.restore(_part(checkpoint, _FUNCTIONS))
     cloud.particles = Particles(**arrays)
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
+
+
+def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Entry, ...]:
+    """The snapshots that a run had written when it wrote a checkpoint, after making sure that all are there.
+
+    Parameters
+    ----------
+    pvd
+        The list of the run's snapshots. If it is missing or damaged, the checkpoint tells them as well.
+    where
+        What a message begins with.
+
+    Raises
+    ------
+    InputError
+        If the list has other snapshots, or a file of them is missing or damaged.
+    """
+    expected = checkpoint.header["series"]
+    try:
+        listed = read_pvd(pvd) if pvd.exists() else None
+    except InputError as error:
+        log.warning("%s It is made anew from the checkpoint.", error)
+        listed = None
+    if listed is None:
+        entries = tuple(Entry(time, _existing(pvd.parent / stem).name) for time, stem in expected)
+    else:
+        entries = tuple(entry for entry in listed if entry.time <= checkpoint.time)
+    fault = f"{pvd.name} lists other times" if _stems(entries) != expected else ""
+    try:
+        files = [file for entry in entries for file in files_of(pvd.parent / entry.file)]
+    except ElementTree.ParseError as error:
+        fault, files = f"a .pvtp file is damaged: {error}", []
+    missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
+    fault = f"{missing[0]} is missing" if missing else fault
+    if fault:
+        raise InputError(
+            f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or begin "
+            "anew: -overwrite, or startFrom startTime."
+        )
+    return entries
+
+
+def _existing(stem: Path) -> Path:
+    """The file of a snapshot that one process wrote or several, whichever is there."""
+    pieces = with_ending(stem, ".pvtp")
+    return pieces if pieces.exists() else with_ending(stem, ".vtp")
 
 
 def _stems(entries: Sequence[Entry]) -> list[list[float | str]]:

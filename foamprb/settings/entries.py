@@ -165,36 +165,10 @@ class EllipsoidDrag:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gravity:
-    """``subModels/particleForces/gravity``, which has no entries."""
-
-
-_FLUID_VELOCITY = Only("U", "the flow's velocity")
-
-
-@dataclass(frozen=True, kw_only=True)
-class PressureGradient:
-    """``subModels/particleForces/pressureGradient``."""
-
-    U: Annotated[str, _FLUID_VELOCITY] = "U"
-
-
-@dataclass(frozen=True, kw_only=True)
-class VirtualMass:
-    """``subModels/particleForces/virtualMass``."""
-
-    Cvm: Annotated[float, NonNegative]
-    U: Annotated[str, _FLUID_VELOCITY] = "U"
-
-
-@dataclass(frozen=True, kw_only=True)
 class ParticleForces:
-    """``subModels/particleForces``."""
+    """``subModels/particleForces``, without those of :data:`foamprb.cloud.forces.registry.FORCES`."""
 
     ellipsoidDrag: EllipsoidDrag
-    gravity: Gravity | None = None
-    pressureGradient: PressureGradient | None = None
-    virtualMass: VirtualMass | None = None
 
     @staticmethod
     def instead(word: str) -> Instead | None:
@@ -235,7 +209,7 @@ _NO_MODEL = NoEffect("there is no such model")
 class SubModels:
     """``subModels``, without the coefficients of the patch interaction models."""
 
-    particleForces: ParticleForces
+    particleForces: Dictionary
     injectionModels: Dictionary
     patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
     tractionModel: Annotated[str, Choice(TRACTIONS)] = "roscoe"

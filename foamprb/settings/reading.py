@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from foamprb.cloud.forces.base import Force
+from foamprb.cloud.forces.registry import FORCES
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.grammar import read_dictionary
@@ -75,8 +77,8 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
         sub_models = _section(root, "subModels")
         with mistakes:
             models = read_entries(entries.SubModels, sub_models, also=coefficient_names())
-            forces = models.particleForces
-            gravity = read_gravity(case, region) if forces.gravity else (0.0, 0.0, 0.0)
+            drag, forces = _forces(models.particleForces)
+            gravity = read_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0)
         with mistakes:
             patches, touching = read_patch_interaction(sub_models)
         with mistakes:
@@ -96,14 +98,13 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
         fluid=fluid,
         gravity=gravity,
         traction=models.tractionModel,
-        drag=forces.ellipsoidDrag.type,
+        drag=drag.type,
         injections=injections,
         interaction=models.patchInteractionModel,
         touching=touching,
         patches=patches,
         functions=functions,
-        pressure_gradient=forces.pressureGradient is not None,
-        virtual_mass=forces.virtualMass.Cvm if forces.virtualMass else 0.0,
+        forces=forces,
         region=region,
     )
 
@@ -113,6 +114,20 @@ def _section(dictionary: Dictionary, key: str) -> Dictionary:
     if key not in dictionary.entries:
         raise ReportedError(f"{key} is missing")
     return dictionary.entries[key].dictionary()
+
+
+def _forces(dictionary: Dictionary) -> tuple[entries.EllipsoidDrag, dict[str, Force]]:
+    """Read ``particleForces { ellipsoidDrag { … } gravity; … }``: the drag, and the others by name."""
+    mistakes = Mistakes()
+    with mistakes:
+        drag = read_entries(entries.ParticleForces, dictionary, also=FORCES).ellipsoidDrag
+    forces: dict[str, Force] = {}
+    for name, kind in FORCES.items():
+        with mistakes:
+            if name in dictionary.entries:
+                forces[name] = read_entry(dictionary, name, kind)
+    mistakes.raise_any()
+    return drag, forces
 
 
 def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:

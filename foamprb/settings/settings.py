@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
+from foamprb.cloud.forces.base import Force
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import Injection
 from foamprb.cloud.injection.shapes import Shape
@@ -81,7 +82,7 @@ class InjectionSettings:
 
 @dataclass(frozen=True)
 class Settings:
-    """All that a user asks for; gravity in m/s2, and Cvm, 0 without the virtual mass."""
+    """All that a user asks for; gravity in m/s2, zero if it is not among the forces."""
 
     case: Path
     file: Path
@@ -96,6 +97,5 @@ class Settings:
     touching: Touching
     patches: tuple[Rule, ...]
     functions: Mapping[str, CloudFunction]
-    pressure_gradient: bool = False
-    virtual_mass: float = 0.0
+    forces: Mapping[str, Force]
     region: str = ""

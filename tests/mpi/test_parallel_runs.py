@@ -87,8 +87,10 @@ def after_hook(folder: Path, hook: str) -> Path:
     script = folder / "hooked.py"
     script.write_text(
         "import errno, os, signal, sys\n"
-        "from foamprb import parallel\n"
         "from foamprb.cli import main\n"
+        "from foamprb.parallel import shared_memory\n"
+        "from foamprb.parallel.ranks import Ranks\n"
+        "from foamprb.parallel.worker import Worker\n"
         "rank = int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
         f"{hook}\n"
         "sys.exit(main())\n"
@@ -99,12 +101,12 @@ def after_hook(folder: Path, hook: str) -> Path:
 def at_write(action: str, number: int, when: float = 0.0029) -> str:
     """Let a process do something as it writes its piece of the cloud of 3 ms."""
     return f"""
-write = parallel.Rank.write
-def hooked(self, folder, at, view):
-    if rank == {number} and {when} < at < {when} + 0.0002:
+write = Worker.write
+def hooked(self, folder, time, names):
+    if rank == {number} and {when} < time < {when} + 0.0002:
         {action}
-    return write(self, folder, at, view)
-parallel.Rank.write = hooked
+    return write(self, folder, time, names)
+Worker.write = hooked
 """
 
 
@@ -125,7 +127,10 @@ def clouds(case: Path) -> list[tuple[float, dict[str, np.ndarray]]]:
 
 
 def assert_same(case: Path, truth: Path, functions: bool = True) -> None:
-    """Every table and the last checkpoint byte for byte, and the clouds bit for bit."""
+    """Every table and the last checkpoint byte for byte, and the clouds bit for bit; no file is unlisted."""
+    folder = folder_of(case)
+    listed = {folder / name for name in json.loads((folder / "manifest.json").read_text())["files"]}
+    assert listed == {f for f in folder.rglob("*") if f.is_file()} - {folder / "manifest.json"}
     expected = [f.relative_to(folder_of(truth)) for f in folder_of(truth).rglob("*") if f.is_file()]
     last = max((f for f in expected if f.suffix == ".checkpoint"), key=lambda f: float(f.stem))
     assert functions == any(f.name == "tracks.vtp" for f in expected)
@@ -254,19 +259,19 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     # However small the mesh is, its arrays are shared.
-    done = run(2, case, script=after_hook(tmp_path, "from foamprb import shared; shared._SMALLEST = 100"))
+    done = run(2, case, script=after_hook(tmp_path, "shared_memory._SMALLEST = 100"))
     assert done.returncode == 0, done.stderr
     assert_same(case, alone, functions=False)
 
 
 LANDING = """
-advance = parallel.Root.advance
+advance = Ranks.advance
 def hooked(self, flow, steps):
     mended = advance(self, flow, steps)
     with open({log!r}, "a") as file:
         print(*(int(share.counts[1]) for share in self._shares), file=file)
     return mended
-parallel.Root.advance = hooked
+Ranks.advance = hooked
 """
 
 
@@ -291,8 +296,9 @@ def test_work_is_shared_anew_when_the_particles_of_one_process_land(tmp_path):
 SHARING = """
 import json, pathlib, sys
 import numpy as np
-from foamprb.parallel.ranks import Rank, Root, connect
-from foamprb.run.job import prepare
+from foamprb import prepare
+from foamprb.parallel.launch import connect
+from foamprb.parallel.worker import Worker
 
 def private():
     # Memory that is this process' alone, kB.
@@ -317,21 +323,21 @@ def touch(self):
 def tell(self):
     return *mapping(self.windows.arrays[0]), private() - self.before
 
-Rank.touch, Rank.tell = touch, tell
-member = connect()
-if isinstance(member, Rank):
-    sys.exit(member.serve(()))
-shared = member._published.move(np.full(1 << 24, 1.5))
+Worker.touch, Worker.tell = touch, tell
+found = connect()
+if isinstance(found, Worker):
+    sys.exit(found.serve(()))
+shared = found.published.move(np.full(1 << 24, 1.5))
 job = prepare(sys.argv[1], threads=1)
-member.take(job.cloud)
+job.cloud.hand_over(found)
 # The flow's own arrays and those of its mesh are the shared ones.
-flow, windows = job.cloud.flow, member.rank.windows.arrays.values()
+flow, windows = job.cloud.flow, found.worker.windows.arrays.values()
 for array in (flow.arrays().nodes, flow.arrays().tets, flow.arrays().neighbours):
     assert any(array is window for window in windows)
 assert flow.mesh.tets is flow.arrays().tets
 shared[-1] = 2.5
-print(json.dumps([member.order("touch"), member.order("tell")]))
-member.dismiss(0)
+print(json.dumps([found.order("touch"), found.order("tell")]))
+found.dismiss(0)
 """
 
 

@@ -13,6 +13,7 @@ from pipe_case import results, short_case
 
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.cloud import Cloud
 from foamprb.errors import RunStopped
 from foamprb.output import pvd
 from foamprb.output.background import Writer
@@ -132,7 +133,8 @@ def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypa
 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     job = prepare(case, threads=1)
-    write, begun = pvd.write_snapshot, []
+    write, begun, writers = pvd.write_snapshot, [], []
+    begin, advance = Writer.begin, Cloud.advance
 
     def full(path, cloud):
         begun.append(path.name)
@@ -140,9 +142,19 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
         return write(path, cloud)
 
+    def known(writer, work):
+        begin(writer, work)
+        writers.append(writer)
+
+    def slow(cloud, steps):
+        # As more particles would be: on the way to the third write time the second cloud has time to fail.
+        advance(cloud, steps)
+        if cloud.step > 100:
+            wait_for(lambda: writers[-1]._unfinished.done())
+
     monkeypatch.setattr(pvd, "write_snapshot", full)
-    # As slow as more particles would be.
-    monkeypatch.setattr("foamprb.run.job._next_chunk", lambda *_: time.sleep(0.01) or 1)
+    monkeypatch.setattr(Writer, "begin", known)
+    monkeypatch.setattr(Cloud, "advance", slow)
     with pytest.raises(RunStopped, match=r"No space .*softCloud_000001\.vtp'\. To go on .*-resume"):
         execute(job)
     assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp"]

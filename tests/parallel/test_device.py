@@ -15,7 +15,7 @@ import pytest
 from paths import ROOT
 from pipe_case import copy_of_pipe, edit, fates, results
 
-import foamprb.parallel.team
+import foamprb.parallel.launch
 from foamprb.cli import main
 from foamprb.cloud.state import Particles, Status
 
@@ -123,7 +123,7 @@ class TestSimulated:
 
 class TestRefusal:
     def test_a_missing_package_is_one_message(self, cases, monkeypatch, capsys):
-        monkeypatch.setattr(foamprb.parallel.team, "find_spec", lambda _: None)
+        monkeypatch.setattr(foamprb.parallel.launch, "find_spec", lambda _: None)
         assert main(["run", "-case", str(cases[0]), "-device", "cuda"]) == 1
         error = capsys.readouterr().err
         assert re.fullmatch(

@@ -14,7 +14,7 @@ from pipe_case import copy_of_pipe, message
 
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import VARIABLES, empty
-from foamprb.parallel.ranks import _pack, _unpack, plan_exchange
+from foamprb.parallel.exchange import pack, plan_exchange, unpack
 
 
 @given(st.lists(st.integers(0, 40 * LANES), min_size=2, max_size=9))
@@ -40,7 +40,7 @@ def test_records_hold_every_bit_of_a_particle(random):
         raw = random.integers(0, 256, (7, p._asdict()[name][0].nbytes), dtype=np.uint8)
         p._asdict()[name][...] = raw.view(variable.dtype).reshape(p._asdict()[name].shape)
     rows = np.array([5, 0, 6])
-    found, ids = _unpack(_pack(p, rows, rows + 100))
+    found, ids = unpack(pack(p, rows, rows + 100))
     np.testing.assert_array_equal(ids, rows + 100)
     for array, expected in zip(found, p.take(rows), strict=True):
         assert array.dtype == expected.dtype
@@ -64,7 +64,7 @@ def test_without_mpi4py_there_is_one_message_in_all(number, tmp_path, capsys, mo
 
 def test_mpi4py_is_loaded_only_for_parallel_runs():
     script = (
-        "import sys, foamprb.cli, foamprb.run.job, foamprb.parallel.ranks; print('mpi4py' in sys.modules)"
+        "import sys, foamprb.cli, foamprb.run.loop, foamprb.parallel.launch; print('mpi4py' in sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"

@@ -18,7 +18,8 @@ SCRIPT = """
 import gc, sys
 from pathlib import Path
 from paths import ROOT
-from foamprb.run.job import describe, execute, prepare
+from foamprb import execute, prepare
+from foamprb.run.log import describe
 
 def peak_of_run(case):
     gc.collect()

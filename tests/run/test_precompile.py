@@ -14,7 +14,7 @@ from foamprb.compile import link as compiling
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
-from foamprb.run.precompile import Ahead
+from foamprb.run.precompile import Precompiler
 
 AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))
 
@@ -29,7 +29,7 @@ def transient(mesh):
 
 
 @pytest.mark.parametrize("make", [steady, transient])
-def test_what_was_compiled_ahead_is_what_is_wanted(make, tmp_path, monkeypatch):
+def test_what_was_precompiled_is_what_is_wanted(make, tmp_path, monkeypatch):
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(compiling, "_parts", {})
     monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
@@ -38,11 +38,11 @@ def test_what_was_compiled_ahead_is_what_is_wanted(make, tmp_path, monkeypatch):
     cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
     assert not cloud.compiled
     early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
-    ahead = Ahead(early, type(flow))
-    assert ahead
-    ahead.wait()
+    precompiler = Precompiler(early, type(flow))
+    assert precompiler
+    precompiler.wait()
     assert cloud.compiled
-    assert not Ahead(early, type(flow))
+    assert not Precompiler(early, type(flow))
     cloud.advance(1)
     stats = cloud.tracker._track.stats
     assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
@@ -61,9 +61,9 @@ def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):
     monkeypatch.setattr(compiling, "_parts", {})
     monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
     tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
-    ahead = Ahead(tracker, MeshFlow)
-    ahead.stop()
-    ahead.wait()
+    precompiler = Precompiler(tracker, MeshFlow)
+    precompiler.stop()
+    precompiler.wait()
     assert not tracker.compiled
 
 
@@ -73,8 +73,8 @@ def test_one_that_cannot_start_costs_nothing_but_its_help(tmp_path, monkeypatch)
     monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
     monkeypatch.setattr("foamprb.run.precompile.sys.executable", "/bin/false")
     tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
-    ahead = Ahead(tracker, MeshFlow)
-    ahead.wait()
+    precompiler = Precompiler(tracker, MeshFlow)
+    precompiler.wait()
     assert not tracker.compiled
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import gzip
+import json
 import logging
 import os
 import re
@@ -11,7 +12,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -22,10 +23,10 @@ from pipe_case import END, edit, message, results, short_case, time_folder
 from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.cloud.cloud import Snapshot
+from foamprb.cloud.executor import Threads
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.pvd import Series
-from foamprb.parallel.team import Serial, View
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"
 EARLIER = 0.003
@@ -37,7 +38,7 @@ def truth(tmp_path_factory):
     case = short_case(tmp_path_factory.mktemp("truth"))
     assert main(["run", "-case", str(case), "-threads", "2"]) == 0
     found = results(case)
-    assert len(found) == 9
+    assert len(found) == 10
     assert b",stuck,wall," in found["fates.csv"]
     return found
 
@@ -183,10 +184,15 @@ def test_changed_physics_is_refused_by_name(name, stopped, capsys):
 
 
 def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
-    (stopped / "postProcessing/softCloud/softCloud_000001.vtp").unlink()
-    assert "softCloud_000001.vtp is missing" in message(stopped, capsys, "-resume")
-    (stopped / "postProcessing/softCloud/softCloud.pvd").unlink()
+    folder = stopped / "postProcessing/softCloud"
+    pvd = (folder / "softCloud.pvd").read_text()
+    (folder / "softCloud.pvd").write_text(pvd.replace('timestep="0.002"', 'timestep="0.0025"'))
     assert "lists other times" in message(stopped, capsys, "-resume")
+    (folder / "softCloud.pvd").write_text(pvd)
+    (folder / "softCloud_000001.vtp").unlink()
+    assert "softCloud_000001.vtp is missing" in message(stopped, capsys, "-resume")
+    (folder / "softCloud.pvd").unlink()
+    assert "softCloud_000001.vtp is missing" in message(stopped, capsys, "-resume")
 
 
 def test_a_damaged_checkpoint_costs_one_write_interval(stopped, truth, capsys):
@@ -208,14 +214,16 @@ def test_two_runs_do_not_write_to_one_folder(stopped, capsys):
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
-    begin_write = Serial.begin_write
+    begin_write = Threads.begin_write
 
-    def interrupted(team: Serial, series: Series, cloud: Snapshot, view: View) -> Callable[[], object]:
-        if cloud.step == 100:
+    def interrupted(
+        threads: Threads, series: Series, snapshot: Snapshot, names: Mapping[str, Sequence[str]]
+    ) -> Callable[[], object]:
+        if snapshot.step == 100:
             signal.raise_signal(number)
-        return begin_write(team, series, cloud, view)
+        return begin_write(threads, series, snapshot, names)
 
-    monkeypatch.setattr(Serial, "begin_write", interrupted)
+    monkeypatch.setattr(Threads, "begin_write", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert (
@@ -226,8 +234,8 @@ def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case
     assert results(case) == truth
 
 
-# The first files of the run, its first checkpoint, between, and the table at the end.
-@pytest.mark.parametrize("nth", [1, 3, 5, 6, 20, 31, 37])
+# The first manifest, cloud, list and checkpoint, some between, and the manifest and the table at the end.
+@pytest.mark.parametrize("nth", [1, 3, 5, 7, 8, 26, 41, 49, 51])
 def test_a_full_disk_has_one_message_and_the_run_goes_on(nth, case, truth, capsys, monkeypatch):
     flush, calls = atomic._flush, iter(range(1, 1000))
 
@@ -239,8 +247,11 @@ def test_a_full_disk_has_one_message_and_the_run_goes_on(nth, case, truth, capsy
     monkeypatch.setattr(atomic, "_flush", full)
     text = message(case, capsys)
     assert re.search(r"No space left on device: '.*/softCloud/.*'.*-resume", text)
-    found = {name: data for name, data in results_so_far(case).items() if ".checkpoint" not in name}
-    assert all(truth[name] == data for name, data in found.items() if not name.endswith(".pvd"))
+    found = results_so_far(case)
+    listed = json.loads(found.pop("manifest.json", b'{"files": []}'))["files"]
+    assert found.keys() <= {*listed}
+    final = {name for name in found if not name.endswith((".checkpoint", ".pvd"))}
+    assert all(truth[name] == found[name] for name in final)
     monkeypatch.undo()
     go_on(case)
     assert results(case) == truth

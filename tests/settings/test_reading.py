@@ -12,6 +12,7 @@ import pytest
 from cloud_dictionary import CLOUD, Reader
 from paths import PIPE, ROOT
 
+from foamprb import PressureGradient, VirtualMass
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS, ManualInjection, PatchInjection
 from foamprb.cloud.injection.shapes import SHAPES
@@ -350,9 +351,11 @@ def test_files_that_are_missing(case: Path, read: Reader) -> None:
 
 
 def test_forces(read: Reader) -> None:
-    assert (read().pressure_gradient, read().virtual_mass) == (False, 0.0)
-    settings = read(("ellipsoidDrag;", "ellipsoidDrag; pressureGradient { U U; } virtualMass { Cvm 0.5; }"))
-    assert (settings.pressure_gradient, settings.virtual_mass) == (True, 0.5)
+    assert read().forces == {}
+    settings = read(("ellipsoidDrag;", "virtualMass { Cvm 0.5; } ellipsoidDrag; pressureGradient { U U; }"))
+    # In the order of the registry.
+    both = [("pressureGradient", PressureGradient()), ("virtualMass", VirtualMass(Cvm=0.5))]
+    assert list(settings.forces.items()) == both
     with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
         read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
 

@@ -32,7 +32,7 @@ def measure(integrator: str) -> tuple[float, float]:
 
     import foamprb
     from foamprb.flow.mesh.mesh import build_mesh
-    from foamprb.flow.walk import MeshFlow
+    from foamprb.flow.meshflow import MeshFlow
 
     grid = pyvista.StructuredGrid(*np.meshgrid(*3 * [np.linspace(0.0, 1.0, 9)], indexing="ij"))
     mesh = build_mesh(grid.cast_to_unstructured_grid())

@@ -113,7 +113,7 @@ def measure(n: int, steps: int, repeats: int) -> None:
     for name, flow in flows().items():
         for integrator in STEP:
             cloud = pipe.soft_cloud(flow, n, STEP["paper"], integrator)
-            cloud.hand_over(Device(cloud))
+            cloud.hand_over(Device())
             cloud.advance(10)
             best = 0.0
             for _ in range(repeats):

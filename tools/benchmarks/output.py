@@ -16,8 +16,8 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import MEGA, Options, Row, interleaved, rows, wall_of
+from foamprb.cloud.report import report
 from foamprb.output.vtk import Parts, write_snapshot
-from foamprb.parallel.team import View
 
 COMPRESSORS = ("None", "LZ4", "ZLib")
 
@@ -48,7 +48,7 @@ def measure(options: Options) -> list[Row]:
     cloud.advance(5)
 
     def parts() -> Parts:
-        return View({}, cloud.medium.mu).parts(cloud.time, cloud.particles, cloud.flow)
+        return report(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time, {})
 
     snapshots = list(parts().snapshots)
     whole = {

@@ -15,11 +15,11 @@ WRITES = 10
 
 def with_output(case: str) -> dict[str, float]:
     """What ``foamprb run`` does: its seconds on the wall, and those in which it waited for output."""
-    from foamprb import run
+    from foamprb import execute, prepare
     from foamprb.cloud.cloud import Cloud
     from foamprb.output.background import Writer
 
-    job = run.prepare(case)
+    job = prepare(case)
     waited = 0.0
 
     def timed(function):
@@ -32,10 +32,10 @@ def with_output(case: str) -> dict[str, float]:
 
         return call
 
-    Writer.finish, Cloud.still = timed(Writer.finish), timed(Cloud.still)
+    Writer.finish, Cloud.snapshot = timed(Writer.finish), timed(Cloud.snapshot)
     start = time.perf_counter()
     # Whatever a measurement that was stopped has left there.
-    run.execute(job, "startTime")
+    execute(job, "startTime")
     return {
         "wall": time.perf_counter() - start,
         "waited": waited,
@@ -45,7 +45,7 @@ def with_output(case: str) -> dict[str, float]:
 
 def alone(case: str, steps: int) -> dict[str, float]:
     """The same steps in one call, without output."""
-    from foamprb.run.job import prepare
+    from foamprb import prepare
 
     cloud = prepare(case).cloud
     start = time.perf_counter()

@@ -137,7 +137,7 @@ def table_row() -> tuple[float, float]:
 
 def modules() -> float:
     """Number of modules that a run imports."""
-    text = "import sys, foamprb.run.job; print(len(sys.modules))"
+    text = "import sys, foamprb.run.loop; print(len(sys.modules))"
     return float(
         subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout
     )

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 
 import foamprb
 from foamprb.output.tables import write_table
-from foamprb.run.job import Job
 
 Floats = NDArray[np.float64]
 
@@ -60,7 +59,7 @@ def flow_rates(case: Path) -> dict[str, float]:
 
 
 def send(
-    job: Job,
+    job: foamprb.Job,
     starts: Floats,
     Ca: float | Floats,
     *,
@@ -88,7 +87,7 @@ def send(
     return Fates(np.where(p.status == foamprb.Status.FAILED, "failed", names[p.patch]), D)
 
 
-def speeds(job: Job, starts: Floats) -> Floats:
+def speeds(job: foamprb.Job, starts: Floats) -> Floats:
     """Of the liquid along x at the starts, m/s."""
     x = np.column_stack([np.full(len(starts), RELEASE), starts])
     u, _ = job.cloud.flow.sample(x, job.cloud.flow.locate(x), 0.0)
@@ -101,7 +100,7 @@ def grid(half: float, n_y: int, n_z: int) -> Floats:
     return np.stack(np.meshgrid(y, z, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def random_by_flux(job: Job, n: int, seed: int = 0) -> Floats:
+def random_by_flux(job: foamprb.Job, n: int, seed: int = 0) -> Floats:
     """N random starts in the whole section, each place as likely as the liquid is fast, (n, 2), m."""
     rng = np.random.default_rng(seed)
     candidates = rng.uniform(-HALF_WIDTH, HALF_WIDTH, (8 * n, 2))
@@ -110,7 +109,7 @@ def random_by_flux(job: Job, n: int, seed: int = 0) -> Floats:
 
 
 def edges(
-    job: Job,
+    job: foamprb.Job,
     Ca: Floats,
     *,
     excess: float = 0.0,
@@ -139,7 +138,7 @@ def edges(
     return np.stack(found, axis=1)
 
 
-def by_start(job: Job, n_y: int, n_z: int) -> dict[str, Floats]:
+def by_start(job: foamprb.Job, n_y: int, n_z: int) -> dict[str, Floats]:
     """Columns of the main table: Ca, y, share of the flux at y that a bead carries to each branch, and D.
 
     The shares are over z, between the walls as far as a bead has room, each bead counted by the liquid's

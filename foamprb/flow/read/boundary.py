@@ -3,15 +3,54 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
 from foamprb.dictionary.constraints import NonNegative
+from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary_list
 from foamprb.dictionary.schema import read_entries
 from foamprb.dictionary.tree import Stream, unquoted
-from foamprb.errors import InputError
-from foamprb.flow.read.foamfile import existing
+from foamprb.errors import InputError, suggestion
+
+CONSTRAINTS = frozenset(
+    {
+        "cyclic",
+        "cyclicACMI",
+        "cyclicAMI",
+        "cyclicPeriodicAMI",
+        "cyclicRepeatAMI",
+        "cyclicSlip",
+        "empty",
+        "nonConformalCyclic",
+        "nonConformalProcessorCyclic",
+        "nonuniformTransformCyclic",
+        "overset",
+        "processor",
+        "processorCyclic",
+        "symmetry",
+        "symmetryPlane",
+        "wedge",
+    }
+)
+"""Types of patches on which every field has the same type as the patch."""
+TYPES = CONSTRAINTS | {
+    "internal",
+    "mapped",
+    "mappedExtrudedWall",
+    "mappedInternal",
+    "mappedPatch",
+    "mappedVariableThicknessWall",
+    "mappedWall",
+    "nonConformalError",
+    "patch",
+    "regionCoupledAMI",
+    "regionCoupledWall",
+    "wall",
+}
+"""The types of patches that OpenFOAM has; it takes a patch of any other type for a plain ``patch``."""
+_SIMILAR = 0.84
 
 
 class PatchInfo(NamedTuple):
@@ -26,6 +65,12 @@ class PatchInfo(NamedTuple):
     """The patch that a coupled patch leads to."""
     entries: dict[str, str]
     """All its entries but for dictionaries."""
+
+    @property
+    def groups(self) -> frozenset[str]:
+        """The groups of patches that it is in; its type is one if it is a constraint type or ``wall``."""
+        names = self.entries.get("inGroups", "").partition("(")[2].partition(")")[0].split()
+        return frozenset(map(unquoted, names)) | ({self.type} & (CONSTRAINTS | {"wall"}))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +89,8 @@ def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     Raises
     ------
     InputError
-        The file is missing or broken, a patch occurs twice, or does not begin where the one before it ends.
+        The file is missing or broken, a patch occurs twice, does not begin where the one before it ends, or
+        has a type that is nearly one of OpenFOAM's, such as ``wal``.
     """
     found = existing(path)
     if found is None:
@@ -60,6 +106,8 @@ def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     for dictionary in read_dictionary_list(path, case).items:
         read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
         name = unquoted(dictionary.key)
+        if read.type not in TYPES and get_close_matches(read.type.lower(), TYPES, n=1, cutoff=_SIMILAR):
+            raise dictionary.at("type").mistake(f"is '{read.type}'. {suggestion(read.type, TYPES)}")
         if any(name == patch.name for patch in patches):
             raise dictionary.mistake("occurs twice.")
         if patches and read.startFace != patches[-1].start + patches[-1].faces:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.files import existing, has_both_forms
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.read.field import require_lists
-from foamprb.flow.read.foamfile import existing, header, read_cell_zones
+from foamprb.flow.read.field import Kind
+from foamprb.flow.read.foamfile import header, read_cell_zones
 from foamprb.flow.read.times import choose_times, listed, pick_time
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
@@ -36,12 +38,33 @@ def select_time(case: Path, time: float | str = "latestTime", region: str = "") 
     InputError
         The case has no such time; the message lists those that it has.
     """
+    names = _require_times(case, region)
+    name = names[pick_time(case, names, time)]
+    if time == "latestTime":
+        _require_latest(case, name)
+    if not os.access(case / name, os.R_OK | os.X_OK):
+        raise InputError(f"{case / name}: this folder cannot be read: no permission.")
+    return name
+
+
+def _require_times(case: Path, region: str) -> tuple[str, ...]:
+    """The times; InputError if there is no case, or it has none."""
     require_case(case, region)
     names = available_times(case)
     if not names:
         split = " Only decomposed times are there: run reconstructPar." if is_decomposed(case) else ""
         raise InputError(f"{case}: no time directories; has the solver been run?{split}")
-    return names[pick_time(case, names, time)]
+    return names
+
+
+def _require_latest(case: Path, name: str) -> None:
+    """Raise InputError if a later time is there, but no folder: a file, or a link to nothing."""
+    for path in case.iterdir():
+        if _TIME_NAME.fullmatch(path.name) and not path.is_dir() and float(path.name) > float(name):
+            raise InputError(
+                f"{path}: named like a time, but no folder that can be read. The latest that can is {name}: "
+                f"-time {name}."
+            )
 
 
 def require_case(case: Path, region: str) -> None:
@@ -83,25 +106,40 @@ def is_decomposed(case: Path) -> bool:
     return any(case.glob("processor*/constant")) or any(case.glob("processors*/constant"))
 
 
-def mesh_folder(case: Path, time: str | None, region: str) -> Path:
-    """The ``polyMesh`` folder whose topology holds at the time."""
+def mesh_folder(case: Path, time: str | None, region: str, part: str = "faces") -> Path:
+    """The ``polyMesh`` folder whose faces, or another ``part`` of the mesh, hold at the time."""
     folder = case / "constant" / region / "polyMesh"
     for name in available_times(case):
         changed = case / name / region / "polyMesh"
-        if time is not None and float(name) <= float(time) and existing(changed / "faces") is not None:
+        if time is not None and float(name) <= float(time) and existing(changed / part) is not None:
             folder = changed
     return folder
 
 
-def field_path(folder: Path, field: str, wanted: str = "volVectorField", meaning: str = "a velocity") -> Path:
-    """The file of a field in a time directory; InputError if it is missing, broken, or of another class."""
+def mesh_files(case: Path, time: str | None, region: str) -> tuple[Path, ...]:
+    """The files of the mesh at the time, without ``.gz``: faces and what belongs to them, and points."""
+    folder = mesh_folder(case, time, region)
+    points = mesh_folder(case, time, region, "points")
+    return (points / "points", *(folder / name for name in ("faces", "owner", "neighbour", "boundary")))
+
+
+def notes_of_forms(paths: Iterable[Path]) -> list[str]:
+    """A note for each of the files that is there plain and compressed."""
+    return [
+        f"{path} and {path.name}.gz are both there: the plain file is read, as by OpenFOAM."
+        for path in paths
+        if has_both_forms(path)
+    ]
+
+
+def field_path(folder: Path, field: str, kind: Kind) -> Path:
+    """The file of a field in a time directory; InputError if it is missing or of another class."""
     path = existing(folder / field)
     if path is None:
         raise InputError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
-    kind = header(path).get("class", "(none)")
-    if kind != wanted:
-        raise InputError(f"{path}: the class is {kind}, but {meaning} is a {wanted}.")
-    require_lists(path)
+    found = header(path).get("class", "(none)")
+    if found != kind.name:
+        raise InputError(f"{path}: the class is {found}, but {kind.meaning} is a {kind.name}.")
     return path
 
 
@@ -135,5 +173,4 @@ def select_times(case: Path, selection: str | None = None, region: str = "") -> 
     InputError
         The case cannot be read; or as :func:`choose_times`.
     """
-    select_time(case, region=region)
-    return choose_times(case, available_times(case), selection)
+    return choose_times(case, _require_times(case, region), selection)

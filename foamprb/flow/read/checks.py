@@ -7,18 +7,26 @@ from pathlib import Path
 
 import numpy as np
 
+from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.case import shown
-from foamprb.flow.read.foamfile import existing, header, read_bytes, read_faces, read_labels, require_room
+from foamprb.flow.read.foamfile import header, read_faces, read_labels, require_room
 
 LARGEST = 1e30
 """Of lengths in m and velocities in m/s, so that products of a few of them stay finite."""
 
 
-def require_numbers(values: Floats, source: Path, what: str) -> None:
+def require_numbers(values: Floats, source: Path, what: str, where: str = "number") -> None:
     """Refuse rows that are not finite, or larger than any length or velocity.
+
+    Parameters
+    ----------
+    values, source
+        (n, components), and the file that they are from.
+    what, where
+        What a row is called, and where it is, before its number.
 
     Raises
     ------
@@ -27,9 +35,10 @@ def require_numbers(values: Floats, source: Path, what: str) -> None:
     """
     bad = np.flatnonzero(~(np.abs(values) <= LARGEST).all(axis=1))
     if len(bad):
+        first = " ".join(f"{x:g}" for x in values[bad[0]])
         raise InputError(
-            f"{source}: {len(bad)} of {len(values)} {what} are not finite numbers below {LARGEST:g}; the "
-            f"first is number {bad[0]}."
+            f"{source}: {len(bad)} of {len(values)} {what}s are not finite numbers below {LARGEST:g}; the "
+            f"first is ({first}) {where} {bad[0]}."
         )
 
 

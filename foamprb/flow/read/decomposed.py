@@ -1,8 +1,8 @@
 """Cases that decomposePar has cut into processor folders: put together again, in the original order.
 
-The addressing files tell which point, face, cell and patch of the whole each part holds. Mesh and velocity
-are put together in a temporary folder, in OpenFOAM's binary format, and read from there as any other case is:
-the flow is the same as that of the case before it was cut.
+The addressing files tell which point, face, cell and patch of the whole each part holds. The mesh is put
+together in a temporary folder, in OpenFOAM's binary format, and read from there as that of any other case;
+fields are put together in memory. The flow is the same as that of the case before it was cut.
 """
 
 from __future__ import annotations
@@ -15,15 +15,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import available_times, regions, require_choice, require_region, select_time
+from foamprb.flow.read.case import available_times, regions, require_choice, require_region
 from foamprb.flow.read.describe import CaseInfo, TimeInfo, describe
-from foamprb.flow.read.field import read_field
-from foamprb.flow.read.foamfile import existing, header
+from foamprb.flow.read.field import Field, Kind, read_field
+from foamprb.flow.read.foamfile import header
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.processors import common_times, processors, read_part, whole_patches
-from foamprb.flow.read.reconstructpar import HEADER, checked, write_field, write_mesh, write_zones
+from foamprb.flow.read.reconstructpar import HEADER, checked, join_fields, write_mesh, write_zones
 from foamprb.flow.read.series import read_series
 from foamprb.flow.read.temporary import temporary_folder
 from foamprb.flow.series import SeriesFlow
@@ -89,30 +90,21 @@ class ReconstructedCase:
             for part in self._parts
         ]  # fmt: skip
 
-    def write(self, time: str, velocity: str = "U", gradient: str = "") -> None:
-        """Put the fields at a time together, in place of those at any other time.
+    def field(self, time: str, name: str, kind: Kind) -> Field:
+        """Read a field at a time of all processors, and put it together.
 
         Raises
         ------
         InputError
-            A processor misses one, or its file is broken.
+            A processor misses it, or its file is broken.
         """
-        for name, kind in ((velocity, "volVectorField"), (gradient, "volTensorField")):
-            if name:
-                self._write(time, name, kind)
-
-    def _write(self, time: str, name: str, kind: str) -> None:
-        for other in self.times:
-            (self.folder / other / self.region / name).unlink(missing_ok=True)
         fields = []
         for part, folder in zip(self._parts, self._folders, strict=True):
             path = folder / time / self.region / name
             if existing(path) is None:
                 raise InputError(f"{path}: no such file.")
-            fields.append(checked(read_field(path, kind), part, path))
-        write_field(
-            self.folder / time / self.region / name, kind, self._parts, fields, self._patches, self._ranges
-        )
+            fields.append(checked(read_field(path, kind, self.case), part))
+        return join_fields(self._parts, fields, self._patches, self._ranges)
 
     def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
         """Call a function of a case; its messages then name the case, not the temporary folder."""
@@ -143,9 +135,7 @@ def read_decomposed_case(
         What is missing, broken or inconsistent in the processor folders.
     """
     whole = ReconstructedCase(case, region)
-    name = whole.call(select_time, time, region)
-    whole.write(name, velocity, gradient)
-    return whole.noted(whole.call(read_case, name, velocity, region, gradient))
+    return whole.noted(whole.call(read_case, time, velocity, region, gradient, whole.field))
 
 
 def read_decomposed_series(
@@ -164,11 +154,7 @@ def read_decomposed_series(
         What is missing, broken or inconsistent in the processor folders.
     """
     whole = ReconstructedCase(case, region)
-
-    def prepare(name: str) -> None:
-        whole.write(name, velocity, gradient)
-
-    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, prepare))
+    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, whole.field))
 
 
 def describe_decomposed(case: Path, region: str = "") -> CaseInfo:

@@ -11,7 +11,7 @@ import numpy as np
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.cells import CELL_KINDS
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
-from foamprb.flow.read.case import available_times, fields_of, mesh_folder, regions, require_case
+from foamprb.flow.read.case import available_times, fields_of, mesh_files, mesh_folder, regions, require_case
 from foamprb.flow.read.checks import noted_counts, require_labels
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 
@@ -78,8 +78,9 @@ def describe(case: Path, region: str = "") -> CaseInfo:
     folder = mesh_folder(case, names[-1] if names else None, region)
     patches = read_boundary(folder / "boundary", case)
     require_labels(folder, noted_counts(folder))
-    blocks, messages = read_blocks(case, names[-1] if names else None, (), region, patches=False)
-    raise_first_error(case, messages)
+    files = mesh_files(case, names[-1] if names else None, region)
+    blocks, messages = read_blocks(files, patches=False)
+    raise_first_error(folder, messages)
     grid = blocks["internalMesh"]
     kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)
     cells = {

@@ -1,80 +1,225 @@
-"""OpenFOAM's fields on cells and patches, in double precision."""
+"""OpenFOAM's fields: values at the cells, and an entry for each patch; in double precision.
+
+The long lists are read by :mod:`~foamprb.flow.read.foamfile`; what remains of the text is a dictionary, with
+macros and includes.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+
+from foamprb.dictionary.dimensions import RATE, VELOCITY, Dimensions, described, read_dimensions, written
+from foamprb.dictionary.grammar import parse_dictionary
+from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
-from foamprb.flow.read.foamfile import COMPONENTS, FIELDS, FoamFile
+from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.foamfile import COMPONENTS, FoamFile, ListAt
 
-_NONUNIFORM = re.compile(rb"\bnonuniform\s+List<(?P<inner>%b)>\s*(?=\d)" % b"|".join(COMPONENTS))
-_NO_DICTIONARY = re.compile(rb"\bboundaryField\b(?!\s*\{)")
+
+class Kind(NamedTuple):
+    """A class of fields."""
+
+    name: str
+    """OpenFOAM's."""
+    inner: str
+    """The type of a value."""
+    dimensions: tuple[Dimensions, ...]
+    """Those allowed; any if there is none."""
+    meaning: str
+    """What it is to foamprb, for a message."""
+
+
+VELOCITY_FIELD = Kind("volVectorField", "vector", (VELOCITY,), "a velocity")
+GRADIENT_FIELD = Kind("volTensorField", "tensor", (RATE,), "the gradient of a velocity")
+
+
+class PatchField(NamedTuple):
+    """The entry of a field for a patch, or for all patches whose names match a pattern."""
+
+    type: str
+    pattern: bool = False
+    """Whether the name is a regular expression."""
+    fields: Mapping[str, Floats] = {}
+    """Values by key, ``value`` among them: (n_faces, components), or one row if they are all alike."""
+    words: Mapping[str, str] = {}
+    """All other entries but dictionaries, as text."""
 
 
 class Field(NamedTuple):
-    """A ``volVectorField`` of 3 components, or a ``volTensorField`` of 9."""
+    """A field."""
 
+    path: Path
+    kind: Kind
     cells: Floats
     """(n_cells, components), or (1, components) if they are all alike."""
-    patches: dict[str, tuple[str, Floats | None]]
-    """Type, and the values if there are any: (n_faces, components), or one row if they are all alike."""
+    patches: Mapping[str, PatchField]
+    """By name or pattern, in their order."""
+
+    def of(self, patch: PatchInfo) -> PatchField | None:
+        """The entry that counts for a patch, found as OpenFOAM does.
+
+        That is the one of its name; else the last one named like one of its groups; else the last one whose
+        pattern fits the name.
+        """
+        if patch.name in self.patches and not self.patches[patch.name].pattern:
+            return self.patches[patch.name]
+        backwards = list(self.patches.items())[::-1]
+        for name, entry in backwards:
+            if not entry.pattern and name in patch.groups:
+                return entry
+        for name, entry in backwards:
+            if entry.pattern and _fits(name, patch.name):
+                return entry
+        return None
 
 
-def require_lists(path: Path) -> None:
-    """Raise InputError if a binary field is broken in ways on which VTK's reader crashes.
-
-    Each list must be as long as it says, and ``boundaryField`` a dictionary.
-    """
-    file = FoamFile(path)
-    if file.binary and (bare := _NO_DICTIONARY.search(file.data, file.at)) is not None:
-        file.at = bare.end()
-        raise file.broken("'{'")
-    while file.binary and (match := _NONUNIFORM.search(file.data, file.at)) is not None:
-        file.at = match.end()
-        inner = match["inner"]
-        file.list(COMPONENTS[inner], file.label if inner == b"label" else None)
+_MARK = "List@"
+"""Stands for a list in the text of a field, with the list's number after it."""
+_COMPONENT_TYPES = b"|".join(COMPONENTS)
+_LIST = re.compile(
+    rb"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\]|\\.)*\"|\bnonuniform\s+(?:List<(?P<inner>%b)>\s*)?(?P<size>\d)"
+    % _COMPONENT_TYPES,
+    re.DOTALL,
+)
+# A patch of a constraint type has this type of field whether the file includes these entries or not.
+_CONSTRAINT_TYPES = re.compile(rb'#includeEtc\s+"caseDicts/setConstraintTypes"')
 
 
-def read_field(path: Path, kind: str = "volVectorField") -> Field:
-    """Read a ``volVectorField`` or a ``volTensorField``.
+def read_field(path: Path, kind: Kind, case: Path) -> Field:
+    """Read a field.
+
+    Parameters
+    ----------
+    path
+        The file, plain or compressed.
+    kind
+        Which class and dimensions it must have.
+    case
+        The case, as :func:`~foamprb.dictionary.grammar.read_dictionary` takes it.
 
     Raises
     ------
     InputError
-        The file is missing, broken, or another field.
+        The file is missing, broken, of another class, or has other dimensions.
     """
     file = FoamFile(path)
-    if file.kind != kind:
-        raise InputError(f"{file.path}: the class is {file.kind or '(none)'}, not {kind}.")
-    cells: Floats | None = None
-    patches: dict[str, tuple[str, Floats | None]] | None = None
-    while file.at < len(file.data):
-        key = file.word()
-        if key == b"boundaryField":
-            patches = _patch_fields(file)
-        elif file.take(b"{"):
-            file.dictionary()
-        elif key == b"internalField":
-            cells = file.value()
-        else:
-            file.value()
-    if cells is None or patches is None:
-        raise InputError(
-            f"{file.path}: no internalField of {FIELDS[kind].decode()}s and boundaryField; the file is cut "
-            "short."
-        )
-    return Field(cells, patches)
+    if file.kind != kind.name:
+        found = file.kind or "(none)"
+        raise InputError(f"{file.path}: the class is {found}, but {kind.meaning} is a {kind.name}.")
+    text, lists = _without_lists(file, kind)
+    try:
+        root = parse_dictionary(text, file.path, case)
+        _check_dimensions(root, kind)
+        reader = _Reader(file, kind, lists)
+        cells = reader.field(root.entries["internalField"]) if "internalField" in root.entries else None
+        patches = root.entries.get("boundaryField")
+        if cells is None or patches is None:
+            raise InputError(
+                f"{root.source}: no internalField of {kind.inner}s and boundaryField; the file is cut short."
+            )
+        entries = patches.dictionary().entries
+        of_patches = {unquoted(key): reader.patch(key, entry.dictionary()) for key, entry in entries.items()}
+    except InputError as error:
+        raise InputError(f"{case}: {error}" if str(case) not in str(error) else str(error)) from None
+    return Field(file.path, kind, cells, of_patches)
 
 
-def _patch_fields(file: FoamFile) -> dict[str, tuple[str, Floats | None]]:
-    file.need(b"{")
-    patches = {}
-    while not file.take(b"}"):
-        name = file.word().decode("utf-8", "replace").strip('"')
-        file.need(b"{")
-        entries, fields = file.dictionary()
-        patches[name] = entries.get("type", ""), fields.get("value")
-    return patches
+def _without_lists(file: FoamFile, kind: Kind) -> tuple[str, list[ListAt]]:
+    """The text of a field, a mark in the place of each list of numbers; and the lists."""
+    parts: list[bytes] = []
+    lists: list[ListAt] = []
+    begin = file.at = 0
+    while (match := _LIST.search(file.data, file.at)) is not None:
+        file.at = match.end()
+        if match["size"] is None:
+            continue
+        file.at = match.start("size")
+        inner = match["inner"] or kind.inner.encode()
+        lists.append(file.locate(COMPONENTS[inner], file.label if inner == b"label" else None))
+        lines = file.data.count(b"\n", match.start(), file.at)
+        mark = b"nonuniform %s%d " % (_MARK.encode(), len(lists) - 1)
+        parts += [file.data[begin : match.start()], mark, b"\n" * lines]
+        begin = file.at
+    parts.append(file.data[begin:])
+    text = _CONSTRAINT_TYPES.sub(b"", b"".join(parts))
+    return text.decode("utf-8", "replace"), lists
+
+
+def _check_dimensions(root: Dictionary, kind: Kind) -> None:
+    entry = root.entries.get("dimensions")
+    if entry is None:
+        raise root.missing("dimensions", f"Allowed: {_allowed(kind)}.")
+    found = read_dimensions(entry.text) if isinstance(entry, Stream) else None
+    if found is None:
+        raise entry.mistake(f"is {entry}. Allowed: {_allowed(kind)}.")
+    if kind.dimensions and found not in kind.dimensions:
+        raise entry.mistake(f"is {described(found)}; this should be {kind.meaning}: {_allowed(kind)}.")
+
+
+def _allowed(kind: Kind) -> str:
+    return " or ".join(map(written, kind.dimensions)) or "seven exponents [0 1 -1 0 0 0 0]"
+
+
+class _Reader:
+    """Reads the entries of a field."""
+
+    def __init__(self, file: FoamFile, kind: Kind, lists: Sequence[ListAt]) -> None:
+        self._file, self._lists = file, lists
+        self._components = COMPONENTS[kind.inner.encode()]
+        self._inner = kind.inner
+
+    def field(self, entry: Entry) -> Floats:
+        """Values of the field's own type after ``uniform`` or ``nonuniform``."""
+        found = self._values(entry)
+        if found is None or found.shape[1] != self._components:
+            raise entry.mistake(
+                f"is {entry}. Allowed: uniform and a {self._inner}, or nonuniform and a List<{self._inner}>."
+            )
+        return found
+
+    def patch(self, key: str, dictionary: Dictionary) -> PatchField:
+        """The entry of a patch."""
+        fields: dict[str, Floats] = {}
+        words: dict[str, str] = {}
+        for name, entry in dictionary.entries.items():
+            if name == "value":
+                fields[name] = self.field(entry)
+            elif isinstance(entry, Stream):
+                found = self._values(entry)
+                if found is None:
+                    words[name] = entry.text
+                else:
+                    fields[name] = found
+        if "type" not in words:
+            raise dictionary.missing("type", "Allowed: the name of a boundary condition.")
+        return PatchField(words["type"], key.startswith('"'), fields, words)
+
+    def _values(self, entry: Entry) -> Floats | None:
+        """Values after ``uniform`` or ``nonuniform``, (n, components); None for anything else."""
+        match entry.tokens if isinstance(entry, Stream) else ():
+            case ("nonuniform", mark) if mark.startswith(_MARK):
+                numbers: Floats = self._file.numbers(self._lists[int(mark.removeprefix(_MARK))])
+                return numbers
+            case ("uniform", number):
+                numbers_of_entry = [number]
+            case ("uniform", "(", *numbers_of_entry, ")"):
+                pass
+            case _:
+                return None
+        try:
+            return np.array([numbers_of_entry], dtype=np.float64)
+        except ValueError:
+            return None
+
+
+def _fits(pattern: str, name: str) -> bool:
+    try:
+        return re.fullmatch(pattern, name) is not None
+    except re.error:
+        return False

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import gzip
 import re
-import zlib
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 
@@ -22,10 +21,22 @@ _BLANK = re.compile(rb"(?:\s+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
 _COUNT = re.compile(rb"\d+")
-_NUMBERS = re.compile(rb"[^()]*")
 COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
-FIELDS = {"volVectorField": b"vector", "volTensorField": b"tensor"}
 _MOST_ENTRIES = 1 << 31
+
+
+class ListAt(NamedTuple):
+    """Where a list of numbers stands in a file."""
+
+    n: int
+    components: int
+    dtype: np.dtype[Any]
+    """As it is written in binary; also tells whole numbers from others in ascii."""
+    begin: int
+    end: int
+    binary: bool
+    uniform: bool
+    """Whether one entry stands for all, ``4{7}``."""
 
 
 class FoamFile:
@@ -38,7 +49,6 @@ class FoamFile:
         self.path, self.data = found, read_bytes(found)
         entries = header(found)
         self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
-        self._inner = FIELDS.get(self.kind, b"vector")
         arch = entries.get("arch", "")
         order = ">" if arch.startswith("MSB") else "<"
         self.label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
@@ -47,9 +57,9 @@ class FoamFile:
         self.at = end.end() if end else 0
         self.skip()
 
-    def broken(self, what: str) -> InputError:
-        """The error that something else was expected here; with the line."""
-        line = self.data.count(b"\n", 0, self.at) + 1
+    def broken(self, what: str, at: int | None = None) -> InputError:
+        """The error that something else was expected here, or at another place; with the line."""
+        line = self.data.count(b"\n", 0, self.at if at is None else at) + 1
         return InputError(f"{self.path}: line {line}: {what} expected; the file is broken or cut short.")
 
     def skip(self) -> None:
@@ -96,100 +106,70 @@ class FoamFile:
 
     def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
         """A list (n, components), its number of entries first; in binary of a type, by default a scalar."""
+        return self.numbers(self.locate(components, binary))
+
+    def locate(self, components: int, binary: np.dtype[Any] | None = None) -> ListAt:
+        """As :meth:`list`, but only pass the list, and return where it is."""
         n = self.count()
         dtype = self._scalar if binary is None else binary
-        wide = np.float64 if dtype.kind == "f" else np.int64
         if n == 0:
             self.skip()
             if self.take(b"("):
                 self.need(b")")
-            return np.zeros((0, components), dtype=wide)
-        if not self.binary or self._is_uniform():
+            return ListAt(0, components, dtype, self.at, self.at, False, False)
+        if self.binary and not self._is_uniform():
+            begin = self.data.find(b"(", self.at) + 1
+            end = begin + n * components * dtype.itemsize
+            if begin == 0 or self.data[end : end + 1] != b")":
+                raise self.broken(f"a list of {n} entries in binary")
+            self.at = end + 1
             self.skip()
-            if self.take(b"{"):
-                return np.broadcast_to(self._numbers(1, components, b"}", wide), (n, components))
-            self.need(b"(")
-            return self._numbers(n, components, b")", wide)
-        begin = self.data.find(b"(", self.at) + 1
-        end = begin + n * components * dtype.itemsize
-        if begin == 0 or self.data[end : end + 1] != b")":
-            raise self.broken(f"a list of {n} entries in binary")
-        self.at = end + 1
+            return ListAt(n, components, dtype, begin, end, True, False)
         self.skip()
-        values = np.frombuffer(self.data, dtype, n * components, begin)
-        return values.reshape(n, components).astype(wide)
+        uniform = self.take(b"{")
+        if not uniform:
+            self.need(b"(")
+        begin, closing = self.at, b"}" if uniform else b")"
+        # The last of several components has a bracket of its own.
+        last = re.compile(rb"\)\s*" + re.escape(closing)).search(self.data, begin) if components > 1 else None
+        end = last.start() if last else self.data.find(closing, begin)
+        after = last.end() if last else end + 1
+        if end < 0:
+            raise self.broken(f"'{closing.decode()}'")
+        self.at = after
+        self.skip()
+        return ListAt(n, components, dtype, begin, end, False, uniform)
+
+    def numbers(self, at: ListAt) -> NDArray[Any]:
+        """The numbers (n, components) of a list."""
+        wide = np.float64 if at.dtype.kind == "f" else np.int64
+        if at.n == 0:
+            return np.zeros((0, at.components), dtype=wide)
+        if at.binary:
+            values = np.frombuffer(self.data, at.dtype, at.n * at.components, at.begin)
+            return values.reshape(-1, at.components).astype(wide)
+        n = 1 if at.uniform else at.n
+        text = _NOTE.sub(b" ", self.data[at.begin : at.end]).translate(bytes.maketrans(b"()", b"  "))
+        try:
+            found: NDArray[Any] = np.array(text.split(), dtype=wide)
+        except (ValueError, OverflowError):
+            kind = "numbers" if wide is np.float64 else "whole numbers"
+            raise self.broken(f"a list of {kind}", at.begin) from None
+        if len(found) != n * at.components:
+            raise self.broken(f"a list of {n} entries, not {len(found) / at.components:g},", at.begin)
+        return np.broadcast_to(found.reshape(n, at.components), (at.n, at.components))
 
     def _is_uniform(self) -> bool:
         match = _BLANK.match(self.data, self.at)
         return match is not None and self.data[match.end() : match.end() + 1] == b"{"
 
-    def _numbers(self, n: int, components: int, closing: bytes, wide: type = np.float64) -> NDArray[Any]:
-        """Numbers in ascii up to the closing bracket, which is passed; vectors in brackets of their own."""
-        if components > 1:
-            end = re.compile(rb"\)\s*" + re.escape(closing)).search(self.data, self.at)
-            stop = end.start() if end else self.data.find(closing, self.at)
-            after = end.end() if end else stop + 1
-        else:
-            stop = self.data.find(closing, self.at)
-            after = stop + 1
-        if stop < 0:
-            raise self.broken(f"'{closing.decode()}'")
-        text = _NOTE.sub(b" ", self.data[self.at : stop]).translate(bytes.maketrans(b"()", b"  "))
-        try:
-            values: NDArray[Any] = np.array(text.split(), dtype=wide)
-        except (ValueError, OverflowError):
-            kind = "numbers" if wide is np.float64 else "whole numbers"
-            raise self.broken(f"a list of {kind}") from None
-        if len(values) != n * components:
-            raise self.broken(f"a list of {n} entries, not {len(values) / components:g},")
-        self.at = after
-        self.skip()
-        return values.reshape(n, components)
-
-    def value(self) -> Floats | None:
-        """The field's values after ``uniform`` or ``nonuniform``; None for anything else, which is passed."""
-        found = None
-        wide = COMPONENTS[self._inner]
+    def skip_entry(self) -> None:
+        """Pass what follows a key, up to and with the semicolon."""
         while not self.take(b";"):
-            if self.take(b"nonuniform"):
-                kind = self.word() if not _COUNT.match(self.data, self.at) else b"List<%b>" % self._inner
-                inner = kind[5:-1]
-                if inner not in COMPONENTS:
-                    raise self.broken(f"List<{self._inner.decode()}>")
-                read = self.list(COMPONENTS[inner], self.label if inner == b"label" else None)
-                found = read if inner == self._inner else None
-            elif self.take(b"uniform") and self.take(b"("):
-                found = (
-                    self._numbers(wide, 1, b")").reshape(1, wide) if self._numbers_ahead() == wide else None
-                )
-            elif self.at >= len(self.data):
-                raise self.broken("';'")
-            elif self.data[self.at : self.at + 1] in (b"(", b")", b"{", b"}"):
+            if self.data[self.at : self.at + 1] in (b"(", b")", b"{", b"}"):
                 self.take(self.data[self.at : self.at + 1])
             else:
                 self.word()
-        return found
-
-    def _numbers_ahead(self) -> int:
-        match = _NUMBERS.match(self.data, self.at)
-        return 0 if match is None else len(match[0].split())
-
-    def dictionary(self) -> tuple[dict[str, str], dict[str, Floats | None]]:
-        """Plain entries, and fields, of a dictionary whose opening brace has been passed."""
-        entries: dict[str, str] = {}
-        fields: dict[str, Floats | None] = {}
-        while not self.take(b"}"):
-            key = self.word().decode("utf-8", "replace")
-            if self.take(b"{"):
-                self.dictionary()
-                continue
-            begin = self.at
-            field = self.value()
-            if field is None:
-                entries[key] = self.data[begin : self.at].decode("latin-1").strip().rstrip(";").strip()
-            else:
-                fields[key] = field
-        return entries, fields
 
 
 def require_room(path: Path) -> None:
@@ -276,7 +256,7 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
                 cells = file.labels()
                 file.need(b";")
             else:
-                file.value()
+                file.skip_entry()
         if cells is None:
             raise InputError(f"{file.path}: zone {name} has no cellLabels.")
         zones[name] = cells
@@ -293,18 +273,3 @@ def header(path: Path) -> dict[str, str]:
         return {}
     entries = re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match[1])
     return {key: value.strip().strip('"') for key, value in entries}
-
-
-def existing(path: Path) -> Path | None:
-    """The file itself, or its compressed form."""
-    zipped = path.with_name(path.name + ".gz")
-    return path if path.is_file() else zipped if zipped.is_file() else None
-
-
-def read_bytes(path: Path, limit: int = -1) -> bytes:
-    """The file's bytes, or the first of them, decompressed; raise InputError if it cannot be read."""
-    try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
-            return stream.read(limit)
-    except (OSError, EOFError, zlib.error) as error:
-        raise InputError(f"{path}: cannot be read: {error}.") from None

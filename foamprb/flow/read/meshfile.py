@@ -261,7 +261,7 @@ def _read_mesh(
     """
     whole, named = grid_and_surfaces(read_file(path, time), path)
     grid = solid_cells(whole, path)
-    require_numbers(np.asarray(grid.points, dtype=np.float64), path, "points")
+    require_numbers(np.asarray(grid.points, dtype=np.float64), path, "point")
     moving = _moving(named, velocity)
     for name in np.unique(np.linspace(0, len(among) - 1, min(len(among), _MOST_TIMES)).astype(int)):
         if len(moving) < len(named):
@@ -294,7 +294,7 @@ def _vectors(values: Any, name: str, path: Path) -> Floats:
     vectors = np.asarray(values, dtype=np.float64)
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InputError(f"{path}: array {name} has shape {vectors.shape}, but a velocity has 3 components.")
-    require_numbers(vectors, path, f"values of {name}")
+    require_numbers(vectors, path, "value", f"of {name} at number")
     return vectors
 
 
@@ -305,5 +305,5 @@ def _gradients(grid: Any, name: str, path: Path) -> Floats:
     values = np.asarray(grid.cell_data[name], dtype=np.float64)
     if values.shape != (grid.n_cells, 9):
         raise InputError(f"{path}: array {name} has shape {values.shape}, but a gradient has 9 components.")
-    require_numbers(values, path, f"values of {name}")
+    require_numbers(values, path, "value", f"of {name} at number")
     return values.reshape(-1, 3, 3).transpose(0, 2, 1)

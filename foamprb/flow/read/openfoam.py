@@ -1,18 +1,17 @@
 """The flow of an OpenFOAM case at one of its times.
 
-Mesh and fields come through VTK's OpenFOAM reader, which gives single precision, loses the types of the
-patches and passes over most faults in silence. What it loses is read here from the small dictionaries, and
-what it passes over is checked.
+The mesh comes through VTK's OpenFOAM reader, which gives coordinates in single precision, loses the types of
+the patches and passes over most faults in silence. What it loses is read here from the small dictionaries,
+and what it passes over is checked. Fields are read in double precision, without VTK.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
@@ -20,15 +19,37 @@ from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
-from foamprb.flow.read.case import cell_zones, field_path, mesh_folder, select_time, shown
+from foamprb.flow.read.boundary_values import boundary_values
+from foamprb.flow.read.case import (
+    cell_zones,
+    field_path,
+    mesh_files,
+    mesh_folder,
+    notes_of_forms,
+    select_time,
+    shown,
+)
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
-from foamprb.flow.read.vtk_reader import open_reader, raise_first_error, read_blocks, update, vtk_messages
-from foamprb.flow.reconstruct import VALUELESS, Reconstruction
+from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
+from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
+from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
+from foamprb.flow.reconstruct import Reconstruction
 
 PRECISION_NOTE = (
-    "Coordinates and velocities have passed through single precision in VTK's OpenFOAM reader: a relative "
-    "error of up to 6e-8 each, the coordinates' relative to their distance from the origin."
+    "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
+    "6e-8 of their distance from the origin."
 )
+ReadField: TypeAlias = Callable[[str, str, Kind], Field]
+"""Gives the field of a name, and of a kind, at the time of a name."""
+
+
+class CaseMesh(NamedTuple):
+    """The mesh of a case at a time, and its patches as the case lists them."""
+
+    mesh: Mesh
+    patches: tuple[PatchInfo, ...]
+    notes: tuple[str, ...] = ()
+    """What the user should know."""
 
 
 def read_case(
@@ -37,6 +58,7 @@ def read_case(
     velocity: str = "U",
     region: str = "",
     gradient: str = "",
+    fields: ReadField | None = None,
 ) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
@@ -53,36 +75,35 @@ def read_case(
     gradient
         Name of the velocity's gradient, a ``volTensorField`` in 1/s such as ``grad(U)``, to be taken for the
         gradient at the cells; without a name it is reconstructed from the velocity.
+    fields
+        Reads a field, if it does not come from the case's own time directories.
 
     Raises
     ------
     InputError
         What is missing, broken or inconsistent: the case, the time, the field, the mesh or a patch.
     """
-    mesh, cells, boundary, name = read_fields(Path(case), time, velocity, region)
-    given = _read_gradient(Path(case), name, gradient, region) if gradient else None
-    u, l = Reconstruction(mesh)(cells, boundary, given)
-    notes = [PRECISION_NOTE]
+    case = Path(case)
+    name = select_time(case, time, region)
+    read = fields or fields_of_case(case, region)
+    field = read(name, velocity, VELOCITY_FIELD)
+    whole = read_mesh(case, name, region)
+    cells, boundary = velocities(field, whole)
+    given = gradients(read(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
+    u, l = Reconstruction(whole.mesh)(cells, boundary, given)
+    notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([case / name / region / velocity])]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    return MeshFlow(mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(Path(case), name, region)))
+    return MeshFlow(whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)))
 
 
-def _read_gradient(case: Path, time: str, field: str, region: str) -> Floats:
-    """A gradient (n_cells, 3, 3), l_ij = ∂u_i/∂x_j, 1/s."""
-    path = _gradient_path(case / time / region, field)
-    blocks, messages = read_blocks(case, time, (field,), region, patches=False)
-    raise_first_error(case, messages)
-    return _gradients(blocks, field, path)
+def fields_of_case(case: Path, region: str) -> ReadField:
+    """Make the function that reads a field from the time directories of a case."""
 
+    def read(time: str, name: str, kind: Kind) -> Field:
+        return read_field(field_path(case / time / region, name, kind), kind, case)
 
-def _gradient_path(folder: Path, field: str) -> Path:
-    return field_path(folder, field, "volTensorField", "the gradient of a velocity")
-
-
-def _gradients(blocks: dict[str, Any], field: str, path: Path) -> Floats:
-    """l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i."""
-    return _values(blocks["internalMesh"], field, path, "the cells", 9).reshape(-1, 3, 3).transpose(0, 2, 1)
+    return read
 
 
 def read_fields(
@@ -101,12 +122,25 @@ def read_fields(
         As :func:`read_case`.
     """
     name = select_time(case, time, region)
-    path = field_path(case / name / region, velocity)
-    folder = mesh_folder(case, name, region)
+    field = fields_of_case(case, region)(name, velocity, VELOCITY_FIELD)
+    whole = read_mesh(case, name, region)
+    return whole.mesh, *velocities(field, whole), name
+
+
+def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
+    """Read the mesh that a case has at the time of a name.
+
+    Raises
+    ------
+    InputError
+        What is missing, broken or inconsistent.
+    """
+    folder = mesh_folder(case, time, region)
     patches = read_boundary(folder / "boundary", case)
     noted = noted_counts(folder)
     require_labels(folder, noted)
-    blocks, messages = read_blocks(case, name, (velocity,), region, patches=True)
+    files = mesh_files(case, time, region)
+    blocks, messages = read_blocks(files, patches=True)
     grid = blocks["internalMesh"]
     for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
         if word in noted and noted[word] != found:
@@ -114,7 +148,7 @@ def read_fields(
                 f"{shown(folder / 'owner')}: the header says {word} {noted[word]}, but the mesh that the "
                 f"files describe has {found}; the mesh is damaged."
             )
-    raise_first_error(case, messages)
+    raise_first_error(folder, messages)
     surfaces = []
     for patch in patches:
         block = blocks.get(patch.name)
@@ -124,76 +158,46 @@ def read_fields(
                 f"{0 if block is None else block.n_cells} could be read."
             )
         surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
-    cells, boundary = _velocities(blocks, patches, velocity, path)
-    require_numbers(np.asarray(grid.points, dtype=np.float64), folder / "points", "points")
+    require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
-    return mesh, cells, boundary, name
+    require_patch_shapes(mesh, folder)
+    return CaseMesh(mesh, patches, (*notes_of_forms(files), *notes_of_types(patches)))
 
 
-class VelocityReader:
-    """Reads the velocity of a case at one time after the other, the mesh but once.
+def velocities(field: Field, whole: CaseMesh) -> tuple[Floats, Floats]:
+    """Velocity at the cells (n_cells, 3) and at the boundary faces (n_boundary, 3), m/s.
 
-    Parameters
-    ----------
-    case
-        The case, whose mesh does not change.
-    time
-        Name of a time directory.
-    velocity, region, gradient
-        As :func:`read_case`.
+    Raises
+    ------
+    InputError
+        As many values as the mesh has no cells or a patch no faces; one that is not finite; or as
+        :func:`~foamprb.flow.read.boundary_values.boundary_values`.
     """
-
-    def __init__(self, case: Path, time: str, velocity: str, region: str = "", gradient: str = "") -> None:
-        self._case, self._region, self._velocity, self._gradient = case, region, velocity, gradient
-        self._folder = mesh_folder(case, time, region)
-        self._patches = read_boundary(self._folder / "boundary", case)
-        with vtk_messages():
-            self._reader = open_reader(case, (velocity, gradient), region, patches=True)
-
-    def __call__(self, time: str) -> tuple[Floats, Floats, Floats | None]:
-        """Velocity at the cells (n_cells, 3) and boundary faces (n_boundary, 3), m/s, and the given gradient.
-
-        Raises
-        ------
-        InputError
-            A field is missing, broken or not of the mesh's size.
-        """
-        folder = self._case / time / self._region
-        path = field_path(folder, self._velocity)
-        given = _gradient_path(folder, self._gradient) if self._gradient else None
-        with vtk_messages() as messages:
-            blocks = update(self._reader, time)
-        raise_first_error(self._case, messages)
-        cells, boundary = _velocities(blocks, self._patches, self._velocity, path)
-        l = None if given is None else _gradients(blocks, self._gradient, given)
-        return cells, boundary, l
-
-    def zones(self) -> Mapping[str, NDArray[np.int64]]:
-        """The cells of each zone, by name; InputError if they cannot be read."""
-        return cell_zones(self._folder)
+    cells = _at_cells(field, whole.mesh)
+    boundary = boundary_values(field, whole.patches, whole.mesh, cells)
+    for patch, first in zip(whole.patches, whole.mesh.patch_start, strict=False):
+        rows = boundary[first : first + patch.faces]
+        require_numbers(rows, field.path, "value", f"on patch {patch.name}, face")
+    return cells, boundary
 
 
-def _velocities(
-    blocks: dict[str, Any], patches: Sequence[PatchInfo], velocity: str, path: Path
-) -> tuple[Floats, Floats]:
-    """Velocity at the cells and at the boundary faces, zero on patches that have no values, m/s."""
-    cells = _values(blocks["internalMesh"], velocity, path, "the cells")
-    values = [np.zeros((0, 3))]
-    for patch in patches:
-        if patch.type in VALUELESS:
-            values.append(np.zeros((patch.faces, 3)))
-        else:
-            values.append(_values(blocks[patch.name], velocity, path, f"patch {patch.name}"))
-    return cells, np.concatenate(values)
+def gradients(field: Field, mesh: Mesh) -> Floats:
+    """l_ij = ∂u_i/∂x_j (n_cells, 3, 3), 1/s; OpenFOAM's component 3i + j is ∂u_j/∂x_i.
+
+    Raises
+    ------
+    InputError
+        As many values as the mesh has no cells, or one that is not finite.
+    """
+    return _at_cells(field, mesh).reshape(-1, 3, 3).transpose(0, 2, 1)
 
 
-def _values(block: Any, field: str, path: Path, where: str, components: int = 3) -> Floats:
-    if field not in block.cell_data:
-        raise InputError(f"{path}: no values could be read for {where}; the file is broken or cut short.")
-    values = np.asarray(block.cell_data[field], dtype=np.float64)
-    shape = (block.n_cells, components)
-    if values.shape != shape:
-        raise InputError(f"{path}: {where} have values of shape {values.shape}, not {shape}.")
-    require_numbers(values, path, f"values of {where}")
-    return values
+def _at_cells(field: Field, mesh: Mesh) -> Floats:
+    if len(field.cells) not in (1, mesh.n_cells):
+        raise InputError(
+            f"{field.path}: internalField has {len(field.cells)} values, but there are {mesh.n_cells} cells."
+        )
+    cells = np.ascontiguousarray(np.broadcast_to(field.cells, (mesh.n_cells, field.cells.shape[1])))
+    require_numbers(cells, field.path, "value", "at cell")
+    return cells

@@ -9,12 +9,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.lists import Mask
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times
-from foamprb.flow.read.foamfile import Labels, existing, read_faces, read_labels, read_vectors
+from foamprb.flow.read.foamfile import Labels, read_faces, read_labels, read_vectors
 
 _MESH = ("points", "faces", "owner", "neighbour", "boundary")
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
-from foamprb.flow.read.boundary import PatchInfo
-from foamprb.flow.read.field import Field
-from foamprb.flow.read.foamfile import Labels, existing, read_cell_zones
+from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo
+from foamprb.flow.read.field import Field, PatchField
+from foamprb.flow.read.foamfile import Labels, read_cell_zones
 from foamprb.flow.read.processors import Part
 
 HEADER = """FoamFile
@@ -131,63 +132,72 @@ def _entries(patch: PatchInfo, start: int) -> dict[str, str]:
     return patch.entries | {"nFaces": str(patch.faces), "startFace": str(start)}
 
 
-def checked(field: Field, part: Part, path: Path) -> Field:
-    """The field, if it has the part's size."""
+def checked(field: Field, part: Part) -> Field:
+    """The field of a part, if it fits the part's mesh; InputError otherwise."""
     if len(field.cells) not in (1, len(part.cell_at)):
-        raise InputError(f"{path}: {len(field.cells)} cells, but the mesh there has {len(part.cell_at)}.")
+        raise InputError(
+            f"{field.path}: {len(field.cells)} cells, but the mesh there has {len(part.cell_at)}."
+        )
     for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
         if at < 0:
             continue
-        if patch.name not in field.patches:
-            raise InputError(f"{path}: no boundaryField for the patch {patch.name}.")
-        values = field.patches[patch.name][1]
-        if values is not None and len(values) not in (1, patch.faces):
-            raise InputError(
-                f"{path}: {len(values)} values on patch {patch.name}, which has {patch.faces} faces."
-            )
+        entry = field.of(patch)
+        if entry is None and patch.type not in CONSTRAINTS:
+            raise InputError(f"{field.path}: no boundaryField for the patch {patch.name}.")
+        for key, values in entry.fields.items() if entry is not None else ():
+            if len(values) not in (1, patch.faces):
+                raise InputError(
+                    f"{field.path}: {len(values)} values of {key} on patch {patch.name}, which has "
+                    f"{patch.faces} faces."
+                )
     return field
 
 
-def write_field(
-    path: Path,
-    kind: str,
-    parts: Sequence[Part],
-    fields: Sequence[Field],
-    patches: Sequence[PatchInfo],
-    ranges: Labels,
-) -> None:
-    """Write a field of the whole case; arguments as of :func:`write_mesh`, ``kind`` is the field's class."""
-    components = fields[0].cells.shape[1]
-    of = {3: "vector", 9: "tensor"}[components]
-    cells = np.empty((sum(len(part.cell_at) for part in parts), components))
-    n_faces = 1 + max(int(part.face_at.max(initial=-1)) for part in parts)
-    boundary = np.zeros((int(ranges[-1]), components))
-    valued = np.zeros(len(patches), dtype=bool)
-    types = [""] * len(patches)
+def join_fields(
+    parts: Sequence[Part], fields: Sequence[Field], patches: Sequence[PatchInfo], ranges: Labels
+) -> Field:
+    """Put the fields of parts together.
+
+    Parameters
+    ----------
+    parts, fields
+        The parts of the mesh, and the field of each.
+    patches, ranges
+        The patches of the whole, and at which boundary face each begins, and the last ends.
+    """
+    cells = np.empty((sum(len(part.cell_at) for part in parts), fields[0].cells.shape[1]))
     for part, field in zip(parts, fields, strict=True):
         cells[part.cell_at] = field.cells
-        for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
-            if at < 0:
-                continue
-            types[at], values = field.patches[patch.name]
-            if values is not None and patch.faces:
-                faces = part.face_at[patch.start : patch.start + patch.faces]
-                boundary[faces - (n_faces - len(boundary))] = values
-                valued[at] = True
-    with path.open("wb") as file:
-        file.write(HEADER.format(kind=kind, note="", name=path.name).encode())
-        length = 1 if components == 3 else 0
-        file.write(f"dimensions [0 {length} -1 0 0 0 0];\ninternalField nonuniform List<{of}> ".encode())
-        _write_list(file, cells)
-        file.write(b";\nboundaryField\n{\n")
-        for i, patch in enumerate(patches):
-            file.write(f"{patch.name}\n{{\ntype {types[i]};\n".encode())
-            if valued[i]:
-                file.write(f"value nonuniform List<{of}> ".encode())
-                _write_list(file, boundary[ranges[i] : ranges[i + 1]])
-                file.write(b";\n")
-            file.write(b"}\n")
-        file.write(b"}\n")
+    n_internal = 1 + max(int(part.face_at.max(initial=-1)) for part in parts) - int(ranges[-1])
+    found = {
+        patch.name: _join_patch(parts, fields, index, n_internal + ranges[index : index + 2])
+        for index, patch in enumerate(patches)
+    }
+    entries = {name: entry for name, entry in found.items() if entry is not None}
+    return Field(fields[0].path, fields[0].kind, cells, entries)
+
+
+def _join_patch(
+    parts: Sequence[Part], fields: Sequence[Field], index: int, ends: Labels
+) -> PatchField | None:
+    """The entry of a patch whose faces in the whole lie between two numbers; None if no part has one."""
+    pieces: list[tuple[Labels, PatchField]] = []
+    for part, field in zip(parts, fields, strict=True):
+        for patch in (part.patches[k] for k in np.flatnonzero(part.patch_at == index).tolist()):
+            entry = field.of(patch)
+            if entry is not None:
+                pieces.append((part.face_at[patch.start : patch.start + patch.faces] - ends[0], entry))
+    # A part without faces of the patch may have an entry without values.
+    filled = [piece for piece in pieces if len(piece[0])] or pieces
+    if not filled:
+        return None
+    keys = set.intersection(*(set(entry.fields) for _, entry in filled))
+    values = {}
+    for key in sorted(keys):
+        values[key] = np.empty((int(ends[1] - ends[0]), filled[0][1].fields[key].shape[1]))
+        for faces, entry in filled:
+            values[key][faces] = entry.fields[key]
+    return filled[0][1]._replace(pattern=False, fields=values)
 
 
 def _write(path: Path, kind: str, lists: Sequence[NDArray[Any]], note: str = "") -> None:

@@ -8,13 +8,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import select_times
-from foamprb.flow.read.foamfile import existing
-from foamprb.flow.read.openfoam import PRECISION_NOTE, VelocityReader, read_case, read_fields
+from foamprb.flow.read.case import cell_zones, mesh_folder, notes_of_forms, select_times
+from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD
+from foamprb.flow.read.openfoam import (
+    PRECISION_NOTE,
+    ReadField,
+    fields_of_case,
+    gradients,
+    read_case,
+    read_mesh,
+    velocities,
+)
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
 
@@ -29,7 +38,7 @@ def read_series(
     velocity: str = "U",
     region: str = "",
     gradient: str = "",
-    prepare: Callable[[str], None] | None = None,
+    fields: ReadField | None = None,
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
 
@@ -41,10 +50,8 @@ def read_series(
         As :func:`~foamprb.flow.read.times.choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity, region, gradient
+    velocity, region, gradient, fields
         As :func:`foamprb.flow.read.openfoam.read_case`.
-    prepare
-        Called with the name of a time directory before it is read.
 
     Raises
     ------
@@ -54,21 +61,24 @@ def read_series(
     """
     case = Path(case)
     names = select_times(case, times, region)
-    if prepare is not None:
-        prepare(names[0])
     if len(names) == 1:
-        return read_case(case, names[0], velocity, region, gradient)
+        return read_case(case, names[0], velocity, region, gradient, fields)
     _refuse_moving(case, names, region)
-    mesh, *_ = read_fields(case, names[0], velocity, region)
-    reconstruct = Reconstruction(mesh)
-    reader = VelocityReader(case, names[0], velocity, region, gradient)
+    read_field = fields or fields_of_case(case, region)
+    field = read_field(names[0], velocity, VELOCITY_FIELD)
+    whole = read_mesh(case, names[0], region)
+    velocities(field, whole)
+    reconstruct = Reconstruction(whole.mesh)
+    folder = mesh_folder(case, names[0], region)
 
     def read(name: str) -> tuple[Floats, Floats]:
-        if prepare is not None:
-            prepare(name)
-        return reconstruct(*reader(name))
+        cells, boundary = velocities(read_field(name, velocity, VELOCITY_FIELD), whole)
+        given = gradients(read_field(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
+        return reconstruct(cells, boundary, given)
 
-    return series_of(case, mesh, names, read, period, [PRECISION_NOTE], reader.zones)
+    notes = [PRECISION_NOTE, *whole.notes]
+    notes += notes_of_forms(case / name / region / velocity for name in names)[:1]
+    return series_of(case, whole.mesh, names, read, period, notes, lambda: cell_zones(folder))
 
 
 def series_of(

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.decomposed import is_only_decomposed, read_decomposed_case, read_decomposed_series
+from foamprb.flow.read.decomposed import (
+    describe_decomposed,
+    is_only_decomposed,
+    read_decomposed_case,
+    read_decomposed_series,
+)
+from foamprb.flow.read.describe import describe
 from foamprb.flow.read.division import Division
-from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
+from foamprb.flow.read.meshfile import describe_file, read_mesh_file, read_mesh_series
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.series import read_series
 from foamprb.flow.series import SeriesFlow
 
-__all__ = ["Source", "read_flow", "read_transient_flow"]
+__all__ = ["Source", "describe_source", "read_flow", "read_transient_flow"]
 
 
 @dataclass(frozen=True)
@@ -33,6 +40,20 @@ class Source:
     """How the boundary of a mesh file without named patches is divided."""
     decomposed: bool = False
     """Whether to read the processor folders even if there is a flow beside them."""
+
+
+def describe_source(case: Path, source: Source) -> Sequence[str]:
+    """Lines that say what a case or a mesh file holds.
+
+    Raises
+    ------
+    InputError
+        As :func:`~foamprb.flow.read.openfoam.describe` and :func:`~foamprb.flow.read.meshfile.describe_file`.
+    """
+    if source.file is not None:
+        return describe_file(source.file, source.velocity, source.division)
+    decomposed = source.decomposed or is_only_decomposed(case, source.region)
+    return (describe_decomposed if decomposed else describe)(case, source.region).lines()
 
 
 def read_flow(case: Path, time: float | str = "latestTime", source: Source | None = None) -> MeshFlow:

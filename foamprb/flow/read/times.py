@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -29,9 +30,10 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
     Raises
     ------
     InputError
-        A value or a range selects nothing.
+        A value or a range selects nothing; or two names are the same time.
     """
     if selection is None:
+        _require_different(source, names)
         return tuple(names)
     chosen: set[str] = set()
     for word in re.split(r"[,\s]+", selection.strip()):
@@ -43,7 +45,15 @@ def choose_times(source: Path, names: Sequence[str], selection: str | None = Non
             chosen |= found
         else:
             chosen.add(names[pick_time(source, names, word)])
-    return tuple(name for name in names if name in chosen)
+    result = tuple(name for name in names if name in chosen)
+    _require_different(source, result)
+    return result
+
+
+def _require_different(source: Path, names: Sequence[str]) -> None:
+    for one, other in pairwise(names):
+        if _is_same(float(one), float(other)):
+            raise InputError(f"{source}: {one} and {other} are the same time; remove one.")
 
 
 def _bound(source: Path, word: str, text: str, default: float) -> float:
@@ -63,20 +73,31 @@ def pick_time(source: Path, names: Sequence[str], time: float | str) -> int:
     Raises
     ------
     InputError
-        There is no such time; the message lists those that there are.
+        There is no such time, and the message lists those that there are; or two names mean it, none of
+        which is ``time`` to the letter.
     """
-    if time == "latestTime":
-        return len(names) - 1
+    if time in names:
+        return names.index(str(time))
     try:
-        value = float(time)
+        value = float(names[-1] if time == "latestTime" else time)
     except ValueError:
         raise InputError(
             f"{source}: time '{time}' is neither a number nor latestTime; the times are {listed(names)}."
         ) from None
-    for position, name in enumerate(names):
-        if abs(float(name) - value) <= 1e-9 * max(abs(value), 1e-30):
-            return position
-    raise InputError(f"{source}: no time {time}; the times are {listed(names)}.")
+    found = [position for position, name in enumerate(names) if _is_same(float(name), value)]
+    if not found:
+        raise InputError(f"{source}: no time {time}; the times are {listed(names)}.")
+    if len(found) > 1:
+        one, other = names[found[0]], names[found[1]]
+        raise InputError(
+            f"{source}: {one} and {other} are the same time. Remove one, or say which: -time {one} or "
+            f"-time {other}."
+        )
+    return found[0]
+
+
+def _is_same(a: float, b: float) -> bool:
+    return abs(a - b) <= 1e-9 * max(abs(b), 1e-30)
 
 
 def listed(names: Any) -> str:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import pyvista
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
+from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 
 _MESSAGE = re.compile(
@@ -68,27 +70,58 @@ def vtk_messages() -> Iterator[Messages]:
                 similar.append(message)
 
 
-def read_blocks(
-    case: Path, time: str | None, fields: Sequence[str], region: str, *, patches: bool
-) -> tuple[dict[str, Any], Messages]:
-    """The reader's blocks by name, ``internalMesh`` and the patches; and VTK's messages."""
-    with vtk_messages() as messages:
-        blocks = update(open_reader(case, fields, region, patches=patches), time)
+def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any], Messages]:
+    """Read a mesh.
+
+    Parameters
+    ----------
+    files
+        ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed. VTK is shown
+        links to them in a folder of their own: in that of the case it would look for other times, and prefer
+        a compressed file to a plain one.
+    patches
+        Whether to read the patches.
+
+    Returns
+    -------
+    The reader's blocks by name, ``internalMesh`` and the patches; and VTK's messages.
+
+    Raises
+    ------
+    InputError
+        There is no mesh to be read.
+    """
+    with TemporaryDirectory(prefix="foamprb-mesh-") as name:
+        folder = Path(name) / "constant/polyMesh"
+        folder.mkdir(parents=True)
+        (Path(name) / "system").mkdir()
+        (Path(name) / "system/controlDict").write_text("FoamFile { class dictionary; }\n")
+        paths = [found for file in files if (found := existing(file)) is not None]
+        for path in paths:
+            (folder / path.name).symlink_to(path.resolve())
+        with vtk_messages() as messages:
+            blocks = _update(_open(Path(name), patches=patches))
+    source = paths[-1].parent
+    places = {str(folder / path.name): str(path) for path in paths} | {str(folder): str(source)}
+    messages = Messages(*([_replaced(text, places) for text in texts] for texts in messages))
     grid = blocks.get("internalMesh")
     if grid is None or grid.n_cells == 0:
-        raise_first_error(case, messages)
-        raise InputError(
-            f"{case / 'constant' / region / 'polyMesh'}: no mesh could be read; a file is missing, broken or "
-            "cut short."
-        )
+        raise_first_error(source, messages)
+        raise InputError(f"{source}: no mesh could be read; a file is missing, broken or cut short.")
     return blocks, messages
 
 
-def open_reader(case: Path, fields: Sequence[str], region: str, *, patches: bool) -> Any:
-    """VTK's reader of the mesh, of some fields, and of the patches."""
+def _replaced(text: str, names: Mapping[str, str]) -> str:
+    for name, other in names.items():
+        text = text.replace(name, other)
+    return text
+
+
+def _open(case: Path, *, patches: bool) -> Any:
+    """VTK's reader of the mesh and the patches."""
     reader = vtkOpenFOAMReader()
     # The name only tells the folder; the file need not be there.
-    reader.SetFileName(str(case.resolve() / "case.foam"))
+    reader.SetFileName(str(case / "case.foam"))
     reader.SetCreateCellToPoint(False)
     reader.SetSkipZeroTime(False)
     reader.SetReadZones(False)
@@ -96,32 +129,23 @@ def open_reader(case: Path, fields: Sequence[str], region: str, *, patches: bool
     reader.DisableAllCellArrays()
     reader.DisableAllPointArrays()
     reader.DisableAllLagrangianArrays()
-    for field in fields:
-        reader.SetCellArrayStatus(field, 1)
     for index in range(reader.GetNumberOfPatchArrays()):
         part = reader.GetPatchArrayName(index)
-        of_region = f"/{region}/" if region else ""
-        inner = part.removeprefix(of_region)
-        wanted = part.startswith(of_region) and (
-            inner == "internalMesh" or (patches and inner.startswith("patch/"))
-        )
+        wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
         reader.SetPatchArrayStatus(part, int(wanted))
     return reader
 
 
-def update(reader: Any, time: str | None) -> dict[str, Any]:
-    """The reader's blocks by name at a time."""
-    if time is None:
-        reader.Update()
-    else:
-        reader.UpdateTimeStep(float(time))
+def _update(reader: Any) -> dict[str, Any]:
+    """The reader's blocks by name."""
+    reader.Update()
     return dict(_leaves(pyvista.wrap(reader.GetOutput())))
 
 
-def raise_first_error(case: Path, messages: Messages) -> None:
+def raise_first_error(source: Path, messages: Messages) -> None:
     """Raise VTK's first error, which names the cause; those after it follow from it."""
     if messages.errors:
-        raise InputError(f"{case}: VTK's OpenFOAM reader says: {messages.errors[0]}")
+        raise InputError(f"{source}: VTK's OpenFOAM reader says: {messages.errors[0]}")
 
 
 def _leaves(block: Any) -> Iterator[tuple[str, Any]]:

@@ -25,7 +25,7 @@ from foamprb.flow.read.decomposed import (
     read_decomposed_case,
     read_decomposed_series,
 )
-from foamprb.flow.read.field import read_field
+from foamprb.flow.read.field import VELOCITY_FIELD, read_field
 from foamprb.flow.read.foamfile import read_faces, read_labels, read_vectors
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.processors import processors
@@ -271,7 +271,7 @@ MISTAKES = {
     "no points": (lose(f"{POLY}/points"), r"processor1/constant/polyMesh/points: no such file"),
     "cut short": (
         replace(FIELD, r"(?s)\)\s*;\s*// of the part.*", ""),
-        r"processor1/1e1/U: line \d+: .* expected; the file is broken or cut short",
+        r"processor1/1e1/U, line \d+: 'internalField' has no closing ;",
     ),
     "half of the field": (
         replace(FIELD, r"(?s)boundaryField.*", ""), r"no internalField of vectors and boundaryField",
@@ -407,15 +407,17 @@ def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):
         + np.ones(1).tobytes() + b"); value nonuniform List<vector> 0; }\n"
         b'"(a|b)" { type noSlip; }\n}\n'
     )  # fmt: skip
-    field = read_field(file)
+    field = read_field(file, VELOCITY_FIELD, tmp_path)
     assert field.cells.tolist() == [[1, 2, 3]]
-    assert {name: kind for name, (kind, _) in field.patches.items()} == {
+    assert {name: entry.type for name, entry in field.patches.items()} == {
         "inlet": "flowRateInletVelocity", "outlet": "inletOutlet", "mixed": "mixed", "(a|b)": "noSlip",
     }  # fmt: skip
-    assert field.patches["inlet"][1].tolist() == vectors.tolist()
-    assert field.patches["outlet"][1].tolist() == [[7, 8, 9]]
-    assert len(field.patches["mixed"][1]) == 0
-    assert field.patches["(a|b)"][1] is None
+    assert field.patches["inlet"].fields["value"].tolist() == vectors.tolist()
+    assert field.patches["outlet"].fields["value"].tolist() == [[7, 8, 9]]
+    assert len(field.patches["mixed"].fields["value"]) == 0
+    assert field.patches["mixed"].fields["valueFraction"].tolist() == [[1.0]]
+    assert field.patches["(a|b)"].fields == {}
+    assert [entry.pattern for entry in field.patches.values()] == [False, False, False, True]
 
 
 def test_patches_keep_all_their_entries(written):

@@ -1,8 +1,10 @@
 from __future__ import annotations
 
 import gzip
+import os
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from foamprb.flow.read.case import available_times, select_time
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
 from foamprb.flow.read.openfoam import read_case, read_fields
+from foamprb.flow.read.series import read_series
 
 POLY = "constant/polyMesh/"
 
@@ -50,7 +53,6 @@ def test_a_case_is_read_as_it_was_written(kind, tmp_path):
 
 @pytest.mark.parametrize("lost", [b"internalField", b"boundaryField"])
 def test_a_binary_list_that_has_lost_bytes_has_a_message(lost, tmp_path):
-    """VTK would read beyond the end of the file."""
     write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
     path = tmp_path / "1e1" / "U"
     data = path.read_bytes()
@@ -61,13 +63,12 @@ def test_a_binary_list_that_has_lost_bytes_has_a_message(lost, tmp_path):
 
 
 def test_a_binary_field_without_a_brace_has_a_message(tmp_path):
-    """VTK would crash."""
     write_case(tmp_path, "hexahedra", form=Format(binary=True, label=64, scalar=32))
     path = tmp_path / "1e1" / "U"
     data = path.read_bytes()
     at = data.index(b"{", data.index(b"boundaryField"))
     path.write_bytes(data[:at] + data[at + 1 :])
-    with pytest.raises(InputError, match=r"U: line \d+: '\{' expected"):
+    with pytest.raises(InputError, match=r"1e1/U, line \d+: 'boundaryField' has no closing ;"):
         read_case(tmp_path)
 
 
@@ -101,6 +102,66 @@ def test_compressed_files_are_read(case):
         path.unlink()
     assert np.array_equal(read_fields(case)[1], before)
     assert describe(case).patches[0][:3] == ("floor", "wall", 4)
+
+
+def compressed_beside(path, text):
+    """Put a compressed file of another text beside a file."""
+    with gzip.open(f"{path}.gz", "wt") as file:
+        file.write(text)
+
+
+def test_a_plain_file_counts_before_a_compressed_one(case):
+    """As in OpenFOAM; mesh files and fields alike."""
+    plain = read_case(case)
+    assert not any("both there" in note for note in plain.notes)
+    points, velocity = case / POLY / "points", case / "1e1" / "U"
+    compressed_beside(points, re.sub(r"\((\S+) (\S+) (\S+)\)", r"(1\1 \2 \3)", points.read_text()))
+    compressed_beside(velocity, re.sub(r"\((\S+) (\S+) (\S+)\)", "(1 2 3)", velocity.read_text()))
+    compressed_beside(case / POLY / "boundary", "nonsense")
+    both = read_case(case)
+    for name, a, b in zip(plain.arrays()._fields, plain.arrays(), both.arrays(), strict=True):
+        np.testing.assert_array_equal(a, b, err_msg=name)
+    for path in (points, velocity, case / POLY / "boundary"):
+        assert (
+            f"{path} and {path.name}.gz are both there: the plain file is read, as by OpenFOAM." in both.notes
+        )
+    velocity.unlink()
+    centres = plain.mesh.centres
+    only = read_case(case)
+    assert only.sample(centres, only.locate(centres), 0.0)[0] == pytest.approx(
+        np.tile([1.0, 2.0, 3.0], (8, 1))
+    )
+
+
+def test_two_names_of_one_time(case):
+    shutil.copytree(case / "1e1", case / "10.0")
+    message = r"case: (10\.0 and 1e1|1e1 and 10\.0) are the same time"
+    for time in ("latestTime", 10, "10"):
+        with pytest.raises(InputError, match=message):
+            read_case(case, time)
+    assert select_time(case, "10.0") == "10.0"
+    assert select_time(case, "1e1") == "1e1"
+    assert select_time(case, "0.5") == "0.5"
+    for times in (None, "0.5:", "1e1,10.0"):
+        with pytest.raises(InputError, match=message):
+            read_series(case, times)
+    read_series(case, "0,0.5")
+
+
+@pytest.mark.parametrize("kind", ["link", "file"])
+def test_a_latest_time_that_is_no_folder_is_not_passed_over(kind, case):
+    later = case / "20"
+    later.symlink_to(case / "elsewhere") if kind == "link" else later.write_text("lost")
+    with pytest.raises(InputError, match=r"case/20: named like a time, but no folder .* that can is 1e1"):
+        read_case(case)
+    assert select_time(case, 10) == "1e1"
+
+
+def test_a_time_without_permission_is_not_passed_over(case, monkeypatch):
+    access = os.access
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path).name != "1e1" and access(path, mode))
+    with pytest.raises(InputError, match="1e1: this folder cannot be read: no permission"):
+        read_case(case)
 
 
 def test_times_keep_their_names(case):
@@ -247,10 +308,13 @@ BREAKAGES = {
     "U of another mesh": (rewrite("1e1/U", r"<vector> 8\n\(\n\(", "<vector> 9\n(\n(0 0 0)\n("), "U"),
     "U not finite": (
         rewrite("1e1/U", r"<vector> 8\n\(\n\(\S+", "<vector> 8\n(\n(nan"),
-        "Error reading line .*1e1/U",
+        r"1e1/U: 1 of 8 values are not finite .*; the first is \(nan \S+ \S+\) at cell 0\.",
     ),
     "U a scalar": (rewrite("1e1/U", "volVectorField", "volScalarField"), "the class is volScalarField"),
-    "U without a patch": (rewrite("1e1/U", "lid", "lit"), "no values could be read for patch lid"),
+    "U without a patch": (
+        rewrite("1e1/U", "lid", "lit"),
+        "for patch lid. Did you mean 'lit'",
+    ),
     "owner out of range": (
         rewrite(POLY + "owner", r"\n7\n", "\n9999\n"),
         "owner: face 19 belongs to cell 9999, but there are 8 cells",
@@ -279,7 +343,20 @@ BREAKAGES = {
         rewrite(POLY + "boundary", r"3\n\(\n\s*floor.*\n.*\n", "2\n(\n"),
         "4 of 24 boundary faces",
     ),
-    "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "do not match"),
+    "patch of wrong size": (rewrite(POLY + "boundary", "nFaces 16", "nFaces 15"), "1 of 24 boundary faces"),
+    "patch of a type misspelt": (
+        rewrite(POLY + "boundary", "type wall", "type wal"),
+        r"boundary, line 8: boundary/floor/type is 'wal'\. Did you mean 'wall'\?",
+    ),
+    "a curved symmetry plane": (
+        lambda case: (
+            edit(
+                case / POLY / "boundary", r"sides // a patch\n    \{ type wall", "sides { type symmetryPlane"
+            ),
+            edit(case / "1e1/U", r"sides \{[^}]*\}", "sides { type symmetryPlane; }"),
+        ),
+        "patch sides is of type symmetryPlane, but not planar: its faces turn by up to 180",
+    ),
     "gap between patches": (rewrite(POLY + "boundary", "nFaces 4", "nFaces 3"), "lid starts at face"),
     "patch twice": (rewrite(POLY + "boundary", "lid", "floor"), "line 9: boundary/floor occurs twice"),
     "patch without type": (rewrite(POLY + "boundary", "type patch;", ""), "lid/type is missing"),
@@ -301,6 +378,15 @@ def test_a_broken_case_gives_its_one_message(name, case, capfd):
         read_case(case)
     assert str(case) in str(caught.value)
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_type_of_somebodys_library_is_a_plain_patch(case):
+    """OpenFOAM makes a generic patch of it."""
+    edit(case / POLY / "boundary", "type patch", "type turbineInlet")
+    flow = read_case(case)
+    note = "Patch lid is of type turbineInlet, which is taken for a plain patch, as by OpenFOAM."
+    assert note in flow.notes
+    assert flow.patches[1] == Patch("lid", "turbineInlet")
 
 
 def test_a_damaged_owner_is_found_without_the_note(tmp_path):

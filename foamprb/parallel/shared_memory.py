@@ -1,4 +1,4 @@
-"""Arrays that all processes of a computer see in the same memory, by MPI's shared windows."""
+"""Arrays in memory that all processes of a computer share, by MPI's shared windows."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ class Windows:
     MPI
         The module ``mpi4py.MPI``.
     comm
-        All processes; the first is the root, which fills the arrays.
+        All processes; the first fills the arrays.
     """
 
     def __init__(self, MPI: Any, comm: Any) -> None:
         self._MPI = MPI
         self.node = comm.Split_type(MPI.COMM_TYPE_SHARED)
-        # The first process of each computer, the root first among them.
+        # The first process of each computer, that of all first among them.
         first = self.node.rank == 0
         self.leaders = comm.Split(0 if first else MPI.UNDEFINED)
         self.nodes: int = comm.allreduce(int(first))
@@ -70,7 +70,7 @@ class Windows:
         self.arrays[key] = np.ndarray(shape, dtype, buffer=memory)
 
     def spread(self, key: int) -> None:
-        """Bring what the root has written into an array to all processes."""
+        """Bring what the first process has written into an array to all."""
         self._windows[key].Sync()
         if self.leaders != self._MPI.COMM_NULL:
             flat = self.arrays[key].reshape(-1).view(np.uint8)
@@ -80,7 +80,7 @@ class Windows:
         self._windows[key].Sync()
 
     def free(self, key: int) -> None:
-        """Give the memory of an array back; whoever looks at it afterwards is lost."""
+        """Give the memory of an array back; whoever reads it afterwards is lost."""
         del self.arrays[key]
         window = self._windows.pop(key)
         window.Unlock_all()
@@ -92,12 +92,12 @@ class Windows:
 
 
 class Publisher:
-    """What the root does with the windows: it decides what is in them.
+    """What the first process does with the windows: it decides what is in them.
 
     Parameters
     ----------
     windows
-        Those of the root.
+        Those of the first process.
     order
         Lets all processes call a method of their windows, by its name and arguments.
     """

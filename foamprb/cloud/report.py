@@ -1,0 +1,46 @@
+"""What is written of particles: their measures, as points with arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.measures import (
+    MEASURES,
+    Gradients,
+    contexts,
+    injected,
+    measure,
+    number_of_contexts,
+)
+from foamprb.cloud.state import Particles
+from foamprb.flow.base import Sampled
+from foamprb.output.vtk import Parts, PointCloud
+
+
+def report(
+    particles: Particles,
+    flow: Sampled | Gradients,
+    mu: float,
+    time: float,
+    names: Mapping[str, Sequence[str]],
+    ids: NDArray[np.int64] | None = None,
+) -> Parts:
+    """All measures of the injected among some particles, computed part by part as they are asked for.
+
+    Parameters
+    ----------
+    particles, flow, mu, time, ids
+        As of :func:`foamprb.cloud.measures.context`.
+    names
+        For each array of codes, what the codes 0, 1, … mean.
+    """
+    units = {name: m.unit for name, m in MEASURES.items()}
+
+    def parts() -> Iterator[PointCloud]:
+        for c in contexts(particles, flow, mu, time, ids):
+            yield PointCloud(time, c.particles.x, measure(c), units, names)
+
+    return Parts(time, number_of_contexts(len(injected(particles))), parts())

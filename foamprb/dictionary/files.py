@@ -1,0 +1,59 @@
+"""OpenFOAM's files on disk, plain or compressed: one rule for all of them."""
+
+from __future__ import annotations
+
+import errno
+import gzip
+import zlib
+from pathlib import Path
+
+from foamprb.errors import InputError
+
+__all__ = ["existing", "has_both_forms", "read_bytes"]
+
+
+def existing(path: Path) -> Path | None:
+    """Return the file itself, else its compressed form ``.gz``, else None; as OpenFOAM looks for files.
+
+    Raises
+    ------
+    InputError
+        If the folder may not be read.
+    """
+    for form in (path, _compressed(path)):
+        if _is_file(form):
+            return form
+    return None
+
+
+def has_both_forms(path: Path) -> bool:
+    """Whether there is the file itself and a compressed one beside it, which OpenFOAM does not read then."""
+    return _is_file(path) and _is_file(_compressed(path))
+
+
+def read_bytes(path: Path, limit: int = -1) -> bytes:
+    """Read the file's bytes, or the first of them, decompressed.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
+    try:
+        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
+            return stream.read(limit)
+    except (OSError, EOFError, zlib.error) as error:
+        raise InputError(f"{path}: cannot be read: {error}.") from None
+
+
+def _compressed(path: Path) -> Path:
+    return path.with_name(path.name + ".gz")
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            return False
+        raise InputError(f"{path}: cannot be read: {error.strerror}.") from None

@@ -1,0 +1,224 @@
+"""Velocities on the faces of patches: those of the file, or those that OpenFOAM's boundary conditions make.
+
+A condition without ``value`` in the file gets the value that OpenFOAM computes for it. Where OpenFOAM insists
+on a ``value``, or the condition is not known, there is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import Floats
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo
+from foamprb.flow.read.field import Field, PatchField
+from foamprb.flow.reconstruct import VALUELESS
+
+
+class Faces(NamedTuple):
+    """The faces of a patch."""
+
+    cells: Floats
+    """(n, 3) velocities of the cells behind them, m/s."""
+    normals: Floats
+    """(n, 3), unit, out of the domain."""
+    areas: Floats
+    """(n,), m²."""
+    centres: Floats
+    """(n, 3), m."""
+
+
+Rule = Callable[[PatchField, Faces], Floats | None]
+"""Gives the values (n, 3), m/s, of a boundary condition; None if an entry is missing that it needs."""
+
+
+def boundary_values(field: Field, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:
+    """Velocity at the boundary faces, (n_boundary, 3), m/s; zero on patches that say nothing about it.
+
+    Parameters
+    ----------
+    field
+        The velocity.
+    patches, mesh
+        The patches as the case lists them, and the mesh.
+    cells
+        (n_cells, 3) velocity at the cells, m/s.
+
+    Raises
+    ------
+    InputError
+        The field has no entry for a patch, an entry of a type that does not go with the patch, or one without
+        the values that it needs; or as many values as the patch has no faces.
+    """
+    owner = mesh.owner[mesh.n_internal :]
+    sizes = np.linalg.norm(mesh.boundary_areas, axis=1)
+    normals = mesh.boundary_areas / np.maximum(sizes, 1e-300)[:, None]
+    values = np.zeros((len(owner), 3))
+    for index, patch in enumerate(patches):
+        rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        entry = field.of(patch)
+        _check_type(field, patch, entry)
+        if entry is None or patch.type in VALUELESS or patch.faces == 0:
+            continue
+        faces = Faces(cells[owner[rows]], normals[rows], sizes[rows], mesh.boundary_centres[rows])
+        values[rows] = _values(field, patch, entry, faces)
+    return values
+
+
+def _check_type(field: Field, patch: PatchInfo, entry: PatchField | None) -> None:
+    """Raise InputError if a patch has no entry, or one that OpenFOAM would refuse on a patch of its type."""
+    if entry is None:
+        if patch.type in CONSTRAINTS:
+            return
+        names = [name for name, other in field.patches.items() if not other.pattern]
+        raise InputError(
+            f"{field.path}: no entry of boundaryField for patch {patch.name}. {suggestion(patch.name, names)}"
+        )
+    if patch.type in CONSTRAINTS and patch.type not in (entry.type, entry.words.get("patchType")):
+        raise InputError(
+            f"{field.path}: patch {patch.name} is of type {patch.type}, so the field must be of this type; "
+            f"here it is of type {entry.type}."
+        )
+    if entry.type in CONSTRAINTS and entry.type != patch.type:
+        raise InputError(
+            f"{field.path}: on patch {patch.name} the field is of type {entry.type}, which a patch of type "
+            f"{patch.type} cannot have."
+        )
+
+
+def _values(field: Field, patch: PatchInfo, entry: PatchField, faces: Faces) -> Floats:
+    always, otherwise = RULES.get(entry.type, (False, None))
+    given = entry.fields.get("value")
+    found = given if given is not None and not always else otherwise and otherwise(entry, faces)
+    if found is None:
+        raise InputError(f"{field.path}: {_missing(patch, entry, otherwise)}")
+    if len(found) not in (1, patch.faces):
+        raise InputError(
+            f"{field.path}: {len(found)} values on patch {patch.name}, which has {patch.faces} faces."
+        )
+    return found
+
+
+def _missing(patch: PatchInfo, entry: PatchField, rule: Rule | None) -> str:
+    what = f"patch {patch.name} is of type {entry.type} and has no value"
+    if rule is not None:
+        return f"{what}, nor what OpenFOAM computes it from. Add the entry value, as OpenFOAM writes it."
+    if entry.type in CONDITIONS:
+        return f"{what}. Allowed: value uniform (x y z), or nonuniform and a list."
+    return f"{what}, and {entry.type} is not known. {suggestion(entry.type, [*RULES, *CONDITIONS])}"
+
+
+def _zero(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+    return np.zeros((1, 3))
+
+
+def _of_cells(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+    return faces.cells
+
+
+def _tangential(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+    return faces.cells - _along(faces.cells, faces.normals)
+
+
+def _along(vectors: Floats, normals: Floats) -> Floats:
+    along: Floats = np.einsum("ni,ni->n", vectors, normals)[:, None] * normals
+    return along
+
+
+def _fixed_normal_slip(entry: PatchField, faces: Faces) -> Floats | None:
+    """n (n·fixedValue) and the tangential part of the cells' velocity."""
+    fixed = entry.fields.get("fixedValue")
+    if fixed is None:
+        return None
+    return _along(np.broadcast_to(fixed, faces.cells.shape), faces.normals) + _tangential(entry, faces)
+
+
+def _partial_slip(entry: PatchField, faces: Faces) -> Floats | None:
+    """f times ``refValue``, and 1 − f times the tangential velocity of the cells; f is ``valueFraction``."""
+    f, fixed = entry.fields.get("valueFraction"), entry.fields.get("refValue", np.zeros((1, 3)))
+    return None if f is None else f * fixed + (1.0 - f) * _tangential(entry, faces)
+
+
+def _surface_normal(entry: PatchField, faces: Faces) -> Floats | None:
+    """``refValue`` times the outward normal."""
+    speed = entry.fields.get("refValue")
+    return None if speed is None else speed * faces.normals
+
+
+def _entry(name: str) -> Rule:
+    """The field of an entry, or the constant that it holds."""
+
+    def rule(entry: PatchField, faces: Faces) -> Floats | None:  # noqa: ARG001
+        return entry.fields[name] if name in entry.fields else _constant(entry.words.get(name, ""), 3)
+
+    return rule
+
+
+def _flow_rate(entry: PatchField, faces: Faces) -> Floats | None:
+    """The uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
+    rate = _constant(entry.words.get("volumetricFlowRate", ""), 1)
+    return None if rate is None else -rate / faces.areas.sum() * faces.normals
+
+
+def _rotating_wall(entry: PatchField, faces: Faces) -> Floats | None:
+    """ω a × (x − origin), a the direction of the axis."""
+    origin, axis = (_constant(entry.words.get(key, ""), 3) for key in ("origin", "axis"))
+    omega = _constant(entry.words.get("omega", ""), 1)
+    if origin is None or axis is None or omega is None or not axis.any():
+        return None
+    return omega * np.cross(axis / np.linalg.norm(axis), faces.centres - origin)
+
+
+_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
+
+
+def _constant(text: str, components: int) -> Floats | None:
+    """A number or a vector (1, components), ``constant`` before it or not; None for anything else."""
+    numbers = " ".join([_NUMBER] * components)
+    match = re.fullmatch("(?:constant )?" + (numbers if components == 1 else rf"\( {numbers} \)"), text)
+    return None if match is None else np.array([match.groups()], dtype=np.float64)
+
+
+RULES: dict[str, tuple[bool, Rule]] = {
+    "fixedNormalSlip": (True, _fixed_normal_slip),
+    "flowRateInletVelocity": (False, _flow_rate),
+    "freestream": (False, _entry("freestreamValue")),
+    "freestreamVelocity": (False, _entry("freestreamValue")),
+    "inletOutlet": (False, _entry("inletValue")),
+    "noSlip": (True, _zero),
+    "outletInlet": (False, _entry("outletValue")),
+    "partialSlip": (True, _partial_slip),
+    "rotatingWallVelocity": (False, _rotating_wall),
+    "slip": (True, _tangential),
+    "surfaceNormalFixedValue": (True, _surface_normal),
+    "uniformFixedValue": (False, _entry("uniformValue")),
+    "uniformInletOutlet": (False, _entry("uniformInletValue")),
+    "zeroGradient": (True, _of_cells),
+}
+"""By type of condition: whether OpenFOAM computes the values even where there is a ``value``, and how."""
+
+CONDITIONS = frozenset(
+    """
+    activeBaffleVelocity activePressureForceBaffleVelocity advective atmBoundaryLayerInletVelocity
+    calculated codedFixedValue codedMixed cylindricalInletVelocity directionMixed exprFixedValue
+    exprMixed extrapolatedCalculated fixedGradient fixedInternalValue fixedJump fixedJumpAMI fixedMean
+    fixedMeanOutletInlet fixedNormalInletOutletVelocity fixedProfile fixedValue flowRateOutletVelocity
+    fluxCorrectedVelocity interstitialInletVelocity mapped mappedField mappedFixedInternalValue
+    mappedFixedPushedInternalValue mappedFlowRate mappedVelocityFlux matchedFlowRateOutletVelocity mixed
+    movingWallVelocity outletMappedUniformInlet outletPhaseMeanVelocity
+    pressureDirectedInletOutletVelocity pressureDirectedInletVelocity pressureInletOutletParSlipVelocity
+    pressureInletOutletVelocity pressureInletUniformVelocity pressureInletVelocity
+    pressureNormalInletOutletVelocity pressurePIDControlInletVelocity
+    rotatingPressureInletOutletVelocity scaledFixedValue sliced SRFFreestreamVelocity SRFVelocity
+    SRFWallVelocity supersonicFreestream swirlFanVelocity swirlFlowRateInletVelocity swirlInletVelocity
+    timeVaryingMappedFixedValue translatingWallVelocity turbulentDFSEMInlet turbulentDigitalFilterInlet
+    turbulentInlet uniformFixedGradient uniformJump uniformJumpAMI uniformNormalFixedValue
+    variableHeightFlowRateInletVelocity waveTransmissive waveVelocity
+    """.split()  # noqa: SIM905
+)
+"""The other conditions of OpenFOAM for velocities; they need a ``value``."""

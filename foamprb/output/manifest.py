@@ -1,0 +1,111 @@
+"""The list of the files that a run writes: what a later run may remove, and nothing else."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from foamprb.errors import InputError
+from foamprb.output.atomic import atomic_write
+
+FORMAT = 1
+
+
+class Manifest:
+    """The files that a run has written into its folder, and those that it is about to write.
+
+    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that no
+    file is left unlisted, whatever ends the run; one that is listed may be missing.
+
+    Parameters
+    ----------
+    folder
+        The run's folder.
+    files
+        What is listed at first.
+    """
+
+    def __init__(self, folder: Path, files: Iterable[Path] = ()) -> None:
+        self.folder = folder
+        self.files = set(files)
+        self._expected: frozenset[Path] = frozenset()
+
+    @property
+    def path(self) -> Path:
+        """The file that lists the others, not itself."""
+        return self.folder / "manifest.json"
+
+    @classmethod
+    def read(cls, folder: Path) -> Manifest:
+        """Read what a run has listed in its folder; nothing if there is no manifest.
+
+        Raises
+        ------
+        InputError
+            If the manifest is damaged, or of another format.
+        """
+        manifest = cls(folder)
+        if manifest.path.exists():
+            try:
+                manifest.files = {folder / name for name in _names(json.loads(manifest.path.read_bytes()))}
+            except (OSError, ValueError, RecursionError) as error:
+                raise InputError(f"{manifest.path} is damaged: {error}") from error
+        return manifest
+
+    def expect(self, files: Iterable[Path]) -> None:
+        """List files that are about to be written, in one step.
+
+        Those of the last call that are not there now are no longer listed: they were not written, or are
+        removed.
+
+        Raises
+        ------
+        OSError
+            If the manifest cannot be written.
+        """
+        self.files -= {file for file in self._expected if not file.exists()}
+        self._expected = frozenset(files)
+        self.files |= self._expected
+        names = sorted(file.relative_to(self.folder).as_posix() for file in self.files)
+        with atomic_write(self.path) as temporary:
+            text = json.dumps({"format": FORMAT, "files": names, "sha256": _digest(names)}, indent=1)
+            temporary.write_text(f"{text}\n", encoding="utf-8")
+
+    def remove(self, files: Iterable[Path]) -> None:
+        """Remove listed files, in order, and the folders that are empty then.
+
+        Raises
+        ------
+        OSError
+            If one cannot be removed.
+        """
+        for file in files:
+            file.unlink(missing_ok=True)
+            self.files.discard(file)
+            for parent in file.relative_to(self.folder).parents[:-1]:
+                with suppress(OSError):
+                    (self.folder / parent).rmdir()
+
+
+def _names(content: Any) -> list[str]:
+    """The names that a manifest holds; ValueError if it is not as it was written."""
+    if not isinstance(content, dict) or not isinstance(content.get("files"), list):
+        raise ValueError("it is no list of files.")
+    if content.get("format") != FORMAT:
+        raise ValueError(f"its format is {content.get('format')}, not {FORMAT}.")
+    names: list[str] = content["files"]
+    if content.get("sha256") != _digest(names):
+        raise ValueError("its contents do not match its checksum.")
+    for name in names:
+        path = PurePosixPath(name)
+        if path.is_absolute() or ".." in path.parts or not path.parts:
+            raise ValueError(f"it names '{name}', which is not in its folder.")
+    return names
+
+
+def _digest(names: Iterable[Any]) -> str:
+    return hashlib.sha256("\n".join(map(str, names)).encode()).hexdigest()

@@ -1,0 +1,68 @@
+"""Particles on their way from one process to another, and how many should go where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.state import VARIABLES, Particles
+
+Rows = NDArray[np.int64]
+
+UNEVEN = 1.1
+"""How much longer than with even shares a step may take before particles change hands."""
+RECORD = np.dtype([("id", "i8"), *((name, v.dtype, v.shape) for name, v in VARIABLES.items())])
+"""A particle as it travels: its number in the whole cloud, and its state."""
+
+
+def pack(p: Particles, rows: Rows, ids: Rows) -> NDArray[Any]:
+    """Records of the particles in some rows.
+
+    Parameters
+    ----------
+    ids
+        Their numbers in the whole cloud, as many as ``rows``.
+    """
+    records = np.empty(len(rows), dtype=RECORD)
+    records["id"] = ids
+    for name, array in p._asdict().items():
+        records[name] = array[rows]
+    return records
+
+
+def unpack(records: NDArray[Any]) -> tuple[Particles, Rows]:
+    """The particles of records, and their numbers in the whole cloud."""
+    return Particles(*(records[name].copy() for name in Particles._fields)), records["id"].copy()
+
+
+def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
+    """Who gives how many active particles to whom, so that all have as many; None if it does not pay.
+
+    The processes wait for the one with most blocks of particles, a block taking its time however few are in
+    it.
+
+    Parameters
+    ----------
+    active
+        Number of active particles of each of n processes.
+
+    Returns
+    -------
+    The number that process i gives to process j, (n, n).
+    """
+    n, total = len(active), sum(active)
+    even = np.diff(np.arange(n + 1) * total // n)
+    if -(-max(active) // LANES) <= UNEVEN * -(-int(even.max()) // LANES):
+        return None
+    plan = np.zeros((n, n), dtype=np.int64)
+    surplus = np.asarray(active) - even
+    givers, takers = np.flatnonzero(surplus > 0), np.flatnonzero(surplus < 0)
+    # Both sides laid out in rows of particles: what lies side by side changes hands.
+    given = np.repeat(givers, surplus[givers])
+    taken = np.repeat(takers, -surplus[takers])
+    np.add.at(plan, (given, taken), 1)
+    return plan

@@ -1,0 +1,117 @@
+"""Which executor a command's options select, and how the processes of ``mpirun`` find each other."""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Callable
+from importlib.util import find_spec
+
+from foamprb.cloud.executor import Executor, Threads
+from foamprb.errors import InputError
+from foamprb.parallel.ranks import Ranks
+from foamprb.parallel.signals import caught_signals
+from foamprb.parallel.worker import Worker
+
+_RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
+
+
+def choose_executor(device: str, ranks: Ranks | None) -> Executor:
+    """The executor of a run.
+
+    Parameters
+    ----------
+    device
+        ``"cpu"`` or ``"cuda"``.
+    ranks
+        The processes of ``mpirun``, if there are others than this.
+
+    Raises
+    ------
+    InputError
+        If numba-cuda or a device that it can use is missing, or there are other processes and a device.
+    """
+    if device == "cpu":
+        return ranks or Threads()
+    if ranks is not None:
+        raise InputError("-device cuda does not go together with -parallel: it is for one process.")
+    if find_spec("numba_cuda") is None:
+        raise InputError("-device cuda needs numba-cuda: pip install 'foamprb[cuda]'.")
+    from foamprb.parallel.device import Device
+
+    return Device()
+
+
+def run_together(lead: Callable[[Ranks | None], int]) -> int:
+    """Do something with the other processes of ``mpirun``, if there are any.
+
+    Parameters
+    ----------
+    lead
+        Called on the first process with an executor of all processes, None if there is only one; it returns
+        an exit status. The others meanwhile do what that executor tells them.
+
+    Returns
+    -------
+    The exit status.
+
+    Raises
+    ------
+    InputError
+        On the first process, if mpi4py or MPI is missing: one message is enough.
+    """
+    try:
+        found = connect()
+    except InputError:
+        if _is_first():
+            raise
+        return 1
+    if found is None:
+        return lead(None)
+    if isinstance(found, Worker):
+        # One log is enough.
+        logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
+        with caught_signals() as signals:
+            return found.serve(signals)
+    status = 1
+    try:
+        status = lead(found)
+    finally:
+        found.dismiss(status)
+    return status
+
+
+def connect() -> Ranks | Worker | None:
+    """Find the other processes that ``mpirun`` has started.
+
+    Returns
+    -------
+    The executor of all if this is the first of them; one of the others, which is to :meth:`Worker.serve`;
+    None if there are no others.
+
+    Raises
+    ------
+    InputError
+        If mpi4py or MPI is missing.
+    """
+    try:
+        from mpi4py import MPI
+    except ImportError as error:
+        raise InputError(
+            f"-parallel needs mpi4py ({error}): pip install 'foamprb[mpi]', beside OpenMPI or MPICH."
+        ) from error
+    except RuntimeError as error:
+        raise InputError(f"-parallel: mpi4py finds no MPI ({error}): install OpenMPI or MPICH.") from error
+    if MPI.COMM_WORLD.size == 1:
+        return None
+    worker = Worker(MPI)
+    own = os.sched_getaffinity(0)
+    shared = set().union(*worker.windows.node.allgather(own))
+    threads = min(len(own), max(1, len(shared) // worker.windows.node.size))
+    threads = worker.comm.allreduce(threads, MPI.MIN)
+    return Ranks(worker, threads) if worker.rank == 0 else worker
+
+
+def _is_first() -> bool:
+    """Whether this process is the first that ``mpirun`` has started, as far as can be told without MPI."""
+    return all(os.environ.get(name, "0") == "0" for name in _RANK_VARIABLES)

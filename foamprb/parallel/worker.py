@@ -1,0 +1,247 @@
+"""One process of a run on several, with its share of the particles."""
+
+from __future__ import annotations
+
+import pickle
+import sys
+import time
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.executor import longest_semi_axis
+from foamprb.cloud.measures import injected
+from foamprb.cloud.report import report
+from foamprb.cloud.state import Particles, Status, concatenate, empty
+from foamprb.cloud.tracker import Tracker
+from foamprb.errors import InputError, RankError, RunStopped
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.meshflow import sample_with
+from foamprb.output.vtk import PieceArray, write_snapshot
+from foamprb.parallel.exchange import RECORD, pack, unpack
+from foamprb.parallel.shared_memory import Windows
+from foamprb.settings.libs import load_libs
+
+_LONGEST_NAP = 1e-3
+"""Seconds between two tests whether the others have come, when that takes its time."""
+_COLLECTIVE = ("make", "spread", "free", "distribute", "exchange", "gather")
+"""Orders in the course of which the processes wait for each other: one that fails there takes all down."""
+
+
+class Piece(NamedTuple):
+    """What a process has written of a cloud."""
+
+    file: Path
+    arrays: tuple[PieceArray, ...]
+
+
+class Share(NamedTuple):
+    """What a process tells of its particles."""
+
+    counts: NDArray[np.int64]
+    """Number of each status."""
+    longest: float
+    """Longest semi-axis of those that move or will, m."""
+    mended: int = 0
+    """Number of walks that the tree mended since the last time."""
+
+
+class Answer(NamedTuple):
+    """How a process has carried out an order."""
+
+    value: Any
+    error: Exception | None
+    signals: list[int]
+
+
+class _SharedFlow(NamedTuple):
+    """A flow as the processes that did not read it know it: its kernel, and arrays in shared memory."""
+
+    kernel: Callable[..., Any]
+    arrays: Any
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        return sample_with(self.kernel, self.arrays, points, hosts, t)
+
+
+class Worker:
+    """A process with its share of the particles; what it is ordered to do are its methods by name.
+
+    Parameters
+    ----------
+    MPI
+        The module ``mpi4py.MPI``.
+    """
+
+    def __init__(self, MPI: Any) -> None:
+        self._MPI = MPI
+        self.comm = MPI.COMM_WORLD.Dup()
+        self.rank: int = self.comm.rank
+        self.windows = Windows(MPI, self.comm)
+        self._record = MPI.BYTE.Create_contiguous(RECORD.itemsize).Commit()
+        self.make, self.spread, self.free = self.windows.make, self.windows.spread, self.windows.free
+        self.particles, self.ids = empty(0), np.empty(0, dtype=np.int64)
+        self._whole: Particles | None = None
+        # Of each particle, whether the first process may not know its state.
+        self._fresh = np.empty(0, dtype=bool)
+        self._flow: Any = None
+
+    def carry_out(self, name: str, arguments: tuple[Any, ...], signals: Sequence[int]) -> Answer:
+        """Do what an order says."""
+        try:
+            return Answer(getattr(self, name)(*arguments), None, list(signals))
+        except Exception as error:
+            where = f"rank {self.rank}: "
+            if name in _COLLECTIVE:
+                print(
+                    f"--> foamprb Error : {where}{type(error).__name__}: {error}", file=sys.stderr, flush=True
+                )
+                self.comm.Abort(1)
+            if not isinstance(error, InputError | RunStopped | OSError):
+                error = RankError(f"{where}{type(error).__name__}: {error}", traceback.format_exc())
+            return Answer(None, error, list(signals))
+
+    def prepare(self, libs: Sequence[Path], tracker: bytes, threads: int) -> None:
+        """Compile the loop."""
+        load_libs(libs)
+        self._tracker: Tracker = pickle.loads(tracker)
+        self._threads = threads
+
+    def distribute(self, whole: Particles | None = None) -> None:
+        """Receive a share from the first process, which has the whole: every N-th particle of N processes.
+
+        Injection models release their particles in the order of their numbers, more or less, so that each
+        process then has as many active ones as any other.
+        """
+        size = self.comm.size
+        if self.rank == 0:
+            assert whole is not None
+            self._whole = whole
+            for rank in range(1, size):
+                ids = np.arange(rank, whole.size, size)
+                self.comm.Send([pack(whole, ids, ids), len(ids), self._record], rank)
+            self.ids = np.arange(0, whole.size, size)
+            self.particles = whole.take(self.ids)
+        else:
+            self.particles, self.ids = unpack(self._receive(0))
+        self._fresh = _live(self.particles)
+
+    def share(self) -> Share:
+        """Tell of the particles."""
+        counts = np.bincount(self.particles.status, minlength=len(Status))
+        return Share(counts, longest_semi_axis(self.particles))
+
+    def use_flow(self, flow: bytes) -> None:
+        """Use from now on what the flow's kernels read, with places in shared memory for its arrays."""
+        self._flow = self.windows.find(pickle.loads(flow))
+
+    def exchange(self, plan: NDArray[np.int64]) -> None:
+        """Give active particles away and receive others: ``plan[i, j]`` from process i to j."""
+        sent, received = plan[self.rank], plan[:, self.rank]
+        active = np.flatnonzero(self.particles.status == Status.ACTIVE)
+        # Evenly spread over all: what some cost more than others is then spread as well.
+        rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
+        gone = np.zeros(self.particles.size, dtype=bool)
+        gone[rows] = True
+        outgoing = pack(self.particles, rows, self.ids[rows])
+        incoming = np.empty(received.sum(), dtype=RECORD)
+        self.comm.Alltoallv([outgoing, (sent, _starts(sent)), self._record],
+                            [incoming, (received, _starts(received)), self._record])  # fmt: skip
+        particles, ids = unpack(incoming)
+        self.particles = concatenate([self.particles.take(~gone), particles])
+        self.ids = np.concatenate([self.ids[~gone], ids])
+        self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
+
+    def advance(self, step: int, steps: int) -> Share:
+        """Carry the particles through some steps."""
+        mended = self._tracker.advance(self._flow, self.particles, step, steps, self._threads)
+        return self.share()._replace(mended=mended)
+
+    def gather(self) -> None:
+        """Send what may have changed since the last time to the first process."""
+        rows = np.flatnonzero(self._fresh)
+        changed = pack(self.particles, rows, self.ids[rows])
+        if self._whole is None:
+            self.comm.Send([changed, len(rows), self._record], 0)
+        else:
+            for rank in range(self.comm.size):
+                records = self._receive(rank) if rank else changed
+                for name, array in self._whole._asdict().items():
+                    array[records["id"]] = records[name]
+        self._fresh = _live(self.particles)
+
+    def write(self, folder: Path, time: float, names: Mapping[str, Sequence[str]]) -> Piece | None:
+        """Write the particles into a file of their own, unless there are none and others write some.
+
+        Parameters
+        ----------
+        folder
+            The folder of the pieces of the cloud.
+        time
+            Time of the state, s.
+        names
+            For each array of codes, what the codes 0, 1, … mean.
+        """
+        if self.rank and not len(injected(self.particles)):
+            return None
+        flow, mu = _SharedFlow(self._tracker.kernels["sample"], self._flow), self._tracker.medium.mu
+        file = piece_file(folder, self.rank)
+        return Piece(file, write_snapshot(file, report(self.particles, flow, mu, time, names, self.ids)))
+
+    def serve(self, signals: Sequence[int]) -> int:
+        """Carry out the first process' orders until it sends all home; return the exit status.
+
+        Parameters
+        ----------
+        signals
+            Those that this process has received, which grow.
+        """
+        while True:
+            self.meet()
+            name, arguments = self.comm.bcast(None)
+            if name == "leave":
+                self.leave()
+                return int(arguments[0])
+            answer = self.carry_out(name, arguments, signals)
+            self.meet()
+            self.comm.gather(answer)
+
+    def meet(self) -> None:
+        """Wait for all processes without keeping a processor busy, as MPI itself would."""
+        request, nap = self.comm.Ibarrier(), 1e-6
+        while not request.Test():
+            time.sleep(nap)
+            nap = min(2.0 * nap, _LONGEST_NAP)
+
+    def leave(self) -> None:
+        """Give back what was shared, and end MPI."""
+        for key in sorted(self.windows.arrays):
+            self.windows.free(key)
+        self._record.Free()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        self._MPI.Finalize()
+
+    def _receive(self, source: int) -> NDArray[Any]:
+        status = self._MPI.Status()
+        self.comm.Probe(source, status=status)
+        records = np.empty(status.Get_count(self._record), dtype=RECORD)
+        self.comm.Recv([records, len(records), self._record], source)
+        return records
+
+
+def piece_file(folder: Path, rank: int) -> Path:
+    """The file of a process' piece of a cloud, in the folder of its pieces."""
+    return folder / f"{rank}.vtp"
+
+
+def _live(p: Particles) -> NDArray[np.bool_]:
+    return np.asarray((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+
+
+def _starts(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.cumsum(counts) - counts

@@ -1,0 +1,176 @@
+"""What a person reads of a run: what was selected, how far it has come, and what became of the particles."""
+
+from __future__ import annotations
+
+import logging
+import time as clock
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
+from foamprb.cloud.state import REASONS, Reason, Status
+from foamprb.compile.cache import cache_directory
+from foamprb.run.checks import Groups, doubts, groups
+from foamprb.run.job import Job, shape_stokes_number
+from foamprb.run.results import FAILURES
+
+log = logging.getLogger("foamprb")
+
+_MAX_LISTED_FAILURES = 10
+
+
+def describe(job: Job) -> list[str]:
+    """Log what was selected and what it means; return the warnings, each logged as well."""
+    settings, cloud = job.settings, job.cloud
+    log.info("Selecting tractionModel %s", settings.traction)
+    forces = {"ellipsoidDrag": settings.drag, **settings.forces}
+    named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
+    log.info("Selecting particleForces %s", named)
+    log.info("Selecting solid %s", cloud.models.material)
+    scheme = cloud.models.integrator
+    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)
+    if settings.solution.shape == "auto":
+        number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
+        log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
+                 number, SMALL_STOKES)  # fmt: skip
+    log.info("Selecting patchInteractionModel %s, touching by the %s",
+             settings.interaction, settings.touching)  # fmt: skip
+    for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
+        log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
+    warnings = []
+    for index, injection in enumerate(settings.injections):
+        g = groups(cloud, index)
+        log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
+        _log_groups(g)
+        warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
+    for name, function in settings.functions.items():
+        log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
+    if cloud.particles.size == 0:
+        warnings.append("there is no particle: no injection model releases any.")
+    for warning in warnings:
+        log.warning("%s", warning)
+    return warnings
+
+
+def log_dry_run(job: Job) -> None:
+    """Log what a run would do that is not done."""
+    log.info(
+        "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, job.steps
+    )
+
+
+def _log_groups(g: Groups) -> None:
+    log.info("    particles                %d", g.n)
+    if g.n == 0:
+        return
+    for name, (low, high) in (
+        ("shear rate [1/s]", g.shear_rate),
+        ("capillary number", g.capillary),
+        ("Reynolds number", g.reynolds),
+        ("shape Stokes number", g.stokes),
+        ("deltaT/relaxation time", g.step),
+        ("size/cell size", g.size),
+    ):
+        log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
+
+
+class RunLog:
+    """The log of a run from the start of its time loop on."""
+
+    def __init__(self, job: Job) -> None:
+        self._job = job
+        self._started, self._cpu = clock.perf_counter(), clock.process_time()
+        self._failed = self._failures()
+
+    def begin(self) -> None:
+        """Say that the time loop starts, and whether its loop over the particles has yet to be compiled."""
+        if not self._job.cloud.compiled:
+            log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+        log.info("\nStarting time loop\n")
+
+    def write_time(self) -> None:
+        """Say how many particles are where at a write time, and which have failed since the one before."""
+        cloud = self._job.cloud
+        counts = cloud.particles.counts()
+        log.info("Time = %.12g\n", cloud.time)
+        log.info("Cloud: %s", self._job.settings.name)
+        log.info("    Current number of parcels       = %d", counts[Status.ACTIVE])
+        log.info("    injected                        = %d", cloud.particles.size - counts[Status.PENDING])
+        log.info("    stuck, escaped, failed          = %d, %d, %d",
+                 counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
+        self._log_clocks()
+        self._log_failures()
+
+    def end(self, finished: bool) -> None:
+        """Say what became of the particles, where the results are, and whether the run has ``finished``."""
+        self._log_fates()
+        log.info("\nResults in %s", self._job.folder)
+        self._log_clocks()
+        if finished:
+            log.info("End")
+
+    def _failures(self) -> NDArray[np.int64]:
+        """Numbers of the particles that have failed."""
+        return np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
+
+    def _log_clocks(self) -> None:
+        cpu, wall = clock.process_time() - self._cpu, clock.perf_counter() - self._started
+        log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
+
+    def _log_failures(self) -> None:
+        """Name the particles that have failed since the last time, as long as there are few in all."""
+        p, failed = self._job.cloud.particles, self._failures()
+        room = max(0, _MAX_LISTED_FAILURES - len(self._failed))
+        for k in np.setdiff1d(failed, self._failed)[:room]:
+            log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
+                        k, p.t[k], *p.x[k], REASONS[Reason(p.reason[k])])  # fmt: skip
+        self._failed = failed
+
+    def _log_fates(self) -> None:
+        """Say how many particles met which fate, by patch; the numbers sum to those injected."""
+        job = self._job
+        p = job.cloud.particles
+        counts = p.counts()
+        log.info("Fate of the particles")
+        log.info("    %-24s %10d", "injected", p.size - counts[Status.PENDING])
+        for status in (Status.ACTIVE, Status.STUCK, Status.ESCAPED, Status.FAILED):
+            log.info("    %-24s %10d", status.name.lower(), counts[status])
+            for index, name in enumerate(job.patch_names):
+                at = np.count_nonzero((p.status == status) & (p.patch == index))
+                if at:
+                    log.info("        %-20s %10d", name, at)
+        if counts[Status.PENDING]:
+            log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
+        if job.cloud.recovered:
+            log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
+        if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
+            log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / FAILURES)
+
+
+@contextmanager
+def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
+    """A progress bar on a terminal, nothing elsewhere.
+
+    Parameters
+    ----------
+    start, end
+        Times of the run, s.
+
+    Yields
+    ------
+    What is to be told the time, s, now and then.
+    """
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("{task.completed:g} of {task.total:g} s"),
+        BarColumn(None),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task("", total=end - start)
+        yield lambda t: progress.update(task, completed=min(t, end) - start)

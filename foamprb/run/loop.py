@@ -1,0 +1,161 @@
+"""The time loop: begin, advance, write, end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.executor import Executor
+from foamprb.cloud.measures import context
+from foamprb.cloud.state import Status
+from foamprb.errors import RunInterrupted, RunStopped
+from foamprb.parallel.signals import caught_signals
+from foamprb.run.job import Job
+from foamprb.run.log import RunLog, progress_bar
+from foamprb.run.results import FAILURES, HOW_TO_GO_ON, Results, open_results
+from foamprb.settings.settings import StartFrom
+
+
+def execute(
+    job: Job,
+    start_from: StartFrom | None = None,
+    stop: Callable[[], bool] = lambda: False,
+    executor: Executor | None = None,
+) -> dict[Status, int]:
+    """Advance a cloud to the end time, or until no particle moves, and write its results.
+
+    A checkpoint is written with the results of every write time, after them. The particles go on while the
+    files are written, until the next are due. Whatever ends a run, another one started from ``latestTime``
+    ends with the same state and the same files, bit for bit, as a run never interrupted.
+
+    Parameters
+    ----------
+    job
+        A cloud that has not been advanced.
+    start_from
+        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to go on from the last
+        checkpoint, if there is one. By default what the settings say. If they say nothing, a run begins anew,
+        but not in place of an unfinished one.
+    stop
+        Asked every second or so: true to write a checkpoint and end the run.
+    executor
+        Who carries the particles; by default the threads of this process.
+
+    Returns
+    -------
+    Number of particles of each status.
+
+    Raises
+    ------
+    InputError
+        If the run cannot go on from its checkpoints, or the user must say whether it shall; if another run is
+        writing to the same folder.
+    RunStopped
+        If ``stop`` said so, too many particles failed, or results could not be written.
+    """
+    with open_results(job) as results:
+        results.begin(start_from or job.settings.solution.startFrom)
+        log = RunLog(job)
+        _make_ready(job, executor)
+        log.begin()
+        with progress_bar(job.cloud.start, job.settings.solution.endTime) as show:
+            while _goes_on(job):
+                if not _advance(job, results, stop, show):
+                    results.save()
+                    raise RunStopped(f"stopped at t = {job.cloud.time:.12g} s. {HOW_TO_GO_ON}")
+                results.write()
+                log.write_time()
+        results.end()
+        failing = _failing(job)
+        log.end(finished=not failing)
+    if failing:
+        raise RunStopped(f"{failing} The results until then are in {job.folder}.")
+    return job.cloud.particles.counts()
+
+
+def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | None = None) -> None:
+    """Execute a job as :func:`execute`; Ctrl-C or SIGTERM to any of its processes stops it in order.
+
+    Raises
+    ------
+    RunInterrupted
+        If a signal was the reason to stop.
+    InputError, RunStopped
+        As of :func:`execute`.
+    """
+    with caught_signals() as caught:
+        try:
+            execute(job, start_from, lambda: bool(caught or executor.signals), executor)
+        except RunStopped as stopped:
+            signals = [*caught, *executor.signals]
+            if not signals:
+                raise
+            raise RunInterrupted(str(stopped), signals[0]) from stopped
+
+
+def _make_ready(job: Job, executor: Executor | None) -> None:
+    """Hand the particles over, and compile what is needed beside the loop."""
+    cloud = job.cloud
+    # Code may not be linked in two threads at once, and the thread that writes measures the particles.
+    first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
+    first.status[:] = Status.ACTIVE
+    context(first, cloud.flow, cloud.medium.mu, cloud.time)
+    if executor is not None:
+        cloud.hand_over(executor)
+    if job.precompiler:
+        cloud.make_ready()
+        job.precompiler.wait()
+
+
+def _goes_on(job: Job) -> bool:
+    """Whether there are steps left, particles to take them, and not too many that failed."""
+    cloud = job.cloud
+    return cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job)
+
+
+def _failing(job: Job) -> str:
+    """Say that too many particles have failed; nothing if not."""
+    p, most = job.cloud.particles, job.settings.solution.maxFailedFraction
+    counts = p.counts()
+    injected = p.size - counts[Status.PENDING]
+    if counts[Status.FAILED] <= most * injected:
+        return ""
+    return (
+        f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
+        f"than maxFailedFraction {most:g} allows; {job.folder / FAILURES} says why."
+    )
+
+
+def _moving(cloud: Cloud) -> bool:
+    counts = cloud.counts()
+    return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
+
+
+def _advance(job: Job, results: Results, stop: Callable[[], bool], show: Callable[[float], None]) -> bool:
+    """Advance to the next write time; return whether it was reached before ``stop`` said so.
+
+    The executor may then begin with the steps that come after it.
+    """
+    cloud, target = job.cloud, job.next_write(job.cloud.step)
+    while cloud.step < target and _moving(cloud):
+        results.check()
+        if stop():
+            return False
+        until = results.next_observation(target)
+        cloud.advance(_steps_at_once(cloud, until))
+        if cloud.step == until:
+            results.observe()
+        show(cloud.time)
+    cloud.step = target
+    if target < job.steps and _moving(cloud):
+        cloud.begin(_steps_at_once(cloud, results.next_observation(job.next_write(target))))
+    return True
+
+
+def _steps_at_once(cloud: Cloud, target: int) -> int:
+    """Number of steps on the way to a target after which the run looks up, for a signal for one."""
+    counts = cloud.counts()
+    work = counts[Status.PENDING] + counts[Status.ACTIVE]
+    return min(target - cloud.step, max(1, cloud.executor.at_once // work))

@@ -1,0 +1,300 @@
+"""What a run leaves in its folder: snapshots, tables, checkpoints, and the manifest that lists them."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.state import REASONS, Reason, Status
+from foamprb.cloudfunctions.base import STATUS_NAMES
+from foamprb.errors import InputError, RunStopped
+from foamprb.output.atomic import only_writer, remove_unfinished
+from foamprb.output.background import Writer
+from foamprb.output.checkpoint import Checkpoint, Checkpoints
+from foamprb.output.manifest import Manifest
+from foamprb.output.pvd import Series, files_of, read_pvd
+from foamprb.output.tables import Column, write_table
+from foamprb.run.job import Job
+from foamprb.run.restart import fingerprint, refuse_changes, restore, save, snapshots_until
+from foamprb.settings.settings import StartFrom
+
+log = logging.getLogger("foamprb")
+
+FATES, FAILURES, CHECKPOINTS = "fates.csv", "failed.csv", "checkpoint"
+"""Two files and a folder in a run's folder."""
+HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
+
+
+@contextmanager
+def open_results(job: Job) -> Iterator[Results]:
+    """Let nobody else write into a run's folder; on leaving, wait for what is being written.
+
+    Raises
+    ------
+    InputError
+        If another run writes there.
+    RunStopped
+        In place of any OSError within: results could not be written.
+    """
+    try:
+        with only_writer(job.folder), Writer() as writer:
+            yield Results(job, writer)
+    except BrokenPipeError:
+        # Of the log: nobody reads on.
+        raise
+    except OSError as error:
+        raise RunStopped(f"{str(error).rstrip('.')}. {HOW_TO_GO_ON}") from error
+
+
+class Results:
+    """Everything that a run writes, and what it begins with: :meth:`begin` first, then the others.
+
+    A file is in the manifest before it is written, a new one of a cloud function right after.
+
+    Parameters
+    ----------
+    job
+        What is run.
+    writer
+        The thread that writes while the particles go on.
+    """
+
+    def __init__(self, job: Job, writer: Writer) -> None:
+        self._job, self._writer = job, writer
+        self._names = {
+            "status": STATUS_NAMES,
+            "reason": tuple(REASONS[reason] for reason in Reason),
+            "patch": job.patch_names,
+            "injector": job.injector_names,
+        }
+        self._series = Series(job.folder, job.settings.name)
+        self._manifest = Manifest(job.folder)
+        self._fates, self._failures = job.folder / FATES, job.folder / FAILURES
+        self._snapshot: Snapshot | None = None
+
+    def begin(self, start_from: StartFrom | None) -> None:
+        """Put the cloud at the time from which the run goes on, and remove what an earlier run wrote later.
+
+        Parameters
+        ----------
+        start_from
+            As of :func:`foamprb.run.loop.execute`.
+
+        Raises
+        ------
+        InputError
+            If the run cannot go on from its checkpoints, or the user must say whether it shall.
+        """
+        job = self._job
+        self._fingerprint = fingerprint(job.settings, job.cloud)
+        self._checkpoints = Checkpoints(job.folder / CHECKPOINTS)
+        unfinished = self._checkpoints.files()
+        if start_from is None and unfinished and not self._fates.exists():
+            raise InputError(
+                f"{job.folder}: an unfinished run has come to t = {max(unfinished):g} s. To go on with it: "
+                "-resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
+                "startTime."
+            )
+        checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
+        if checkpoint is not None:
+            self._resume(checkpoint)
+            return
+        if start_from == "latestTime":
+            log.info("No checkpoint in %s: beginning at the start time", self._checkpoints.folder)
+        self._begin_anew()
+
+    def check(self) -> None:
+        """Raise OSError if something could not be written meanwhile."""
+        self._writer.check()
+
+    def next_observation(self, last: int) -> int:
+        """The step, at most ``last``, up to which the cloud may advance unobserved by cloud functions."""
+        return self._job.functions.next_sample(last)
+
+    def observe(self) -> None:
+        """Let those cloud functions observe the cloud that do so at this step."""
+        self._job.functions.sample()
+
+    def write(self) -> None:
+        """Write what a write time leaves: snapshot, tables of the cloud functions, checkpoint.
+
+        Snapshot and checkpoint are written from a copy, while the cloud may go on.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written, now or the last time.
+        """
+        cloud = self._gathered()
+        self._snapshot = snapshot = cloud.snapshot(self._snapshot)
+        tables = self._write_functions()
+        memory = {name: array.copy() for name, array in self._job.functions.state().items()}
+        files = cloud.executor.snapshot_files(self._series.next(cloud.time))
+        self._manifest.expect([*tables, self._series.pvd, *files, *self._checkpoint_files()])
+        end_write = cloud.executor.begin_write(self._series, snapshot, self._names)
+        self._writer.begin(partial(self._end_write, end_write, snapshot, memory))
+
+    def save(self) -> None:
+        """Write a checkpoint alone, of a run that is stopped between two write times.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
+        """
+        cloud = self._gathered()
+        self._manifest.expect(self._checkpoint_files())
+        self._write_checkpoint(cloud, self._job.functions.state())
+
+    def end(self) -> None:
+        """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written, now or the last time.
+        """
+        self._gathered()
+        failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
+        self._manifest.expect([self._fates, self._failures] if len(failed) else [self._fates])
+        _write_fates(self._fates, self._job)
+        if len(failed):
+            _write_failures(self._failures, self._job, failed)
+
+    def _gathered(self) -> Cloud:
+        """The cloud with all particles as they are now; what was being written before is done."""
+        self._job.cloud.gather()
+        self._writer.finish()
+        return self._job.cloud
+
+    def _end_write(
+        self, end_write: Callable[[], object], snapshot: Snapshot, memory: Mapping[str, NDArray[Any]]
+    ) -> None:
+        end_write()
+        self._write_checkpoint(snapshot, memory)
+
+    def _write_checkpoint(self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]]) -> None:
+        self._checkpoints.write(save(cloud, memory, self._series.entries, self._fingerprint))
+
+    def _checkpoint_files(self) -> tuple[Path, ...]:
+        """The checkpoints that are there, and the one of now."""
+        return (*self._checkpoints.files().values(), self._checkpoints.file(self._job.cloud.time))
+
+    def _write_functions(self) -> list[Path]:
+        """Let the cloud functions write; return the files that they wrote.
+
+        A function need not say what it writes: what is new in its folder is its own.
+        """
+        folders = self._function_folders()
+        before = _times_of_change(folders)
+        self._job.functions.write(self._job.folder)
+        return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
+
+    def _function_folders(self) -> list[Path]:
+        return [self._job.folder / name for name in self._job.functions.functions]
+
+    def _begin_anew(self) -> None:
+        """Remove what an earlier run has listed, and nothing else but what this run replaces by its name."""
+        manifest = Manifest.read(self._job.folder)
+        strangers = [file for file in self._checkpoints.files().values() if file not in manifest.files]
+        if strangers:
+            raise InputError(
+                f"{strangers[0]}: {manifest.path.name} does not list this checkpoint, and so perhaps not all "
+                "that its run wrote. Remove it to begin anew."
+            )
+        if self._series.pvd.exists():
+            try:
+                read_pvd(self._series.pvd)
+            except InputError as error:
+                log.warning("%s It is replaced.", error)
+        self._remove_unfinished(manifest)
+        # Checkpoints first: with them an interrupted removal could be taken for the run itself. Then what
+        # lists other files.
+        files = sorted(manifest.files)
+        checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
+        lists = [self._series.pvd, self._fates, self._failures]
+        manifest.remove([*checkpoints, *lists, *files, manifest.path])
+
+    def _resume(self, checkpoint: Checkpoint) -> None:
+        """Take up what a checkpoint holds, and remove the files of later times."""
+        job = self._job
+        where = f"{job.folder}: cannot go on from t = {checkpoint.time:.12g} s"
+        refuse_changes(checkpoint, self._fingerprint, where)
+        entries = snapshots_until(checkpoint, self._series.pvd, where)
+        restore(job.cloud, job.functions, checkpoint, where)
+        log.info(
+            "Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, self._checkpoints.folder
+        )
+        try:
+            manifest = Manifest.read(job.folder)
+        except InputError as error:
+            log.warning("%s It is made anew; files of later times may remain.", error)
+            manifest = Manifest(job.folder)
+        self._remove_unfinished(manifest)
+        for table in (self._fates, self._failures):
+            table.unlink(missing_ok=True)
+        self._series.relist(entries)
+        snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
+        functions = self._function_folders()
+        tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
+        kept = {self._series.pvd, *snapshots, *tables, *self._checkpoints.files().values()}
+        manifest.remove(sorted(manifest.files - kept))
+        self._manifest = Manifest(job.folder, (file for file in kept if file.exists()))
+
+    def _remove_unfinished(self, manifest: Manifest) -> None:
+        """Remove what killed runs have left half written."""
+        folders = {file.parent for file in manifest.files}
+        for folder in {self._job.folder, *self._function_folders(), *folders}:
+            remove_unfinished(folder)
+
+
+def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
+    """The files in folders, and when each was last changed, ns."""
+    found = {}
+    for folder in folders:
+        for file in folder.rglob("*"):
+            # Others may remove theirs at any time.
+            with suppress(FileNotFoundError):
+                if file.is_file():
+                    found[file] = file.stat().st_mtime_ns
+    return found
+
+
+def _write_fates(path: Path, job: Job) -> None:
+    p = job.cloud.particles
+    fates = np.array(STATUS_NAMES, dtype=object)
+    # The last is that of −1.
+    patches = np.array((*job.patch_names, ""), dtype=object)
+    axes, D = job.observed.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
+    write_table(
+        path,
+        {
+            "id": np.arange(p.size), "d": 2.0 * p.R, "rho": p.rho, "Ca": p.Ca,
+            "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
+            "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
+            "fate": fates[p.status], "patch": patches[p.patch],
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
+        },
+    )  # fmt: skip
+
+
+def _write_failures(path: Path, job: Job, failed: NDArray[np.int64]) -> None:
+    p = job.cloud.particles
+    x = p.x[failed]
+    columns: dict[str, Column] = {
+        "id": failed,
+        "t": p.t[failed],
+        "x": x[:, 0],
+        "y": x[:, 1],
+        "z": x[:, 2],
+        "reason": [REASONS[Reason(r)] for r in p.reason[failed]],
+    }
+    write_table(path, columns)

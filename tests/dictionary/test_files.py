@@ -1,0 +1,84 @@
+"""Which of a plain and a compressed file is read."""
+
+from __future__ import annotations
+
+import gzip
+import logging
+
+import pytest
+
+from foamprb.dictionary.dimensions import described, read_dimensions
+from foamprb.dictionary.files import existing, has_both_forms, read_bytes
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.errors import InputError
+
+
+def compress(path, text):
+    with gzip.open(f"{path}.gz", "wt") as file:
+        file.write(text)
+
+
+def test_a_dictionary_may_be_compressed_but_the_plain_one_counts(tmp_path, caplog, monkeypatch):
+    monkeypatch.setattr("foamprb.dictionary.grammar.log.propagate", True)
+    path = tmp_path / "transportProperties"
+    compress(path, "nu 1e-6;")
+    assert read_dictionary(path, tmp_path).entries["nu"].text == "1e-6"
+    assert not has_both_forms(path)
+    path.write_text("nu 2e-6;")
+    with caplog.at_level(logging.WARNING):
+        assert read_dictionary(path, tmp_path).entries["nu"].text == "2e-6"
+    assert f"{path} and transportProperties.gz are both there: the first is read" in caplog.text
+    assert has_both_forms(path)
+    assert existing(path) == path
+
+
+def test_an_included_file_may_be_compressed(tmp_path):
+    compress(tmp_path / "more", "b 2;")
+    (tmp_path / "dict").write_text('#include "more"\nc $b;')
+    assert read_dictionary(tmp_path / "dict", tmp_path).entries["c"].text == "2"
+
+
+def test_files_of_openfoams_etc(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setenv("WM_PROJECT_DIR", str(tmp_path / "openfoam"))
+    monkeypatch.delenv("WM_PROJECT_SITE", raising=False)
+    (tmp_path / "openfoam/etc/caseDicts").mkdir(parents=True)
+    (tmp_path / "openfoam/etc/caseDicts/set").write_text("a 1;")
+    (tmp_path / "dict").write_text('#includeEtc "caseDicts/set"')
+    assert read_dictionary(tmp_path / "dict", tmp_path).entries["a"].text == "1"
+    (tmp_path / "home/.OpenFOAM/caseDicts").mkdir(parents=True)
+    (tmp_path / "home/.OpenFOAM/caseDicts/set").write_text("a 2;")
+    assert read_dictionary(tmp_path / "dict", tmp_path).entries["a"].text == "2"
+    (tmp_path / "dict").write_text('#includeEtc "caseDicts/none"')
+    with pytest.raises(InputError, match=r"dict, line 1: .*none.+ is in none of the folders .*DIR"):
+        read_dictionary(tmp_path / "dict", tmp_path)
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
+    (tmp_path / "broken.gz").write_bytes(b"no gzip")
+    with pytest.raises(InputError, match=r"broken\.gz: cannot be read"):
+        read_bytes(tmp_path / "broken.gz")
+    assert existing(tmp_path / "none") is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("[0 1 -1 0 0 0 0]", "[0 1 -1 0 0 0 0], those of a velocity"),
+        ("[0 1 -1 0 0]", "[0 1 -1 0 0 0 0], those of a velocity"),
+        ("[m/s]", "[0 1 -1 0 0 0 0], those of a velocity"),
+        ("[ kg m^-1 s^-1 ]", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity"),
+        ("[Pa s]", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity"),
+        ("[0 0.5 0 0 0 0 0]", "[0 0.5 0 0 0 0 0]"),
+        ("[]", "[0 0 0 0 0 0 0], those of a number without unit"),
+    ],
+)
+def test_dimensions(text, expected):
+    assert described(read_dimensions(text)) == expected
+
+
+@pytest.mark.parametrize(
+    "text", ["", "0", "[0 1 -1]", "[m s-1]", "[furlong]", "[0 1 -1 0 0 0 0", "[0 1 a 0 0]"]
+)
+def test_what_is_no_dimensions(text):
+    assert read_dimensions(text) is None

@@ -1,0 +1,105 @@
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from foamprb.errors import InputError
+from foamprb.output import atomic
+from foamprb.output.manifest import Manifest
+
+
+def files(folder: Path, *names: str) -> list[Path]:
+    made = [folder / name for name in names]
+    for file in made:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.touch()
+    return made
+
+
+def test_what_is_expected_is_read_again_by_relative_names(tmp_path: Path) -> None:
+    expected = [tmp_path / name for name in ("a.vtp", "deep/er/b.csv", 'odd "näme"\n.vtp')]
+    manifest = Manifest(tmp_path)
+    manifest.expect(expected)
+    assert Manifest.read(tmp_path).files == manifest.files == {*expected}
+    assert json.loads(manifest.path.read_text())["files"] == sorted(
+        str(file.relative_to(tmp_path)) for file in expected
+    )
+    # Whoever copies the folder copies the list with it.
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    manifest.path.rename(elsewhere / manifest.path.name)
+    assert elsewhere / "a.vtp" in Manifest.read(elsewhere).files
+
+
+def test_without_a_manifest_nothing_is_listed(tmp_path: Path) -> None:
+    files(tmp_path, "a.vtp")
+    assert Manifest.read(tmp_path).files == set()
+
+
+def test_what_did_not_come_to_be_is_dropped_from_the_list(tmp_path: Path) -> None:
+    manifest = Manifest(tmp_path)
+    a, b, c, d = (tmp_path / name for name in "abcd")
+    manifest.expect([a, b])
+    a.touch()
+    manifest.expect([a, c])
+    assert Manifest.read(tmp_path).files == {a, c}
+    c.touch()
+    a.unlink()
+    manifest.expect([d])
+    assert Manifest.read(tmp_path).files == {c, d}
+
+
+def test_a_failed_write_keeps_the_list_before_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    manifest = Manifest(tmp_path)
+    manifest.expect(files(tmp_path, "a"))
+
+    def fail(*_: object) -> None:
+        raise OSError("no space")
+
+    monkeypatch.setattr(atomic, "_flush", fail)
+    with pytest.raises(OSError, match="no space"):
+        manifest.expect([tmp_path / "b"])
+    assert Manifest.read(tmp_path).files == {tmp_path / "a"}
+
+
+def test_removal_takes_files_and_emptied_folders_and_nothing_else(tmp_path: Path) -> None:
+    listed = files(tmp_path, "a.vtp", "pieces/0.vtp", "pieces/1.vtp", "tracks/tracks.vtp", "gone/x")
+    (own,) = files(tmp_path, "tracks/notes.txt")
+    listed[-1].unlink()
+    manifest = Manifest(tmp_path, listed)
+    manifest.remove(listed)
+    assert manifest.files == set()
+    assert {*tmp_path.rglob("*")} == {own, own.parent}
+    assert tmp_path.is_dir()
+
+
+DAMAGES = {
+    "empty": lambda _: "",
+    "cut short": lambda text: text[: len(text) // 2],
+    "a bit": lambda text: text.replace("a.vtp", "c.vtp"),
+    "a name less": lambda text: text.replace('  "a.vtp",\n', ""),
+    "another format": lambda text: text.replace('"format": 1', '"format": 2'),
+    "no list": lambda _: "[]",
+    "nested without end": lambda _: "[" * 100_000,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_manifest_is_one_message(tmp_path: Path, damage: str) -> None:
+    manifest = Manifest(tmp_path)
+    manifest.expect([tmp_path / "a.vtp", tmp_path / "b.vtp"])
+    manifest.path.write_text(DAMAGES[damage](manifest.path.read_text()))
+    with pytest.raises(InputError, match=r"manifest\.json is damaged: "):
+        Manifest.read(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["../other", "/etc/passwd", "a/../../b", "."])
+def test_a_manifest_names_nothing_outside_its_folder(tmp_path: Path, name: str) -> None:
+    # Written by somebody who knows the checksum.
+    content = {"format": 1, "files": [name], "sha256": sha256(name.encode()).hexdigest()}
+    Manifest(tmp_path).path.write_text(json.dumps(content))
+    with pytest.raises(InputError, match="which is not in its folder"):
+        Manifest.read(tmp_path)

@@ -1,0 +1,90 @@
+"""The command line itself: help, and how it ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+from paths import PIPE, ROOT
+from pipe_case import copy_of_pipe, edit
+
+from foamprb.cli import main
+
+COMMANDS = ("run", "info", "validate", "compile")
+ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+
+
+@pytest.mark.parametrize("word", ["-h", "-help", "--help"])
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_every_command_has_help(command, word, capsys):
+    assert main([command, word] if command else [word]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith(f"usage: foamprb {command}".rstrip())
+    assert "show this text and stop" in out
+    assert err == ""
+
+
+def test_help_names_every_command(capsys):
+    main(["-h"])
+    out = capsys.readouterr().out
+    assert all(f"    {command} " in out for command in COMMANDS)
+
+
+def test_without_a_command_the_help_is_a_mistake(capsys):
+    assert main([]) == 1
+    assert capsys.readouterr().out.startswith("usage: foamprb")
+
+
+def test_version(capsys):
+    assert main(["-version"]) == 0
+    assert capsys.readouterr().out.startswith("foamprb ")
+
+
+def pipe_into_head(*words: str) -> tuple[int, str, str]:
+    """What ``foamprb … | head -1`` gives: the exit status of the first, its stderr, and the line."""
+    with (
+        subprocess.Popen(
+            [sys.executable, "-m", "foamprb", *words],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT,
+        ) as foamprb,
+        subprocess.Popen(["head", "-1"], stdin=foamprb.stdout, stdout=subprocess.PIPE, text=True) as head,
+    ):  # fmt: skip
+        assert foamprb.stdout is not None
+        foamprb.stdout.close()
+        line, _ = head.communicate(timeout=200)
+        assert foamprb.stderr is not None
+        err = foamprb.stderr.read()
+    return foamprb.returncode, err, line
+
+
+def test_a_run_whose_log_nobody_reads_ends_quietly(tmp_path):
+    case = copy_of_pipe(tmp_path)
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.0001;")
+    status, err, line = pipe_into_head("run", "-case", str(case))
+    assert (status, err) == (128 + signal.SIGPIPE, "")
+    assert line.startswith(("Compiling the particle loop", "Reading flow of case"))
+
+
+@pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-h"), ("validate", "-list")])
+def test_output_that_nobody_reads_ends_quietly(words):
+    """Whether the whole of it went into the pipe before its end was closed, or not."""
+    status, err, _ = pipe_into_head(*words)
+    assert status in (0, 128 + signal.SIGPIPE)
+    assert err == ""
+
+
+@pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-case", str(PIPE), "-dry-run")])
+def test_a_closed_pipe_ends_every_command_quietly(words):
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "foamprb", *words],
+            stdout=writer, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT, check=False,
+        )  # fmt: skip
+    finally:
+        os.close(writer)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, "")

@@ -1,0 +1,231 @@
+"""What a run leaves in its folder, lists there, and removes of an earlier run."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from pipe_case import edit, message, results, short_case
+
+from foamprb import execute, prepare
+from foamprb.cli import main
+from foamprb.errors import RunStopped
+from foamprb.output import atomic
+from foamprb.output.manifest import Manifest
+from foamprb.output.pvd import read_pvd
+
+TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
+HITS = "hits { type patchPostProcessing; patches (wall outlet); }"
+
+
+@pytest.fixture(scope="module")
+def truth(tmp_path_factory):
+    """The results of a run never interrupted."""
+    case = short_case(tmp_path_factory.mktemp("truth"))
+    run(case)
+    return results(case)
+
+
+@pytest.fixture
+def case(tmp_path):
+    return short_case(tmp_path)
+
+
+@pytest.fixture
+def stopped(case):
+    """A case whose run was stopped at 3 ms."""
+    job = prepare(case, threads=1)
+    with pytest.raises(RunStopped):
+        execute(job, "latestTime", stop=lambda: job.cloud.time > 0.0029)
+    return case
+
+
+def run(case: Path, *options: str) -> None:
+    assert main(["run", "-case", str(case), *options]) == 0
+
+
+def folder_of(case: Path) -> Path:
+    return case / "postProcessing/softCloud"
+
+
+def observe(case: Path, *functions: str) -> None:
+    edit(case, r"(?s)^cloudFunctions\s*\{.*\}\s*\Z", f"cloudFunctions {{ {' '.join(functions)} }}")
+
+
+def names(folder: Path) -> set[str]:
+    return {str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file()}
+
+
+def test_the_manifest_lists_every_file_but_itself(case):
+    observe(case, TRACKS, HITS)
+    run(case)
+    listed = json.loads((folder_of(case) / "manifest.json").read_text())["files"]
+    assert listed == sorted(listed)
+    assert {*listed} == names(folder_of(case)) - {"manifest.json"}
+    assert {"paths/tracks.vtp", "hits/wall.csv", "fates.csv", "checkpoint/0.006.checkpoint"} < {*listed}
+
+
+def test_a_file_is_listed_before_it_is_written(case, monkeypatch):
+    replace, seen = Path.replace, []
+
+    def listed(file: Path, target: Path) -> Path:
+        seen.append(target)
+        if target.name != "manifest.json":
+            assert target in Manifest.read(folder_of(case)).files
+        return replace(file, target)
+
+    monkeypatch.setattr(Path, "replace", listed)
+    run(case)
+    # Manifest, cloud, list and checkpoint at six times, manifest and table at the end.
+    assert len(seen) == 4 * 6 + 2
+
+
+def test_a_new_run_removes_what_the_manifest_lists_and_nothing_else(case, truth):
+    observe(case, TRACKS, HITS)
+    edit(case, r"endTime\s+\S+;", "endTime 0.009;")
+    run(case)
+    folder = folder_of(case)
+    own = [
+        "softCloud_mine.vtp", "softCloud_000099.vtp", "other_000007.vtp", "paths/notes.txt", "failed.txt",
+        "softCloud_000042/0.vtp", "checkpoint/mine", ".hidden.0.tmp",
+    ]  # fmt: skip
+    for name in own:
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text("mine")
+    observe(case)
+    edit(case, r"endTime\s+\S+;", "endTime 0.006;")
+    run(case)
+    for name in own:
+        assert (folder / name).read_text() == "mine"
+        (folder / name).unlink()
+    (folder / "softCloud_000042").rmdir()
+    (folder / "paths").rmdir()
+    assert not (folder / "hits").exists()
+    assert results(case) == truth
+
+
+def test_a_file_of_the_user_in_a_folder_of_a_function_is_not_listed(case):
+    notes = folder_of(case) / "paths/notes.txt"
+    notes.parent.mkdir(parents=True)
+    notes.write_text("mine")
+    observe(case, TRACKS)
+    run(case)
+    assert notes not in Manifest.read(folder_of(case)).files
+    assert folder_of(case) / "paths/tracks.vtp" in Manifest.read(folder_of(case)).files
+
+
+def leave_behind(case: Path) -> None:
+    """What a killed run leaves that wrote the cloud of 4 ms with others: pieces, some of them unfinished."""
+    folder = folder_of(case)
+    left = ["softCloud_000003.pvtp", "softCloud_000003/0.vtp", "softCloud_000003/1.vtp"]
+    Manifest(folder, Manifest.read(folder).files).expect([folder / name for name in left])
+    for name in (*left, "softCloud_000003/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).touch()
+
+
+@pytest.mark.parametrize("option", ["-resume", "-overwrite"])
+def test_a_killed_run_leaves_nothing_behind_for_the_next(option, stopped, truth):
+    leave_behind(stopped)
+    run(stopped, option)
+    assert results(stopped) == truth
+    assert not (folder_of(stopped) / "softCloud_000003").exists()
+
+
+def test_a_stopped_run_lists_what_it_has_written(stopped):
+    folder = folder_of(stopped)
+    assert {file.relative_to(folder).as_posix() for file in Manifest.read(folder).files} == {
+        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "softCloud.pvd",
+        "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp",
+    }  # fmt: skip
+
+
+DAMAGES: dict[str, Callable[[Path], object]] = {
+    "garbled": lambda pvd: pvd.write_text("<VTKFile>"),
+    "with names of other folders": lambda pvd: pvd.write_text(pvd.read_text().replace('"soft', '"../soft')),
+    "missing": Path.unlink,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("option", ["-resume", "-overwrite"])
+def test_a_damaged_list_of_clouds_stops_no_run(option, damage, stopped, truth, capsys):
+    DAMAGES[damage](folder_of(stopped) / "softCloud.pvd")
+    run(stopped, option)
+    note = "made anew from the checkpoint" if option == "-resume" else "It is replaced"
+    warned = re.search(rf"Warning : .*softCloud\.pvd: .* {note}", capsys.readouterr().out)
+    assert bool(warned) == (damage != "missing")
+    assert results(stopped) == truth
+
+
+def test_a_damaged_list_of_a_finished_run_stops_no_new_one(case, truth):
+    run(case)
+    (folder_of(case) / "softCloud.pvd").write_text("")
+    run(case)
+    assert results(case) == truth
+
+
+def test_a_run_with_a_damaged_manifest_goes_on_but_is_not_replaced(stopped, truth, capsys):
+    """What an earlier run wrote is not known then; what the checkpoint needs is."""
+    manifest = folder_of(stopped) / "manifest.json"
+    manifest.write_text(manifest.read_text().replace("softCloud_000001", "softCloud_000009"))
+    before = names(folder_of(stopped))
+    text = message(stopped, capsys, "-overwrite")
+    assert "manifest.json is damaged: its contents do not match its checksum" in text
+    assert names(folder_of(stopped)) == before
+    run(stopped, "-resume")
+    assert "Warning : " in capsys.readouterr().out
+    assert results(stopped) == truth
+
+
+def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, capsys):
+    folder = folder_of(stopped)
+    (folder / "manifest.json").unlink()
+    before = names(folder)
+    assert re.search(
+        r"0\.00[23]\.checkpoint: manifest\.json does not list", message(stopped, capsys, "-overwrite")
+    )
+    assert names(folder) == before
+    for file in (folder / "checkpoint").iterdir():
+        file.unlink()
+    run(stopped)
+    assert results(stopped) == truth
+
+
+@pytest.mark.parametrize("nth", [1, 2, 3, 4, 6, 9])
+def test_a_removal_that_is_interrupted_is_taken_up(nth, stopped, truth, monkeypatch):
+    """Whatever has been removed by then, the run that comes next leaves nothing of what has not."""
+    leave_behind(stopped)
+    unlink, calls = Path.unlink, iter(range(1, 1000))
+
+    def dies(file: Path, missing_ok: bool = False) -> None:
+        if next(calls) == nth:
+            raise KeyboardInterrupt
+        unlink(file, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", dies)
+    assert main(["run", "-case", str(stopped), "-overwrite"]) == 130
+    monkeypatch.undo()
+    run(stopped, "-resume")
+    assert results(stopped) == truth
+
+
+def test_a_list_names_whole_files_only_while_a_run_takes_its_place(stopped, monkeypatch):
+    unlink = Path.unlink
+
+    def check(file: Path, missing_ok: bool = False) -> None:
+        pvd = folder_of(stopped) / "softCloud.pvd"
+        if pvd.exists():
+            assert all((pvd.parent / entry.file).exists() for entry in read_pvd(pvd))
+        unlink(file, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", check)
+    run(stopped, "-overwrite")
+
+
+def test_only_one_run_writes_to_a_folder(stopped, capsys):
+    with atomic.only_writer(folder_of(stopped)):
+        assert "another run is writing here" in message(stopped, capsys, "-overwrite")
