@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mesh_shapes import block, box_patches
 from paths import PIPE
 from scipy import stats
 
@@ -28,6 +29,7 @@ from foamprb.cloud.injection.models import (
 from foamprb.cloud.injection.room import BYTES, memory
 from foamprb.errors import InputError
 from foamprb.flow import analytic
+from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
@@ -316,3 +318,27 @@ class TestGiven:
             given_shear_modulus({"Ca": column, "shearModulus": column}, 0.25, 3.0, 1.0)
         with pytest.raises(InputError, match="gives Ca, which needs the entry referenceShearRate"):
             given_shear_modulus({"Ca": column}, 0.25, 3.0, None)
+
+
+@pytest.fixture(scope="module")
+def lid_flow():
+    """A unit cube of few cells, into which fluid enters through the lid at the speed x."""
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    u = np.zeros((len(mesh.nodes), 3))
+    u[:, 2] = -mesh.nodes[:, 0]
+    return MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
+
+
+class TestPatch:
+    def test_as_many_appear_per_area_as_fluid_enters_there(self, lid_flow):
+        """Not as many on each face, nor as the speed at one point of it: within faces too."""
+        p = release(PatchInjection("lid", 20_000.0, 1.0), lid_flow, rng(), no_file)
+        assert p.x[:, 2] == pytest.approx(1.0, abs=1e-12)
+        assert stats.kstest(p.x[:, 0], lambda x: np.clip(x, 0.0, 1.0) ** 2).pvalue > 0.01
+        assert stats.kstest(p.x[:, 1], "uniform").pvalue > 0.01
+
+    def test_the_first_appears_at_once_and_the_others_at_even_times(self, lid_flow):
+        p = release(PatchInjection("lid", 40.0, 0.25, SOI=0.5), lid_flow, rng(), no_file)
+        assert p.t0 == pytest.approx([0.5 + k / 40.0 for k in range(10)], abs=1e-15)
+        assert np.array_equal(p.t, p.t0)
