@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
@@ -18,7 +19,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import Distribution, draw
-from foamprb.cloud.injection.models import given_shear_modulus, release
+from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
@@ -236,7 +237,7 @@ def _start(settings: Settings, flow: Flow) -> float:
             f"the flow at {last:g}. Allowed: up to that, or a flow that repeats itself (period)."
         )
     for injection in settings.injections:
-        if injection.model.SOI < start:  # noqa: SIM300
+        if START_OF_FLOW < injection.model.SOI < start:
             raise InputError(
                 f"{settings.file}: injection model {injection.name}: SOI is {injection.model.SOI:g}. "
                 f"Allowed: from {start:g} on, the first time of the flow."
@@ -287,7 +288,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         )
     rate: Any = solid.reference_shear_rate
     if rate is None:
-        rate = shear_rate_at(flow, p, injection.model.SOI)
+        rate = shear_rate_at(flow, p, start_of_injection(injection.model, flow))
     p.Ca[:] = medium.mu * rate / p.mu
     return p
 

@@ -84,6 +84,25 @@ def test_a_run_starts_at_the_first_time_that_is_selected(case):
     assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.85, 1.2])
 
 
+def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
+    edit(case, "SOI 0.3; ", "")
+    folder = run(case, "-time", "0.5:")
+    with (folder / "fates.csv").open() as file:
+        assert [float(row["t0"]) for row in csv.DictReader(file)] == [0.5, 0.5]
+    assert read_pvd(folder / "softCloud.pvd")[0].time == pytest.approx(0.9)
+
+
+def test_a_first_time_at_rest_is_named_where_nothing_enters(case, capsys):
+    """The first time of a solution that changes in time is often one at rest."""
+    start = 'type manualInjection; positionsFile "positions"; SOI 0.3;'
+    edit(case, start, "type patchInjection; patch floor; parcelsPerSecond 100; duration 0.1;")
+    velocity = case / "0/U"
+    velocity.write_text(re.sub(r"\((\S+) (\S+) (\S+)\)", "(0 0 0)", velocity.read_text()))
+    error = message(case, capsys)
+    assert "patchInjection on floor: no fluid enters through this patch at SOI, 0 s; it is at rest" in error
+    assert prepare(case, "0.5:").cloud.particles.t0.min() == 0.5
+
+
 def test_a_period_repeats_the_flow(case):
     edit(case, "endTime 1.2", "endTime 6; period 2")
     folder = run(case)

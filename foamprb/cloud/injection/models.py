@@ -6,6 +6,7 @@ A new injection model is a frozen dataclass of its entries and a line in :data:`
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,9 @@ from foamprb.flow.base import Flow
 
 Floats = NDArray[np.float64]
 log = logging.getLogger("foamprb")
+
+START_OF_FLOW = -math.inf
+"""``SOI`` of a model that says nothing about it; see :func:`start_of_injection`."""
 
 
 GIVEN: dict[str, Bounds] = {
@@ -62,7 +66,7 @@ class Injection(Schema, Protocol):
 
     @property
     def SOI(self) -> float:
-        """Start of injection, s."""
+        """Start of injection, s; :data:`START_OF_FLOW` for the first time of the flow."""
 
     def places(self, flow: Flow, random: np.random.Generator, read: ReadPositions) -> Places:
         """Return the places of all particles.
@@ -89,7 +93,7 @@ class ManualInjection:
 
     positionsFile: Path
     U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = 0.0
+    SOI: Annotated[float, NonNegative] = START_OF_FLOW
     ignoreOutOfBounds: bool = False
 
     def places(
@@ -105,6 +109,7 @@ class ManualInjection:
         InputError
             If positions lie outside the flow: how many, and the first of them.
         """
+        SOI = start_of_injection(self, flow)
         x, given = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
         outside = hosts < 0
@@ -119,7 +124,7 @@ class ManualInjection:
             log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
                         self.positionsFile, outside.sum(), len(x))  # fmt: skip
         inside = ~outside
-        t = np.full(np.count_nonzero(inside), self.SOI)
+        t = np.full(np.count_nonzero(inside), SOI)
         columns = {name: column[inside] for name, column in given.items()}
         return Places(x[inside], hosts[inside], t, self.U0, columns)
 
@@ -132,7 +137,7 @@ class PatchInjection:
     parcelsPerSecond: Annotated[float, Positive]
     duration: Annotated[float, Positive]
     U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = 0.0
+    SOI: Annotated[float, NonNegative] = START_OF_FLOW
 
     def places(
         self,
@@ -147,19 +152,25 @@ class PatchInjection:
         InputError
             If no fluid enters through the patch, or nothing is injected.
         """
+        SOI = start_of_injection(self, flow)
         n = require_room(
             self.parcelsPerSecond * self.duration,
             f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
             f"duration {self.duration:g} s",
         )
-        faces = flow.patch_faces(self.patch, self.SOI)
+        faces = flow.patch_faces(self.patch, SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
         if not flux.sum() > 0.0:
-            raise InputError(f"patchInjection on {self.patch}: no fluid enters through this patch.")
+            still = not faces.velocity.any()
+            raise InputError(
+                f"patchInjection on {self.patch}: no fluid enters through this patch at SOI, {SOI:g} s"
+                + ("; it is at rest there, as often at the first time of a case. " if still else ". ")
+                + "Choose another SOI, another patch or other times of the flow."
+            )
         chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
         x = _in_triangles(faces.vertices[chosen], inflow[chosen], random)
-        t = self.SOI + np.arange(n) / self.parcelsPerSecond
+        t = SOI + np.arange(n) / self.parcelsPerSecond
         return Places(x, faces.hosts[chosen], t, self.U0)
 
 
@@ -174,7 +185,7 @@ class CellZoneInjection:
     cellZone: str = ""
     selectionMode: Literal["cellZone", "all"] = "cellZone"
     U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = 0.0
+    SOI: Annotated[float, NonNegative] = START_OF_FLOW
 
     def __post_init__(self) -> None:
         if self.selectionMode == "all" and self.cellZone:
@@ -195,6 +206,7 @@ class CellZoneInjection:
         InputError
             If there is no such zone, or its volume asks for no particle.
         """
+        SOI = start_of_injection(self, flow)
         zone = flow.cell_zone(self.cellZone or None)
         # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
         volumes = np.maximum(zone.volumes, 0.0)
@@ -211,7 +223,7 @@ class CellZoneInjection:
         weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
         hosts = zone.hosts[chosen]
         x = np.einsum("nv,nvi->ni", weights, zone.vertices(hosts))
-        return Places(x, hosts, np.full(n, self.SOI), self.U0)
+        return Places(x, hosts, np.full(n, SOI), self.U0)
 
 
 @dataclass(frozen=True)
@@ -228,7 +240,7 @@ class ConeInjection:
     Umag: Annotated[Constant, NonNegative]
     thetaInner: Annotated[Constant, Angle]
     thetaOuter: Annotated[Constant, Angle]
-    SOI: Annotated[float, NonNegative] = 0.0
+    SOI: Annotated[float, NonNegative] = START_OF_FLOW
 
     def __post_init__(self) -> None:
         if not self.positionAxis:
@@ -249,6 +261,7 @@ class ConeInjection:
         InputError
             If a position lies outside the flow, or nothing is injected.
         """
+        SOI = start_of_injection(self, flow)
         positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
         hosts = flow.locate(positions)
         if (hosts < 0).any():
@@ -259,7 +272,7 @@ class ConeInjection:
         which = np.arange(n) % len(positions)
         theta = np.deg2rad(random.uniform(self.thetaInner, self.thetaOuter, n))
         v = self.Umag * _directions(axes[which], theta, random.uniform(0.0, 2.0 * np.pi, n))
-        t = self.SOI + self.duration * np.arange(n) / n
+        t = SOI + self.duration * np.arange(n) / n
         return Places(positions[which], hosts[which], t, v)
 
 
@@ -288,6 +301,12 @@ def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator
         open_rows = open_rows[~accepted]
     points: Floats = np.einsum("nv,nvi->ni", weights, vertices)
     return points
+
+
+def start_of_injection(model: Injection, flow: Flow) -> float:
+    """Start of injection, s: ``SOI``, or the first time of the flow, 0 if it has none."""
+    first = flow.span[0]
+    return model.SOI if model.SOI != START_OF_FLOW else first if math.isfinite(first) else 0.0
 
 
 class Released(NamedTuple):
