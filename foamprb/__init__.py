@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from foamprb.body.material import Parameter, add_material
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud
+    from foamprb.cloud.forces.gravity import Gravity
+    from foamprb.cloud.forces.pressure_gradient import PressureGradient
+    from foamprb.cloud.forces.virtual_mass import VirtualMass
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
@@ -26,15 +29,18 @@ __version__ = version("foamprb")
 _HOMES = {
     "Cloud": "foamprb.cloud.cloud",
     "Escape": "foamprb.cloud.patches",
+    "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
     "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.tracker",
     "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
+    "PressureGradient": "foamprb.cloud.forces.pressure_gradient",
     "Rebound": "foamprb.cloud.patches",
     "RunStopped": "foamprb.errors",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
+    "VirtualMass": "foamprb.cloud.forces.virtual_mass",
     "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",
     "context": "foamprb.cloud.measures",
@@ -51,15 +57,18 @@ _HOMES = {
 __all__ = [
     "Cloud",
     "Escape",
+    "Gravity",
     "InputError",
     "Medium",
     "Models",
     "Parameter",
     "Particles",
+    "PressureGradient",
     "Rebound",
     "RunStopped",
     "Status",
     "Stick",
+    "VirtualMass",
     "add_material",
     "analytic",
     "context",

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
 
-from foamprb import analytic
+from foamprb import Gravity, PressureGradient, VirtualMass, analytic
 from foamprb.cli import main
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -66,14 +66,15 @@ def box_cloud(integrator):
     p.v[:] = (0.0, 0.0, -20.0), (0.0, 0.0, 20.0), (15.0, 30.0, 0.0), (0.0, 1.0, 0.0), (15.0, 0.0, 0.0)
     p.t0[4] = p.t[4] = 5e-3
     kinds = {"floor": Stick(), "lid": Escape(), "sides": Rebound(0.8, 0.1)}
-    medium = Medium(2.0, 1000.0, (0.0, 0.0, -9.81), 1.0, 0.5 if integrator != "stokes" else 0.0)
+    medium = Medium(2.0, 1000.0, (0.0, 0.0, -9.81))
+    forces = (Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
     if integrator == "stokes":
         # Without inertia the velocity is the fluid's; the wall is met by falling.
-        medium = Medium(0.02, 100.0, (0.0, 9.81, -9.81))
+        medium, forces = Medium(0.02, 100.0, (0.0, 9.81, -9.81)), (Gravity(),)
         p.x[:, 2] = 0.0105, 0.9999, 0.5, 0.5, 0.4
         p.x[2, 1] = 0.9895
     walls = [kinds[patch.name] for patch in flow.patches]
-    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator), 1)
+    return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator, forces=forces), 1)
 
 
 def mended_cloud():

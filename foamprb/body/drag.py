@@ -56,55 +56,6 @@ def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) ->
     return beta * gravity[0], beta * gravity[1], beta * gravity[2]
 
 
-def acceleration(
-    J: Scalar,
-    rho_s: Scalar,
-    rho_f: Scalar,
-    gravity: Vector,
-    pressure_gradient: Scalar,
-    virtual_mass: Scalar,
-    Du_Dt: Vector,
-) -> tuple[Vector, Scalar]:
-    """Acceleration by every force but drag, m/s², and the inertia per mass of the solid.
-
-    m (1 + C s) dv/dt = (m − m_f) g + p m_f Du/Dt + C m_f Du/Dt + f_D with s = m_f/m = J ρ_f/ρ_s: the pressure
-    gradient of the undisturbed flow and the virtual mass, whose coefficients are those of a sphere (Maxey &
-    Riley 1983; Auton, Hunt & Prud'homme 1988).
-
-    Parameters
-    ----------
-    J, rho_s, rho_f, gravity
-        As :func:`reduced_gravity`.
-    pressure_gradient, virtual_mass
-        p, 1 or 0, and C.
-    Du_Dt
-        Acceleration of the fluid, ∂u/∂t + ∇u·u, m/s².
-    """
-    s = J * rho_f / rho_s
-    inertia = 1.0 + virtual_mass * s
-    a = reduced_gravity(J, rho_s, rho_f, gravity)
-    c = (pressure_gradient + virtual_mass) * s
-    n = 1.0 / inertia
-    return (n * (a[0] + c * Du_Dt[0]), n * (a[1] + c * Du_Dt[1]), n * (a[2] + c * Du_Dt[2])), inertia
-
-
-def slip_acceleration(
-    J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector, pressure_gradient: Scalar, Du_Dt: Vector
-) -> Vector:
-    """What drag balances when the particle's own acceleration is the fluid's, m/s².
-
-    (1 − s) g, and with the pressure gradient (s − 1) Du/Dt: the slip to first order in the particle's
-    inertia. The virtual mass has no part in it.
-
-    Parameters
-    ----------
-    As :func:`acceleration`.
-    """
-    a = reduced_gravity(J, rho_s, rho_f, gravity)
-    c = pressure_gradient * (J * rho_f / rho_s - 1.0)
-    return a[0] + c * Du_Dt[0], a[1] + c * Du_Dt[1], a[2] + c * Du_Dt[2]
-
-
 def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: Vector, dt: Scalar) -> Vector:
     """Barycentre velocity after an implicit Euler step, in closed form (43).
 

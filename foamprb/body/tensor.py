@@ -39,6 +39,11 @@ def scale(s: Scalar, T: Tensor) -> Tensor:
     return (s * T[0], s * T[1], s * T[2], s * T[3], s * T[4], s * T[5], s * T[6], s * T[7], s * T[8])
 
 
+def scale_vector(s: Scalar, v: Vector) -> Vector:
+    """S v."""
+    return s * v[0], s * v[1], s * v[2]
+
+
 def add_identity(T: Tensor, s: Scalar) -> Tensor:
     """T + s I."""
     return (T[0] + s, T[1], T[2], T[3], T[4] + s, T[5], T[6], T[7], T[8] + s)

@@ -84,7 +84,7 @@ _MIN_J, _MAX_J = 0.125, 8.0
 
 
 class Medium(NamedTuple):
-    """The fluid around the particles, and the forces by which it acts on a barycentre beside drag."""
+    """The fluid around the particles, and gravity."""
 
     mu: float
     """Pa s."""
@@ -92,10 +92,8 @@ class Medium(NamedTuple):
     """kg/m³."""
     gravity: Vector
     """m/s²."""
-    pressure_gradient: float = 0.0
-    """1 with the force of the undisturbed flow's pressure gradient, else 0."""
-    virtual_mass: float = 0.0
-    """Coefficient of the virtual mass force; ½ for a sphere."""
+    coefficients: Any = ()
+    """Of the forces on the barycentre: the loop's, which a cloud fills in from its models."""
 
 
 class Scratch(NamedTuple):

@@ -16,6 +16,9 @@ from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, new_scratch
+from foamprb.cloud.forces.base import Force
+from foamprb.cloud.forces.gravity import Gravity
+from foamprb.cloud.forces.total import coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
@@ -31,7 +34,7 @@ __all__ = ["Models", "Tracker"]
 
 @dataclass(frozen=True)
 class Models:
-    """Names of the models that a cloud selects, from the registries of :mod:`foamprb.body`."""
+    """The models that a cloud selects, by their names in the registries of :mod:`foamprb.body`."""
 
     traction: str = "roscoe"
     drag: str = "oberbeck"
@@ -40,6 +43,8 @@ class Models:
     integrator: str = "paper"
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
+    forces: tuple[Force, ...] = (Gravity(),)
+    """What acts on the barycentre beside drag."""
 
 
 class Tracker:
@@ -86,10 +91,12 @@ class Tracker:
         layout = integrator.layout
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         bindings |= integrator.bindings
+        bindings |= compose(models.forces)
         self.kernels, self.bindings = kernels, bindings
         self.separate: tuple[Callable[..., Any], ...] = (*integrator.stages, *RARE, *LONG)
         self.table = _patch_table(interactions)
-        self.medium, self.dt, self.start = medium, dt, start
+        self.medium = medium._replace(coefficients=coefficients(models.forces))
+        self.dt, self.start = dt, start
         self.options = (models.tolerance,) if integrator.adaptive else ()
         self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
 

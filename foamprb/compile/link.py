@@ -9,12 +9,13 @@ by which the entry function calls it, and so is a constant that is not the same 
 
 from __future__ import annotations
 
+import dis
 import gc
 import hashlib
 import inspect
 import os
 from collections.abc import Callable, Collection, Mapping
-from functools import partial
+from functools import cache, partial
 from importlib.metadata import version
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
@@ -270,9 +271,11 @@ def _compile_for_cuda(function: Callable[..., Any], role: _Role, key: str) -> An
     return kernel
 
 
-def _global_names(code: CodeType) -> set[str]:
-    inner = (_global_names(constant) for constant in code.co_consts if isinstance(constant, CodeType))
-    return set(code.co_names).union(*inner)
+@cache
+def _global_names(code: CodeType) -> frozenset[str]:
+    """Names that the code reads from its module; ``co_names`` has those of attributes as well."""
+    own = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
+    return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
 def _fingerprint(code: CodeType) -> bytes:

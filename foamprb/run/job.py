@@ -167,14 +167,15 @@ def _compile_ahead(settings: Settings) -> Ahead:
 
 
 def _medium(settings: Settings) -> Medium:
-    fluid, pressure_gradient = settings.fluid, float(settings.pressure_gradient)
-    return Medium(fluid.mu, fluid.rho, settings.gravity, pressure_gradient, settings.virtual_mass)
+    return Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
 
 
 def _models(settings: Settings, integrator: str) -> Models:
     solid = settings.injections[0].solid.type if settings.injections else Models.material
     tolerance = settings.solution.tolerance
-    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance)
+    # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
+    forces = tuple(settings.forces.values()) or Models.forces
+    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance, forces)
 
 
 def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
@@ -308,10 +309,9 @@ def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
     log.info("Selecting tractionModel %s", settings.traction)
-    log.info("Selecting particleForces ellipsoidDrag %s%s%s%s", settings.drag,
-             ", gravity" if any(settings.gravity) else "",
-             ", pressureGradient" if settings.pressure_gradient else "",
-             f", virtualMass (Cvm {settings.virtual_mass:g})" if settings.virtual_mass else "")  # fmt: skip
+    forces = {"ellipsoidDrag": settings.drag, **settings.forces}
+    named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
+    log.info("Selecting particleForces %s", named)
     log.info("Selecting solid %s", cloud.models.material)
     scheme = cloud.models.integrator
     log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)

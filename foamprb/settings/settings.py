@@ -23,6 +23,8 @@ from typing import (
 from foamprb.body.drag import DRAGS
 from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.forces.base import Force
+from foamprb.cloud.forces.registry import FORCES
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution, Scaled, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
 from foamprb.cloud.injection.shapes import SHAPES, Ellipsoid, Shape, Sphere
@@ -157,7 +159,7 @@ Rule: TypeAlias = PatchRule | KindRule
 
 @dataclass(frozen=True)
 class Settings:
-    """All that a user asks for; gravity in m/s2, and Cvm, 0 without the virtual mass."""
+    """All that a user asks for; gravity in m/s2, zero if it is not among the forces."""
 
     case: Path
     file: Path
@@ -172,8 +174,7 @@ class Settings:
     touching: Touching
     patches: tuple[Rule, ...]
     functions: Mapping[str, CloudFunction]
-    pressure_gradient: bool = False
-    virtual_mass: float = 0.0
+    forces: Mapping[str, Force]
     region: str = ""
 
 
@@ -202,6 +203,7 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
     cloud = read_entries(_CloudProperties, root, also=("libs",))
     fluid = Fluid(rho=cloud.constantProperties.rhoInf, nu=_viscosity(case, region))
     models = cloud.subModels
+    drag, forces = _forces(models.particleForces)
     patches, touching = _patch_interaction(models.patchInteractionModel, root.at("subModels").dictionary())
     return Settings(
         case=case,
@@ -209,16 +211,15 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
         name=file.stem.removesuffix("Properties") or file.stem,
         solution=_solution(cloud.solution, root),
         fluid=fluid,
-        gravity=_gravity(case, region) if models.particleForces.gravity else (0.0, 0.0, 0.0),
+        gravity=_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0),
         traction=models.tractionModel,
-        drag=models.particleForces.ellipsoidDrag.type,
+        drag=drag.type,
         injections=_injections(models.injectionModels, cloud.constantProperties, root, fluid),
         interaction=models.patchInteractionModel,
         touching=touching,
         patches=patches,
         functions=_functions(cloud.cloudFunctions),
-        pressure_gradient=models.particleForces.pressureGradient is not None,
-        virtual_mass=models.particleForces.virtualMass.Cvm if models.particleForces.virtualMass else 0.0,
+        forces=forces,
         region=region,
     )
 
@@ -388,6 +389,13 @@ def _functions(dictionary: Dictionary | None) -> dict[str, CloudFunction]:
             raise entry.mistake("is no name of a folder, which the results need.")
         functions[name] = read_entries(selected(FUNCTIONS, own), own, also=("type",))
     return functions
+
+
+def _forces(dictionary: Dictionary) -> tuple[_EllipsoidDrag, dict[str, Force]]:
+    """Read ``particleForces { ellipsoidDrag { … } gravity; … }``: the drag, and the others by name."""
+    drag = read_entries(_ParticleForces, dictionary, also=FORCES).ellipsoidDrag
+    chosen = {name: kind for name, kind in FORCES.items() if name in dictionary.entries}
+    return drag, {name: read_entry(dictionary, name, kind) for name, kind in chosen.items()}
 
 
 def _patch_interaction(model: str, models: Dictionary) -> tuple[tuple[Rule, ...], Touching]:
@@ -606,30 +614,10 @@ class _EllipsoidDrag:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Gravity:
-    pass
-
-
-_FLUID_VELOCITY = Only("U", "the flow's velocity")
-
-
-@dataclass(frozen=True, kw_only=True)
-class _PressureGradient:
-    U: Annotated[str, _FLUID_VELOCITY] = "U"
-
-
-@dataclass(frozen=True, kw_only=True)
-class _VirtualMass:
-    Cvm: Annotated[float, NonNegative]
-    U: Annotated[str, _FLUID_VELOCITY] = "U"
-
-
-@dataclass(frozen=True, kw_only=True)
 class _ParticleForces:
+    """What ``particleForces`` reads beside :data:`FORCES`."""
+
     ellipsoidDrag: _EllipsoidDrag
-    gravity: _Gravity | None = None
-    pressureGradient: _PressureGradient | None = None
-    virtualMass: _VirtualMass | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -661,7 +649,7 @@ class _Rebound:
 
 @dataclass(frozen=True, kw_only=True)
 class _SubModels:
-    particleForces: _ParticleForces
+    particleForces: Dictionary
     injectionModels: Dictionary
     patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
     localInteractionCoeffs: Dictionary | None = None

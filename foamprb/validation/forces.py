@@ -10,6 +10,10 @@ from scipy.integrate import solve_ivp
 from foamprb import Medium
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces.base import Force
+from foamprb.cloud.forces.gravity import Gravity
+from foamprb.cloud.forces.pressure_gradient import PressureGradient
+from foamprb.cloud.forces.virtual_mass import VirtualMass
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
@@ -19,7 +23,7 @@ from foamprb.validation.runs import advance_to
 ODE = "Maxey & Riley (1983) without history, by solve_ivp"
 CLOSED = "closed form"
 MU_F, RHO_F, DIAMETER = 1e-3, 1000.0, 2e-4
-FORCES = {"drag": (0.0, 0.0), "with pressure gradient": (1.0, 0.0), "with both": (1.0, 0.5)}
+KERNELS = {"drag": (0.0, 0.0), "with pressure gradient": (1.0, 0.0), "with both": (1.0, 0.5)}
 """Pressure gradient and virtual mass coefficient."""
 
 
@@ -81,15 +85,21 @@ def sphere_path(
     return np.asarray(answer.y.T)
 
 
+def _forces(p: float, C: float) -> tuple[Force, ...]:
+    """Gravity, and those whose coefficient is not zero."""
+    more = ((p, PressureGradient()), (C, VirtualMass(Cvm=C)))
+    return (Gravity(), *(force for coefficient, force in more if coefficient))
+
+
 def _run(
-    flow: analytic.AnalyticFlow, rho: float, force: tuple[float, float], integrator: str, dt: float,
+    flow: analytic.AnalyticFlow, rho: float, kernel: tuple[float, float], integrator: str, dt: float,
     start: Floats, times: Floats, g: Floats,
 ) -> Floats:  # fmt: skip
     """Position and velocity (m, 6) of a quasi-rigid sphere."""
     p = spheres(start[None, :3], d=DIAMETER, rho=rho, mu=1e3)
     p.v[:] = start[3:]
-    medium = Medium(MU_F, RHO_F, (float(g[0]), float(g[1]), float(g[2])), *force)
-    models = Models(integrator=integrator, tolerance=1e-7)
+    medium = Medium(MU_F, RHO_F, (float(g[0]), float(g[1]), float(g[2])))
+    models = Models(integrator=integrator, tolerance=1e-7, forces=_forces(*kernel))
     cloud = Cloud(p, flow, medium, (), dt, models, threads=1)
     path = []
     for t in times:
@@ -115,7 +125,7 @@ def forces(quick: bool) -> Outcome:
     times = np.linspace(0.0, 0.05 if quick else 0.1, 11 if quick else 21)[1:]
     start = np.array([radius, 0.0, 0.0, 0.0, omega * radius, 0.0])
     for rho in (400.0, 2500.0):
-        for colour, (name, force) in enumerate(FORCES.items()):
+        for colour, (name, force) in enumerate(KERNELS.items()):
             own = sphere_path(force, rho, whirl, start, times, gravity)
             for integrator, dt, allowed in integrators:
                 ours = _run(analytic.linear(spin), rho, force, integrator, dt, start, times, gravity)
@@ -148,7 +158,7 @@ def forces(quick: bool) -> Outcome:
     down = np.array([0.0, -9.81, 0.0])
     start = np.array([0.0, 0.0, 0.0, swing.speed, 0.0, 0.0])
     for rho in (400.0, 2500.0):
-        for colour, (name, force) in enumerate(FORCES.items()):
+        for colour, (name, force) in enumerate(KERNELS.items()):
             own = sphere_path(force, rho, oscillation, start, times, down)
             for integrator, dt, allowed in integrators:
                 step = min(dt, 5e-4)

@@ -17,6 +17,7 @@ from paths import PIPE
 import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces.total import coefficients, compose
 from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
@@ -32,6 +33,7 @@ COST = {"paper": 55.0, "stokes": 90.0}
 SLOWER = 2.5
 """A loop that costs so many times more has lost something; machines alone differ by less."""
 
+FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm=0.5))
 # It goes through a single lane.
 _NO_VECTORS = (dense_newton,)
 STAGES = {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}
@@ -104,9 +106,10 @@ def assembly_of(stage, integrator, monkeypatch, folder):
     """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected."""
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
     monkeypatch.setattr(compiling, "_parts", {})
+    medium = AIR._replace(coefficients=coefficients(FORCES))
     block = np.ones(integrator.layout.rows * LANES)
-    dispatcher = link(stage, integrator.bindings)
-    values = {"block": block, "medium": AIR, "tolerance": 1e-4, "allowed": 1e-22}
+    dispatcher = link(stage, compose(FORCES) | integrator.bindings)
+    values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22}
     dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))
     (assembly,) = dispatcher.inspect_asm().values()
     return assembly

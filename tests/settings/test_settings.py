@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from paths import PIPE, ROOT
 
+from foamprb import PressureGradient, VirtualMass
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS, General, Normal, RosinRammler, Scaled, Uniform
 from foamprb.cloud.injection.models import (
     INJECTIONS,
@@ -515,9 +516,11 @@ def test_shapes(read: Reader) -> None:
 
 
 def test_forces(read: Reader) -> None:
-    assert (read().pressure_gradient, read().virtual_mass) == (False, 0.0)
-    settings = read(("ellipsoidDrag;", "ellipsoidDrag; pressureGradient { U U; } virtualMass { Cvm 0.5; }"))
-    assert (settings.pressure_gradient, settings.virtual_mass) == (True, 0.5)
+    assert read().forces == {}
+    settings = read(("ellipsoidDrag;", "virtualMass { Cvm 0.5; } ellipsoidDrag; pressureGradient { U U; }"))
+    # In the order of the registry.
+    both = [("pressureGradient", PressureGradient()), ("virtualMass", VirtualMass(Cvm=0.5))]
+    assert list(settings.forces.items()) == both
     with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
         read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
 

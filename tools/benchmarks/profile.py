@@ -126,8 +126,9 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     runs: dict[str, Any] = {}
     for name, stage in STAGES[integrator].items():
         if stage.with_medium:
-            kernel = link(_repeat_medium, {"medium_stage": stage.function}, separate=(stage.function,))
-            runs[name] = lambda times, k=kernel: [k(data, cloud.medium, times) for _, data in chosen]
+            bindings = cloud.tracker.bindings | {"medium_stage": stage.function}
+            kernel, medium = link(_repeat_medium, bindings, (stage.function,)), cloud.tracker.medium
+            runs[name] = lambda times, k=kernel, m=medium: [k(data, m, times) for _, data in chosen]
         else:
             kernel = link(_repeat, {"frame_stage": stage.function}, separate=(stage.function,))
             runs[name] = lambda times, k=kernel: [k(data, times) for _, data in chosen]

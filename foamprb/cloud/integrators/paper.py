@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.drag import acceleration, implicit_euler
+from foamprb.body.drag import implicit_euler
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.imex import RELATIVE_TOLERANCE, advance, equation, inertia_factor, tangent
 from foamprb.body.material import MATERIALS, viscous_stress
@@ -37,6 +37,7 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
+from foamprb.cloud.forces.total import acceleration
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.motion import (
@@ -102,15 +103,7 @@ def barycentre_stage(block: Any, medium: Medium) -> None:
         R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
         # μ_f K_a/m with K_a in units of R
         c = medium.mu / (4.0 / 3.0 * math.pi * R * R * rho)
-        a, inertia = acceleration(
-            block[at.J * LANES + i],
-            rho,
-            medium.rho,
-            medium.gravity,
-            medium.pressure_gradient,
-            medium.virtual_mass,
-            load3(block, at.DuDt, i),
-        )
+        a, inertia = acceleration(block, i, medium, block[at.J * LANES + i])
         c = c / inertia
         rate = (c * k[0], c * k[1], c * k[2])
         v, u, Q = load3(block, at.v, i), load3(block, at.u, i), load9(block, at.Q, i)

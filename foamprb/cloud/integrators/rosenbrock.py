@@ -9,7 +9,6 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.drag import acceleration
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import finger_of_sphere as finger
@@ -33,6 +32,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.forces.total import acceleration
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.second_order import (
     SECOND_ORDER_ROWS,
@@ -174,15 +174,7 @@ def _acceleration(
 ) -> tuple[Vector, Vector]:
     """Acceleration of the barycentre (34), m/s², and the rates of drag, 1/s, with resistances R k."""
     u = load3(block, at.u, i)
-    a, inertia = acceleration(
-        J,
-        block[at.rho * LANES + i],
-        medium.rho,
-        medium.gravity,
-        medium.pressure_gradient,
-        medium.virtual_mass,
-        load3(block, at.DuDt, i),
-    )
+    a, inertia = acceleration(block, i, medium, J)
     r = drag_rate(block, i, medium.mu, k)
     rate = (r[0] / inertia, r[1] / inertia, r[2] / inertia)
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))

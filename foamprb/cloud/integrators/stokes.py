@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Annotated, Any, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.drag import slip_acceleration
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger_of_sphere as finger
@@ -31,6 +30,7 @@ from foamprb.body.tensor import (
     vector_dot,
 )
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.forces.total import slip_acceleration
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.second_order import (
     SECOND_ORDER_ROWS,
@@ -138,9 +138,8 @@ def _balance(
     l_f = to_frame(Q, load9(block, at.l, i))
     l_s = velocity_gradient(stretches, g, m, sigma, l_f)
     rate = drag_rate(block, i, medium.mu, drag(stretches, g))
-    rho, DuDt = block[at.rho * LANES + i], load3(block, at.DuDt, i)
-    a = slip_acceleration(1.0, rho, medium.rho, medium.gravity, medium.pressure_gradient, DuDt)
-    u, w = load3(block, at.u, i), _drift(Q, rate, a)
+    w = _drift(Q, rate, slip_acceleration(block, i, medium))
+    u = load3(block, at.u, i)
     return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
 
 

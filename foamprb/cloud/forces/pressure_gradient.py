@@ -1,0 +1,29 @@
+"""The force of the undisturbed flow's pressure gradient."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from foamprb.body.tensor import Scalar, Vector, scale_vector
+from foamprb.cloud.forces.base import FLUID_VELOCITY, Force, Inputs, displaced
+
+
+def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
+    """m_f Du/Dt over m, s Du/Dt, m/s² (Maxey & Riley 1983); no inertia."""
+    return scale_vector(displaced(inputs), inputs.Du_Dt), 0.0
+
+
+def pressure_gradient_slip(inputs: Inputs) -> Vector:
+    """(s − 1) Du/Dt, m/s²: the particle's own acceleration, which is the fluid's, is taken off."""
+    return scale_vector(displaced(inputs) - 1.0, inputs.Du_Dt)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureGradient(Force):
+    """``pressureGradient;`` or, as OpenFOAM has it, ``pressureGradient { U U; }``."""
+
+    U: Annotated[str, FLUID_VELOCITY] = "U"
+
+    push: ClassVar = staticmethod(pressure_gradient)
+    slip: ClassVar = staticmethod(pressure_gradient_slip)

@@ -1,0 +1,32 @@
+"""Virtual mass: the fluid that an accelerating body accelerates with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from foamprb.body.tensor import Scalar, Vector, scale_vector
+from foamprb.cloud.forces.base import FLUID_VELOCITY, Force, Inputs, displaced
+from foamprb.dictionary.constraints import NonNegative
+
+
+def virtual_mass(inputs: Inputs, Cvm: Scalar) -> tuple[Vector, Scalar]:
+    """C s Du/Dt, m/s², and the inertia C s (Auton, Hunt & Prud'homme 1988)."""
+    c = Cvm * displaced(inputs)
+    return scale_vector(c, inputs.Du_Dt), c
+
+
+def virtual_mass_slip(_inputs: Inputs, _Cvm: Scalar) -> Vector:
+    """Nothing: C s (Du/Dt − dv/dt) vanishes where the particle's acceleration is the fluid's."""
+    return (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class VirtualMass(Force):
+    """``virtualMass { Cvm 0.5; }``; ½ is the coefficient of a sphere."""
+
+    Cvm: Annotated[float, NonNegative]
+    U: Annotated[str, FLUID_VELOCITY] = "U"
+
+    push: ClassVar = staticmethod(virtual_mass)
+    slip: ClassVar = staticmethod(virtual_mass_slip)
