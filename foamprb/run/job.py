@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
