@@ -201,7 +201,8 @@ def _sums(array: ArrayLike) -> Sums:
     values = np.atleast_1d(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
-    columns = values.reshape(len(values), math.prod(values.shape[1:]))
+    rows = np.atleast_1d(values)
+    columns = rows.reshape(len(rows), math.prod(rows.shape[1:]))
     random = np.random.default_rng(0)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
