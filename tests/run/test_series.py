@@ -85,7 +85,7 @@ def test_a_run_starts_at_the_first_time_that_is_selected(case):
 
 
 def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
-    edit(case, "SOI 0.3; ", "")
+    edit(case, "SOI 0.3;", "")
     folder = run(case, "-time", "0.5:")
     with (folder / "fates.csv").open() as file:
         assert [float(row["t0"]) for row in csv.DictReader(file)] == [0.5, 0.5]
