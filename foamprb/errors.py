@@ -46,7 +46,9 @@ class RankError(Exception):
 
 def closest(found: str, allowed: Iterable[str]) -> str | None:
     """Return which of the allowed words was probably meant, None if none is close."""
-    close = difflib.get_close_matches(found, sorted(allowed), n=1, cutoff=0.6)
+    names = sorted(allowed)
+    same = [name for name in names if name.lower() == found.lower()]
+    close = same or difflib.get_close_matches(found, names, n=1, cutoff=0.6)
     return close[0] if close else None
 
 

@@ -242,9 +242,10 @@ def _compile_for_cuda(function: Callable[..., Any], role: Role, key: str) -> Any
     return kernel
 
 
-def _global_names(code: CodeType) -> set[str]:
+@cache
+def _global_names(code: CodeType) -> frozenset[str]:
     """Names that the code reads from its module; ``co_names`` has those of attributes as well."""
-    own = {step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL"}
+    own = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
     return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 

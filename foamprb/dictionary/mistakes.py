@@ -38,7 +38,7 @@ class Mistake(InputError):  # noqa: N818
 
 
 class ReportedError(InputError):
-    """What follows from a mistake that has been collected already; it is not collected."""
+    """What follows from a mistake that is reported elsewhere; of itself it makes no line of a message."""
 
 
 class SeveralMistakes(InputError):  # noqa: N818
@@ -72,6 +72,7 @@ class Mistakes:
 
     def __init__(self) -> None:
         self._errors: dict[str, InputError] = {}
+        self._consequence: ReportedError | None = None
 
     def __enter__(self) -> None:
         pass
@@ -87,6 +88,7 @@ class Mistakes:
     def add(self, error: InputError) -> None:
         """Add a mistake; one that is known already counts once."""
         if isinstance(error, ReportedError):
+            self._consequence = error
             return
         for one in error.errors if isinstance(error, SeveralMistakes) else (error,):
             self._errors.setdefault(str(one), one)
@@ -97,7 +99,7 @@ class Mistakes:
         Raises
         ------
         InputError
-            The only mistake, or SeveralMistakes.
+            The only mistake, or SeveralMistakes; or ReportedError if they are reported elsewhere.
         """
         found = [error for error in self._errors.values() if isinstance(error, Mistake)]
         meant = frozenset[str]().union(*(error.meant for error in found))
@@ -110,3 +112,5 @@ class Mistakes:
             raise errors[0]
         if errors:
             raise SeveralMistakes(errors)
+        if self._consequence is not None:
+            raise self._consequence

@@ -1,45 +1,86 @@
-"""OpenFOAM's file of positions for ``manualInjection``."""
+"""Files of positions for ``manualInjection``: OpenFOAM's list, or a table of plain numbers."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError
+from foamprb.dictionary.constraints import Bounds
+from foamprb.dictionary.mistakes import Mistake
+from foamprb.errors import InputError, suggestion
 
-_NUMBER = rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
+__all__ = ["Positions", "read_positions"]
+
+Floats = NDArray[np.float64]
+
+
+class Positions(NamedTuple):
+    """Positions of n particles, and what else a file gives of each."""
+
+    x: Floats
+    """(n, 3), m."""
+    columns: dict[str, Floats]
+    """Other columns by their names, (n,) each."""
+
+
 # Possessive throughout, so that a broken file is refused in linear time.
+_NUMBER = rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
 _ROWS = re.compile(rb"(?:\s*+\(\s*+%b\s++%b\s++%b\s*+\))*+\s*+" % (_NUMBER, _NUMBER, _NUMBER))
 _COMMENT = re.compile(rb"//[^\n]*+|/\*.*?\*/", re.DOTALL)
+_COMMENT_IN_TABLE = re.compile(rb"(?:#|//)[^\n]*+")
 _HEADER = re.compile(rb"\s*+(?:FoamFile\s*+\{[^}]*+\})?+\s*+")
 _OPENING = re.compile(rb"(\d{1,18}+)?\s*+\(")
 _PARENTHESES = bytes.maketrans(b"()", b"  ")
+_SEPARATOR = rb"(?:[ \t]*+[,;][ \t]*+|[ \t]++)"
+_SEPARATORS = bytes.maketrans(b",;", b"  ")
+_FINITE = Bounds(-np.inf, np.inf, True, True, "a finite number")
+_COORDINATES = ("x", "y", "z")
+# ParaView's spreadsheets call them so.
+_ALIASES = {f"Points{mark}{i}": name for mark in ":_" for i, name in enumerate(_COORDINATES)}
 
 
-def read_positions(path: Path) -> NDArray[np.float64]:
-    """Read the positions of a file ``( (x y z) (x y z) … )``, a FoamFile header and a count before it or not.
+def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> Positions:
+    """Read positions, in one of two formats.
 
-    Returns
-    -------
-    Array of shape (n, 3), m.
+    * OpenFOAM's list ``( (x y z) (x y z) … )``, with or without a header and the number of positions;
+    * a table with a line for each position, numbers separated by commas, semicolons or white space. Its first
+      line may name the columns: ``x,y,z,d,rho``. Comments begin with ``#`` or ``//``.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        Which columns a table may have beside x, y and z, and the bounds of their values.
 
     Raises
     ------
     InputError
-        If the file cannot be read, is not such a list, or holds a number that is not finite; with the line.
+        If the file cannot be read, is neither, or holds a number that is not finite or out of its bounds;
+        with the line.
     """
     try:
-        text = _COMMENT.sub(_blank, path.read_bytes())
+        data = path.read_bytes().removeprefix(b"\xef\xbb\xbf")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}.") from error
+    text = _COMMENT.sub(_blank, data)
     header = _HEADER.match(text)
     start = header.end() if header else 0
     opening = _OPENING.match(text, start)
+    if opening is None and b"FoamFile" not in text[:start]:
+        return _table(path, data, columns or {})
     if opening is None:
         raise _mistake(path, text, start, "Expected: a list ( (x y z) (x y z) … )")
+    return Positions(_list(path, text, start, opening), {})
+
+
+def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floats:
+    """Read OpenFOAM's list, of which the opening has been found."""
     rows = _ROWS.match(text, opening.end())
     end = rows.end() if rows else opening.end()
     if text[end : end + 1] != b")":
@@ -60,13 +101,76 @@ def read_positions(path: Path) -> NDArray[np.float64]:
     return positions
 
 
+def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
+    """Read lines of numbers, the first of which may be names, in a comment or not."""
+    commented = re.match(rb"\s*+#[ \t]*+([^\n]*+)", data)
+    if commented and set(_COORDINATES) <= set(_words(commented[1].rstrip())):
+        data = data.replace(b"#", b" ", 1)
+    text = _COMMENT_IN_TABLE.sub(b"", data)
+    first = len(text) - len(text.lstrip())
+    line = text[first:].split(b"\n", 1)[0].rstrip()
+    names: Sequence[str] = _COORDINATES
+    body = first
+    if not re.fullmatch(rb"%b(?:%b%b)*+" % (_NUMBER, _SEPARATOR, _NUMBER), line):
+        names = _names(path, text, first, line, columns)
+        body = first + len(line)
+    row = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join([_NUMBER] * len(names))
+    rows = re.compile(rb"\s*+(?:%b(?:\n\s*+|\Z))*+" % row)
+    match = rows.match(text, body)
+    end = match.end() if match else body
+    if end < len(text):
+        expected = f"{len(names)} numbers, {' '.join(names)}"
+        hint = "" if names is not _COORDINATES else ", or a first line with the names of the columns"
+        raise _mistake(path, text, end, f"Expected: {expected}{hint}")
+    numbers = np.array(text[body:end].translate(_SEPARATORS).split(), dtype=np.float64)
+    values = dict(zip(names, numbers.reshape(-1, len(names)).T, strict=True))
+    for name, column in values.items():
+        bounds = columns.get(name, _FINITE)
+        if len(column) and not (bounds.admits(column.min()) and bounds.admits(column.max())):
+            wrong = next(k for k, value in enumerate(column) if not bounds.admits(value))
+            at = _start_of_row(text, body, wrong)
+            raise _mistake(path, text, at, f"Expected: for {name}, {bounds.text}")
+    x = np.stack([values.pop(name) for name in _COORDINATES], axis=1)
+    return Positions(x, {name: column.copy() for name, column in values.items()})
+
+
+def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, Bounds]) -> tuple[str, ...]:
+    """Read the names of columns."""
+    names = _words(line)
+    known = (*_COORDINATES, *columns)
+    if not set(names) & set(known):
+        raise _mistake(path, text, at, "Expected: a list ( (x y z) (x y z) … ), or lines x y z")
+    for name in names:
+        if name not in known:
+            raise _mistake(path, text, at, f"There is no column {name}. {suggestion(name, known)[:-1]}")
+        if names.count(name) > 1:
+            raise _mistake(path, text, at, f"The column {name} is there twice")
+    for name in _COORDINATES:
+        if name not in names:
+            raise _mistake(path, text, at, f"The column {name} is missing")
+    return names
+
+
+def _words(line: bytes) -> tuple[str, ...]:
+    """Return the words of a line, which commas or semicolons separate or, without any, white space."""
+    words = re.split(rb"[,;]", line) if re.search(rb"[,;]", line) else line.split()
+    found = (word.decode(errors="replace").strip().strip("\"'") for word in words)
+    return tuple(_ALIASES.get(name, name) for name in found)
+
+
+def _start_of_row(text: bytes, body: int, row: int) -> int:
+    """Return where a row of a table begins, blank lines not counted."""
+    starts = (match.start() for match in re.finditer(rb"\S[^\n]*+", text[body:]))
+    return body + next(start for index, start in enumerate(starts) if index == row)
+
+
 def _blank(comment: re.Match[bytes]) -> bytes:
     """White space instead of a comment, with its line ends, so that line numbers stay."""
     return b" " + b"\n" * comment[0].count(b"\n")
 
 
-def _mistake(path: Path, text: bytes, position: int, expected: str) -> InputError:
+def _mistake(path: Path, text: bytes, position: int, expected: str) -> Mistake:
     """Say what stands at a position of the text, in which line, and what should."""
     line = text.count(b"\n", 0, position) + 1
     found = text[position : position + 60].split(b"\n")[0].decode(errors="replace").strip()
-    return InputError(f"{path}, line {line}: found '{found or 'the end of the file'}'. {expected}.")
+    return Mistake(str(path), line, f"found '{found or 'the end of the file'}'. {expected}.")

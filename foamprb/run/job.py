@@ -11,14 +11,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import available_threads
-from foamprb.cloud.injection.distribution import draw
-from foamprb.cloud.injection.models import START_OF_FLOW, release, start_of_injection
+from foamprb.cloud.injection.distribution import Distribution, draw
+from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
@@ -261,16 +262,24 @@ def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> flo
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:
+    solid = injection.solid
     try:
-        p = release(injection.model, flow, _random(injection.name), read_positions)
+        p, given = release(injection.model, flow, _random(injection.name), read_positions)
+        stiffness = given_shear_modulus(given, solid.poissons_ratio, medium.mu, solid.reference_shear_rate)
+        if injection.size is None and "d" not in given:
+            raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
     except InputError as error:
         raise InputError(f"injection model {injection.name}: {error}") from error
-    solid = injection.solid
-    p.R[:] = 0.5 * draw(injection.size, p.size, _random(injection.name, "size"))
-    p.rho[:] = draw(injection.rho, p.size, _random(injection.name, "rho"))
-    p.mu[:] = draw(solid.shear_modulus, p.size, _random(injection.name, "stiffness"))
-    p.eta[:] = draw(solid.viscosity, p.size, _random(injection.name, "viscosity"))
-    p.gamma[:] = draw(solid.surface_tension, p.size, _random(injection.name, "surfaceTension"))
+
+    def values(own: NDArray[np.float64] | None, quantity: float | Distribution, key: str) -> Any:
+        """What the file of positions gives, or else what is drawn."""
+        return draw(quantity, p.size, _random(injection.name, key)) if own is None else own
+
+    p.R[:] = 0.5 * values(given.get("d"), injection.size or 0.0, "size")
+    p.rho[:] = values(given.get("rho"), injection.rho, "rho")
+    p.mu[:] = values(stiffness, solid.shear_modulus, "stiffness")
+    p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
+    p.gamma[:] = values(given.get("surfaceTension"), solid.surface_tension, "surfaceTension")
     p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index

@@ -198,7 +198,7 @@ def _sums(array: ArrayLike) -> Sums:
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
     """
-    values = np.asarray(array)
+    values = np.atleast_1d(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
     rows = np.atleast_1d(values)

@@ -186,7 +186,7 @@ class InjectionModel:
     """The entries that every injection model has beside its own."""
 
     type: Annotated[str, Choice(INJECTIONS)]
-    sizeDistribution: Dictionary
+    sizeDistribution: Dictionary | None = None
     rho0: Annotated[float, Positive] | Dictionary | None = None
     solid: Dictionary | None = None
     shape: Dictionary | None = None

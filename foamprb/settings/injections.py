@@ -70,7 +70,9 @@ def _injection(dictionary: Dictionary, constant: Dictionary, fluid: Fluid) -> In
     with mistakes:
         shape = _shape(places["shape"])
     with mistakes:
-        size = _distribution(read_entry(dictionary, "sizeDistribution", Dictionary))
+        size = None
+        if "sizeDistribution" in dictionary.entries or "positionsFile" not in own:
+            size = _distribution(read_entry(dictionary, "sizeDistribution", Dictionary))
     with mistakes:
         solid = _solid(
             [place for place in (constant, dictionary) if "solid" in place.entries], constant, fluid

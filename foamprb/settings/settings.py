@@ -75,7 +75,8 @@ class InjectionSettings:
     model: Injection
     rho: float | Distribution
     solid: Solid
-    size: Distribution
+    size: Distribution | None
+    """Diameters, m; None if a file of positions must give them."""
     shape: Shape
 
 

@@ -198,7 +198,7 @@ def difference(values):
     return element(values, places.high) - element(values, places.low)
 
 
-def test_named_numbers_are_constants_of_the_code_that_reads_them(kept):
+def test_named_numbers_are_constants_of_the_code_that_reads_them(cache):
     """Other numbers are other code; a function that is given one is compiled once for all."""
     values = np.array([1.0, 2.0, 4.0, 8.0])
     assert link(difference)(values) == 4.0

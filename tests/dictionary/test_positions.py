@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from foamprb.dictionary.constraints import NonNegative, Positive
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 
@@ -32,7 +33,8 @@ def test_written_positions_are_read_back(
     path.write_text(
         f"FoamFile {{ class vectorField; }}\n{comment}{len(rows) if counted else ''}\n(\n{body})\n{comment}"
     )
-    positions = read_positions(path)
+    positions, columns = read_positions(path)
+    assert columns == {}
     assert positions.shape == (len(rows), 3)
     assert positions.dtype == np.float64
     np.testing.assert_array_equal(positions, np.array(rows, dtype=float).reshape(-1, 3))
@@ -69,4 +71,107 @@ def test_positions_file_that_is_missing(tmp_path: Path) -> None:
 def test_a_broken_row_late_in_a_long_file_is_found_at_once(tmp_path: Path) -> None:
     (tmp_path / "positions").write_text("(" + "(0 1 2)\n" * 100_000 + "(0 1\n)")
     with pytest.raises(InputError, match="line 100001: found"):
+        read_positions(tmp_path / "positions")
+
+
+# Tables
+
+COLUMNS = {"d": Positive, "rho": Positive, "Ca": Positive, "viscosity": NonNegative}
+positive = st.floats(1e-300, 1e300)
+
+
+@given(
+    st.lists(st.tuples(finite, finite, finite)),
+    st.sampled_from([" ", "\t", ",", ", ", " ; ", "  \t "]),
+    st.sampled_from(["\n", "\r\n", "\n\n", " \n  ", "  # (1 2 3)\n", "\n// 4 5 6\n"]),
+    st.sampled_from(["", "x{0}y{0}z", "# x{0}y{0}z", '"Points:0"{0}"Points:1"{0}"Points:2"']),
+)
+def test_lines_of_numbers_are_read_back(
+    tmp_path_factory: pytest.TempPathFactory,
+    rows: list[tuple[float, float, float]],
+    separator: str,
+    end: str,
+    header: str,
+) -> None:
+    path = tmp_path_factory.getbasetemp() / "positions.csv"
+    lines = [header.format(separator)] * bool(header)
+    lines += [separator.join(map(repr, row)) for row in rows]
+    path.write_bytes("".join(line + end for line in lines).encode())
+    if not lines:
+        with pytest.raises(InputError, match="Expected: a list"):
+            read_positions(path)
+        return
+    positions, columns = read_positions(path)
+    assert columns == {}
+    assert positions.shape == (len(rows), 3)
+    np.testing.assert_array_equal(positions, np.array(rows, dtype=float).reshape(-1, 3))
+
+
+@given(
+    st.lists(st.tuples(finite, finite, finite, positive, positive, st.floats(0.0, 1e300)), min_size=1),
+    st.permutations(["x", "y", "z", "d", "rho", "viscosity"]),
+    st.sampled_from([",", "\t"]),
+)
+def test_columns_are_known_by_their_names(
+    tmp_path_factory: pytest.TempPathFactory,
+    rows: list[tuple[float, ...]],
+    names: list[str],
+    separator: str,
+) -> None:
+    path = tmp_path_factory.getbasetemp() / "columns.csv"
+    values = dict(zip(["x", "y", "z", "d", "rho", "viscosity"], np.transpose(rows), strict=True))
+    lines = [names, *([repr(float(values[name][k])) for name in names] for k in range(len(rows)))]
+    path.write_text("\n".join(separator.join(line) for line in lines))
+    positions, columns = read_positions(path, COLUMNS)
+    np.testing.assert_array_equal(positions, np.stack([values[c] for c in "xyz"], axis=1))
+    assert columns.keys() == {"d", "rho", "viscosity"}
+    for name, column in columns.items():
+        np.testing.assert_array_equal(column, values[name])
+
+
+def test_what_excel_and_numpy_write_is_read(tmp_path: Path) -> None:
+    table = np.array([[1.0, 2.0, 3.0, 1e-5], [4.0, 5.0, 6.0, 2e-5]])
+    np.savetxt(tmp_path / "numpy", table, header="x y z d")
+    text = "x;y;z;d\r\n1;2;3;1e-5\r\n4;5;6;2e-5\r\n"
+    (tmp_path / "excel").write_bytes(b"\xef\xbb\xbf" + text.encode())
+    for name in ("numpy", "excel"):
+        positions, columns = read_positions(tmp_path / name, COLUMNS)
+        np.testing.assert_array_equal(positions, table[:, :3])
+        np.testing.assert_array_equal(columns["d"], table[:, 3])
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("0 0 0\n0 0\n", "line 2: found '0 0'. Expected: 3 numbers, x y z, or a first line with the names"),
+        ("0 0 0\n\n# a\n1 2 3 4\n", "line 4: found '1 2 3 4'. Expected: 3 numbers, x y z"),
+        ("0 0 0 1e-5\n", "line 1: found '0 0 0 1e-5'. Expected: 3 numbers, x y z, or a first line with the"),
+        ("0,0,0\n0,a,0", "line 2: found '0,a,0'. Expected: 3 numbers"),
+        ("0,0,0\n0,,0,0", "line 2: found '0,,0,0'. Expected: 3 numbers"),
+        ("0 0 0\n0 1e400 0", "line 2: found '0 1e400 0'. Expected: for y, a finite number"),
+        ("0 0 0\n0 nan 0", "line 2: found '0 nan 0'. Expected: 3 numbers"),
+        ("x,y,d\n0,0,1", "line 1: found 'x,y,d'. The column z is missing"),
+        ("x,y,z,x\n0,0,1,1", "line 1: found 'x,y,z,x'. The column x is there twice"),
+        (
+            "x,y,z,D\n0,0,1,1",
+            "There is no column D. Did you mean 'd'? Allowed: Ca, d, rho, viscosity, x, y, z.",
+        ),
+        ("x,y,z,size\n0,0,1,1", "There is no column size. Allowed: Ca, d,"),
+        ("x y z d\n0 0 0 1\n\n0 0 0 0", "line 4: found '0 0 0 0'. Expected: for d, a number > 0."),
+        ("x y z d\n0 0 0", "line 2: found '0 0 0'. Expected: 4 numbers, x y z d."),
+        ("x y z viscosity\n0 0 0 -1", "Expected: for viscosity, a number >= 0."),
+        ("some text\n1 2 3", "line 1: found 'some text'. Expected: a list ( (x y z) (x y z) … ), or lines x"),
+    ],
+)
+def test_mistakes_in_tables(tmp_path: Path, text: str, message: str) -> None:
+    (tmp_path / "positions").write_text(text)
+    with pytest.raises(InputError) as caught:
+        read_positions(tmp_path / "positions", COLUMNS)
+    assert str(caught.value).startswith(f"{tmp_path}/positions, line ")
+    assert message in str(caught.value)
+
+
+def test_a_broken_line_late_in_a_long_table_is_found_at_once(tmp_path: Path) -> None:
+    (tmp_path / "positions").write_text("0 1 2\n" * 100_000 + "0 1\n")
+    with pytest.raises(InputError, match="line 100001: found '0 1'"):
         read_positions(tmp_path / "positions")

@@ -334,3 +334,52 @@ def test_the_readmes_python_runs():
     names: dict[str, object] = {}
     exec(lines.replace('"cases/pipe"', f'"{PIPE}"').replace("20_000", "200"), names)
     assert names["particles"].x[0, 0] > 0.0
+
+
+TABLE = """# from a microscope
+x, y, z, d, rho, shearModulus, viscosity
+0, -1e-3, 0, 2e-6, 1100, 5, 0.01
+0, 5, 0, 3e-6, 1200, 6, 0.02   # outside
+0, 1e-3, 0, 4e-6, 1300, 7, 0
+"""
+
+
+def test_a_table_gives_each_particle_its_own_properties(case, capsys):
+    (case / "constant/table.csv").write_text(TABLE)
+    edit(case, r"Ca025\s*\{[^{}]*\{[^{}]*\}\s*\}",
+         'Ca025 { type manualInjection; positionsFile "table.csv"; ignoreOutOfBounds true; }')  # fmt: skip
+    p = of(population(case), 1)
+    np.testing.assert_array_equal(p.x[:, 1], [-1e-3, 1e-3])
+    np.testing.assert_allclose(p.R, [1e-6, 2e-6], rtol=1e-15)
+    np.testing.assert_array_equal(p.rho, [1100.0, 1300.0])
+    np.testing.assert_array_equal(p.mu, [5.0, 7.0])
+    np.testing.assert_array_equal(p.eta, [0.01, 0.0])
+    np.testing.assert_allclose(p.lame, p.mu * 2.0 * 0.499 / (1.0 - 2.0 * 0.499), rtol=1e-12)
+    np.testing.assert_allclose(p.Ca, 1.208 * 1.491e-5 * 923.8 / p.mu, rtol=1e-12)
+    # Nothing of it has an effect on the other models.
+    others = of(population(case), 0)
+    np.testing.assert_allclose(others.R, D / 2, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("columns", "expected"),
+    [
+        ("d", None),
+        (
+            "rho",
+            "injection model Ca025: sizeDistribution is missing, and the file of positions has no column d.",
+        ),
+        ("shearModulus,Ca", "injection model Ca025: the file of positions gives shearModulus and Ca"),
+        ("diameter", "table.csv, line 1: found 'x,y,z,diameter'. There is no column diameter."),
+    ],
+)
+def test_without_a_size_distribution_the_table_must_give_sizes(case, capsys, columns, expected):
+    n = 1 + columns.count(",")
+    (case / "constant/table.csv").write_text(f"x,y,z,{columns}\n0,0,0{',1e-6' * n}\n")
+    edit(
+        case, r"Ca025\s*\{[^{}]*\{[^{}]*\}\s*\}", 'Ca025 { type manualInjection; positionsFile "table.csv"; }'
+    )
+    if expected is None:
+        assert of(population(case), 1).R[0] == 0.5e-6
+    else:
+        assert expected in message(case, capsys, "-dry-run")

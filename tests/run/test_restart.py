@@ -296,3 +296,13 @@ def test_killed_runs_end_as_if_they_had_never_been(tmp_path):
     done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=300, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert re.search(r"^1[2-9] interruptions", done.stdout, re.MULTILINE)
+
+
+def test_walks_that_were_mended_before_an_interruption_are_counted(case, capsys):
+    logging.getLogger("foamprb").handlers.clear()
+    job = prepare(case, threads=1)
+    job.cloud.recovered = 5
+    with pytest.raises(RunStopped):
+        execute(job, stop=lambda: job.cloud.time > 0.99 * EARLIER)
+    go_on(case)
+    assert re.search(r"walks mended by the tree +5\n", capsys.readouterr().out)

@@ -84,7 +84,7 @@ def test_manual_injection(read: Reader, case: Path) -> None:
     model = settings.injections[0].model
     assert model == ManualInjection(case / "constant/positions", (0.0, 1.0, -2e-3), 0.1, True)
     assert isinstance(model, ManualInjection)
-    np.testing.assert_array_equal(read_positions(model.positionsFile), [[0.0, 0.0, 0.0]])
+    np.testing.assert_array_equal(read_positions(model.positionsFile).x, [[0.0, 0.0, 0.0]])
 
 
 MISTAKES = [
@@ -525,7 +525,7 @@ def test_the_pipes_settings(tmp_path: Path) -> None:
     assert inlet.parcelsPerSecond * inlet.duration == pytest.approx(300.0)
     for point in points:
         assert isinstance(point, ManualInjection)
-        np.testing.assert_array_equal(read_positions(point.positionsFile), [[0.0, -0.00165, 0.0]])
+        np.testing.assert_array_equal(read_positions(point.positionsFile).x, [[0.0, -0.00165, 0.0]])
     assert settings.gravity == (0.0, -9.81, 0.0)
     match_patches(
         settings.patches,

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple, Protocol
+from types import MappingProxyType
+from typing import Annotated, Literal, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.injection.room import require_room
 from foamprb.cloud.state import Particles, empty
-from foamprb.dictionary.constraints import Angle, Axes, Constant, NonNegative, Positive, Vector3
+from foamprb.dictionary.constraints import Angle, Axes, Bounds, Constant, NonNegative, Positive, Vector3
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
@@ -27,6 +28,22 @@ log = logging.getLogger("foamprb")
 
 START_OF_FLOW = -math.inf
 """``SOI`` of a model that says nothing about it; see :func:`start_of_injection`."""
+
+
+GIVEN: dict[str, Bounds] = {
+    "d": Positive,
+    "rho": Positive,
+    "shearModulus": Positive,
+    "youngsModulus": Positive,
+    "Ca": Positive,
+    "viscosity": NonNegative,
+    "surfaceTension": NonNegative,
+}
+"""What a file of positions may give of each particle, in place of a distribution: entries of the dictionary,
+in their units; ``d`` is the diameter, m."""
+
+ReadPositions: TypeAlias = Callable[[Path, Mapping[str, Bounds]], tuple[Floats, Mapping[str, Floats]]]
+"""Reads a file: positions (n, 3), m, and further columns, (n,) each, with values in these bounds."""
 
 
 class Places(NamedTuple):
@@ -40,6 +57,8 @@ class Places(NamedTuple):
     """(n,), s."""
     v: Floats | Vector3 | None = None
     """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
+    given: Mapping[str, Floats] = MappingProxyType({})
+    """Some of :data:`GIVEN`, (n,) each, if they are given for each particle."""
 
 
 class Injection(Schema, Protocol):
@@ -49,7 +68,7 @@ class Injection(Schema, Protocol):
     def SOI(self) -> float:
         """Start of injection, s; :data:`START_OF_FLOW` for the first time of the flow."""
 
-    def places(self, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]) -> Places:
+    def places(self, flow: Flow, random: np.random.Generator, read: ReadPositions) -> Places:
         """Return the places of all particles.
 
         Parameters
@@ -59,7 +78,7 @@ class Injection(Schema, Protocol):
         random
             Source of every random number.
         read
-            Reads a file of positions, (n, 3), m.
+            Reads a file of positions.
 
         Raises
         ------
@@ -81,7 +100,7 @@ class ManualInjection:
         self,
         flow: Flow,
         random: np.random.Generator,  # noqa: ARG002
-        read: Callable[[Path], Floats],
+        read: ReadPositions,
     ) -> Places:
         """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
 
@@ -91,7 +110,7 @@ class ManualInjection:
             If positions lie outside the flow: how many, and the first of them.
         """
         SOI = start_of_injection(self, flow)
-        x = read(self.positionsFile)
+        x, given = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
         outside = hosts < 0
         if outside.any() and not self.ignoreOutOfBounds:
@@ -104,8 +123,10 @@ class ManualInjection:
         if outside.any():
             log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
                         self.positionsFile, outside.sum(), len(x))  # fmt: skip
-        t = np.full(np.count_nonzero(~outside), SOI)
-        return Places(x[~outside], hosts[~outside], t, self.U0)
+        inside = ~outside
+        t = np.full(np.count_nonzero(inside), SOI)
+        columns = {name: column[inside] for name, column in given.items()}
+        return Places(x[inside], hosts[inside], t, self.U0, columns)
 
 
 @dataclass(frozen=True)
@@ -122,7 +143,7 @@ class PatchInjection:
         self,
         flow: Flow,
         random: np.random.Generator,
-        read: Callable[[Path], Floats],  # noqa: ARG002
+        read: ReadPositions,  # noqa: ARG002
     ) -> Places:
         """Return random places on the patch, their density in proportion to the flux, at even intervals.
 
@@ -176,7 +197,7 @@ class CellZoneInjection:
         self,
         flow: Flow,
         random: np.random.Generator,
-        read: Callable[[Path], Floats],  # noqa: ARG002
+        read: ReadPositions,  # noqa: ARG002
     ) -> Places:
         """Return random places in the zone; their number in any part is that of its volume, to within two.
 
@@ -231,7 +252,7 @@ class ConeInjection:
         self,
         flow: Flow,
         random: np.random.Generator,
-        read: Callable[[Path], Floats],  # noqa: ARG002
+        read: ReadPositions,  # noqa: ARG002
     ) -> Places:
         """Return the positions in turn, at even intervals in time, with a random direction each.
 
@@ -288,10 +309,17 @@ def start_of_injection(model: Injection, flow: Flow) -> float:
     return model.SOI if model.SOI != START_OF_FLOW else first if math.isfinite(first) else 0.0
 
 
-def release(
-    model: Injection, flow: Flow, random: np.random.Generator, read: Callable[[Path], Floats]
-) -> Particles:
-    """Return pending spheres where an injection model puts them, of zero size, density and stiffness.
+class Released(NamedTuple):
+    """What an injection model releases."""
+
+    particles: Particles
+    """Pending spheres, of zero size, density and stiffness."""
+    given: Mapping[str, Floats]
+    """Some of :data:`GIVEN`, (n,) each, if they are given for each particle."""
+
+
+def release(model: Injection, flow: Flow, random: np.random.Generator, read: ReadPositions) -> Released:
+    """Return pending spheres where an injection model puts them, and what is given of each.
 
     Parameters
     ----------
@@ -300,7 +328,7 @@ def release(
     random
         Source of every random number that is used.
     read
-        Reads a file of positions, (n, 3), m.
+        Reads a file of positions.
 
     Raises
     ------
@@ -314,7 +342,42 @@ def release(
     p.host[:] = places.hosts
     p.t0[:] = p.t[:] = places.t
     p.v[:] = np.nan if places.v is None else places.v
-    return p
+    return Released(p, places.given)
+
+
+def given_shear_modulus(
+    given: Mapping[str, Floats], poissons_ratio: float, mu: float, shear_rate: float | None
+) -> Floats | None:
+    """Return the shear moduli μ_s that a file gives, (n,), Pa; None if it gives no stiffness.
+
+    Parameters
+    ----------
+    given
+        Columns of the file: ``shearModulus``, ``youngsModulus`` (2(1 + ν_s) μ_s) or ``Ca`` (μ_f γ̇/μ_s).
+    poissons_ratio
+        ν_s.
+    mu, shear_rate
+        Viscosity μ_f of the fluid, Pa s, and γ̇, 1/s, to which Ca refers.
+
+    Raises
+    ------
+    InputError
+        If there are several of these columns, or no shear rate for ``Ca``.
+    """
+    names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in given]
+    if len(names) > 1:
+        raise InputError(f"the file of positions gives {' and '.join(names)}, but one of them is enough.")
+    if "Ca" in names and shear_rate is None:
+        raise InputError(
+            "the file of positions gives Ca, which needs the entry referenceShearRate of the solid."
+        )
+    if not names:
+        return None
+    column = given[names[0]]
+    with np.errstate(over="ignore"):
+        if names == ["Ca"]:
+            return np.asarray(mu * (shear_rate or 0.0) / column)
+        return 0.5 * column / (1.0 + poissons_ratio) if names == ["youngsModulus"] else column
 
 
 INJECTIONS: dict[str, type[Injection]] = {

@@ -13,13 +13,23 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mesh_shapes import block, box_patches
 from paths import PIPE
 from scipy import stats
 
-from foamprb.cloud.injection.models import CellZoneInjection, ConeInjection, PatchInjection, release
+from foamprb.cloud.injection import models
+from foamprb.cloud.injection.models import (
+    GIVEN,
+    CellZoneInjection,
+    ConeInjection,
+    ManualInjection,
+    PatchInjection,
+    given_shear_modulus,
+)
 from foamprb.cloud.injection.room import BYTES, memory
 from foamprb.errors import InputError
 from foamprb.flow import analytic
+from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
@@ -35,8 +45,12 @@ CONE = {
 }
 
 
-def no_file(path):
+def no_file(path, columns):
     raise AssertionError(path)
+
+
+def release(model, flow, random, read):
+    return models.release(model, flow, random, read).particles
 
 
 def rng(seed=5):
@@ -270,3 +284,61 @@ class TestRoom:
     def test_a_run_needs_what_is_said(self):
         """Less than a kilobyte, which tests/run/test_memory.py measures."""
         assert 800 < BYTES < 1000
+
+
+class TestGiven:
+    """What a file of positions says of each particle."""
+
+    def test_columns_go_with_the_positions_that_are_inside(self):
+        x = np.array([[0.1, 0.0, 0.0], [0.1, 5.0, 0.0], [0.2, 0.0, 0.0]])
+
+        def read(path, columns):
+            assert columns is GIVEN
+            return x, {"d": np.array([1.0, 2.0, 3.0])}
+
+        model = ManualInjection(Path("file"), ignoreOutOfBounds=True)
+        released = models.release(model, analytic.pipe(1.0, 1.0), rng(), read)
+        np.testing.assert_array_equal(released.particles.x, x[[0, 2]])
+        np.testing.assert_array_equal(released.given["d"], [1.0, 3.0])
+
+    def test_stiffness_in_each_of_its_forms(self):
+        column = np.array([2.0, 4.0])
+        assert given_shear_modulus({"d": column}, 0.25, 3.0, None) is None
+        for name, expected in (
+            ("shearModulus", [2.0, 4.0]),
+            ("youngsModulus", [0.8, 1.6]),
+            ("Ca", [15.0, 7.5]),
+        ):
+            found = given_shear_modulus({name: column}, 0.25, 3.0, 10.0)
+            np.testing.assert_allclose(found, expected, rtol=1e-15)
+
+    def test_mistakes(self):
+        column = np.ones(2)
+        with pytest.raises(InputError, match="gives shearModulus and Ca, but one"):
+            given_shear_modulus({"Ca": column, "shearModulus": column}, 0.25, 3.0, 1.0)
+        with pytest.raises(InputError, match="gives Ca, which needs the entry referenceShearRate"):
+            given_shear_modulus({"Ca": column}, 0.25, 3.0, None)
+
+
+@pytest.fixture(scope="module")
+def lid_flow():
+    """A unit cube of few cells, into which fluid enters through the lid at the speed x."""
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    u = np.zeros((len(mesh.nodes), 3))
+    u[:, 2] = -mesh.nodes[:, 0]
+    return MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
+
+
+class TestPatch:
+    def test_as_many_appear_per_area_as_fluid_enters_there(self, lid_flow):
+        """Not as many on each face, nor as the speed at one point of it: within faces too."""
+        p = release(PatchInjection("lid", 20_000.0, 1.0), lid_flow, rng(), no_file)
+        assert p.x[:, 2] == pytest.approx(1.0, abs=1e-12)
+        assert stats.kstest(p.x[:, 0], lambda x: np.clip(x, 0.0, 1.0) ** 2).pvalue > 0.01
+        assert stats.kstest(p.x[:, 1], "uniform").pvalue > 0.01
+
+    def test_the_first_appears_at_once_and_the_others_at_even_times(self, lid_flow):
+        p = release(PatchInjection("lid", 40.0, 0.25, SOI=0.5), lid_flow, rng(), no_file)
+        assert p.t0 == pytest.approx([0.5 + k / 40.0 for k in range(10)], abs=1e-15)
+        assert np.array_equal(p.t, p.t0)

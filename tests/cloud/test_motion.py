@@ -1,0 +1,128 @@
+"""What a step does that meets several patches, or whose walk fails: places and times against free flight."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches, cyclic_row
+
+from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, analytic, spheres
+from foamprb.cloud.patches import Cyclic, Mirror
+from foamprb.flow.analytic import walk_pipe
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.walk import MeshFlow
+
+NOTHING = Medium(1e-12, 1e-12, (0.0, 0.0, 0.0))
+RADIUS = 1.0
+# Below the first height every walk from the axis fails, down to the second the tree finds what is asked.
+FAILS, FOUND = -0.5, -0.6
+
+
+def walk_that_fails_at_first(flow, host, x0, x1):
+    if x0[1] > FAILS:
+        return host, 0.0, -2, -1
+    return walk_pipe(flow, host, x0, x1)
+
+
+def recover_upper_part(flow, x):
+    return 0 if x[1] > FOUND else -1
+
+
+def at_rest(mesh):
+    nodes = mesh.nodes
+    return MeshFlow(mesh, np.zeros((len(nodes), 3)), np.zeros((len(nodes), 3, 3)))
+
+
+def flying(flow, interactions, x, v, dt):
+    """A heavy sphere in nearly nothing, whose centre alone meets walls, after one step."""
+    p = spheres([x], d=1e-3, rho=1e6, mu=1e3)
+    p.v[:] = v
+    cloud = Cloud(p, flow, NOTHING, interactions, dt, Models(touching="centre"), threads=1)
+    cloud.advance(1)
+    return cloud
+
+
+def test_a_step_that_meets_two_patches_ends_in_time_on_the_second():
+    """From the floor it flies up to the lid: the time on the lid is that of the whole way."""
+    shape = block(3, 0.2)
+    flow = at_rest(build_mesh(shape, box_patches(shape)))
+    walls = [Escape() if patch.name == "lid" else Rebound() for patch in flow.patches]
+    p = flying(flow, walls, (0.4, 0.6, 0.3), (0.1, 0.0, -2.0), 1.0).particles
+    assert p.status[0] == Status.ESCAPED
+    assert p.t[0] == pytest.approx((0.3 + 1.0) / 2.0, rel=1e-9)
+    assert p.x[0] == pytest.approx([0.4 + 0.1 * p.t[0], 0.6, 1.0], abs=1e-9)
+
+
+def test_any_number_of_periods_is_crossed_in_a_step():
+    """A coupled patch is no wall that a particle could be shut in between."""
+    flow = at_rest(cyclic_row(0.0, 1))
+    sides = [Cyclic() if patch.neighbour else Rebound() for patch in flow.patches]
+    p = flying(flow, sides, (0.25, 0.4, 0.3), (37.5, 0.0, 0.0), 1.0).particles
+    assert p.status[0] == Status.ACTIVE
+    assert p.x[0] == pytest.approx([(0.25 + 37.5) % 1.0, 0.4, 0.3], abs=1e-8)
+    assert p.t[0] == 1.0
+
+
+def test_a_corner_that_a_particle_cannot_leave_holds_it_for_the_step():
+    """Between two walls that are closer than it flies in a step it meets more walls than one could list."""
+    shape = block(3, 0.2)
+    flow = at_rest(build_mesh(shape, box_patches(shape)))
+    p = flying(flow, [Rebound()] * 3, (0.4, 0.6, 0.3), (0.0, 0.0, -40.0), 1.0).particles
+    assert p.status[0] == Status.ACTIVE
+    assert p.t[0] == 1.0
+    assert 0.0 <= p.x[0, 2] <= 1.0
+    assert flow.locate(p.x)[0] == p.host[0]
+
+
+def in_pipe_with_walks_that_fail(interaction, dt):
+    flow = analytic.pipe(RADIUS, 0.0, 10.0)
+    flow.kernels = {**flow.kernels, "walk": walk_that_fails_at_first, "recover": recover_upper_part}
+    return flying(flow, (interaction, Escape(), Escape()), (5.0, 0.0, 0.0), (0.0, -2.0, 0.0), dt)
+
+
+def test_the_time_of_a_mended_walk_goes_on_to_the_wall():
+    """The tree finds the way down to 0.6 radii; from there it takes the rest of the step, and no more."""
+    cloud = in_pipe_with_walks_that_fail(Stick(), 0.8)
+    p = cloud.particles
+    assert cloud.recovered == 1
+    assert p.status[0] == Status.STUCK
+    assert p.t[0] == pytest.approx(RADIUS / 2.0, rel=1e-9)
+    assert p.x[0, 1] == pytest.approx(-RADIUS, abs=1e-9)
+
+
+def test_after_a_mended_walk_the_rest_of_the_step_is_flown():
+    cloud = in_pipe_with_walks_that_fail(Rebound(), 0.6)
+    p = cloud.particles
+    assert cloud.recovered == 1
+    assert p.status[0] == Status.ACTIVE
+    # Down to the wall and back: 1.2 radii in all.
+    assert p.x[0, 1] == pytest.approx(-RADIUS + 0.2, abs=1e-9)
+    assert p.v[0, 1] == pytest.approx(2.0, rel=1e-9)
+
+
+def test_a_walk_that_is_mended_in_the_middle_of_the_mesh_ends_at_its_goal():
+    cloud = in_pipe_with_walks_that_fail(Rebound(), 0.2)
+    assert cloud.recovered == 1
+    assert cloud.particles.x[0, 1] == pytest.approx(-0.4, abs=1e-9)
+
+
+def test_the_body_behind_a_mirror_is_the_mirror_image():
+    """Its shape at rest is turned as the rest of it is: of the ellipsoid F·F0 every point is mirrored."""
+    shape = block(3, 0.2)
+    patches = [p._replace(type="symmetryPlane") if p.name == "floor" else p for p in box_patches(shape)]
+    flow = at_rest(build_mesh(shape, patches))
+    rest = np.diag([1.25, 0.8, 1.0]) @ np.array([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]])
+    bodies = []
+    for domain in (flow, analytic.linear(np.zeros((3, 3)))):
+        p = spheres([[0.4, 0.6, 0.1]], d=1e-3, rho=1e6, mu=1e3)
+        p.v[:] = (0.1, 0.0, -1.0)
+        p.F0[:] = rest.ravel()
+        sides = [Mirror() if patch.type == "symmetryPlane" else Rebound() for patch in domain.patches]
+        Cloud(p, domain, NOTHING, sides, 0.02, Models(touching="centre"), threads=1).advance(20)
+        bodies.append((p.F0[0].reshape(3, 3), p.F[0].reshape(3, 3)))
+    mirror = np.diag([1.0, 1.0, -1.0])
+    (rest_there, F_there), (rest_free, F_free) = bodies
+    assert rest_there == pytest.approx(mirror @ rest_free @ mirror, abs=1e-15)
+    there, free = F_there @ rest_there, F_free @ rest_free
+    assert there @ there.T == pytest.approx(mirror @ free @ free.T @ mirror, abs=1e-12)
+    assert abs((free @ free.T)[0, 2]) > 0.1
