@@ -183,3 +183,60 @@ def _even_points(n: int) -> Floats:
     z, phi = 1.0 - 2.0 * k / n, np.pi * (1.0 + np.sqrt(5.0)) * k
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=1)
+
+
+# --- Molecules ----------------------------------------------------------------------------------------------
+
+
+def perrin_translation(ratio: float) -> tuple[float, float]:
+    """Resistance of a spheroid along and across its axis, over that of its volume's sphere (Perrin 1936).
+
+    Parameters
+    ----------
+    ratio
+        Semi-axis of revolution over the other, not 1.
+    """
+    S, b = _perrin(ratio)
+    a = ratio * b
+    along = 16.0 * (a * a - b * b) / ((2.0 * a * a - b * b) * S - 2.0 * a)
+    across = 32.0 * (a * a - b * b) / ((2.0 * a * a - 3.0 * b * b) * S + 2.0 * a)
+    return along / 6.0, across / 6.0
+
+
+def perrin_rotation(ratio: float) -> tuple[float, float]:
+    """The same of its rotation about the axis, and about one across (Perrin 1934)."""
+    S, b = _perrin(ratio)
+    a = ratio * b
+    about = 32.0 / 3.0 * (a * a - b * b) * b * b / (2.0 * a - b * b * S)
+    across = 32.0 / 3.0 * (a**4 - b**4) / ((2.0 * a * a - b * b) * S - 2.0 * a)
+    return about / 8.0, across / 8.0
+
+
+def _perrin(ratio: float) -> tuple[float, float]:
+    """Perrin's integral S and the semi-axis across, of a spheroid with the volume of the unit sphere."""
+    b = ratio ** (-1.0 / 3.0)
+    a = ratio * b
+    e = np.sqrt(abs(a * a - b * b))
+    S = 2.0 / e * (np.log((a + e) / b) if ratio > 1.0 else np.arctan(e / a))
+    return float(S), float(b)
+
+
+def mean_shape_energy(kT: float) -> float:
+    """Mean stored energy, over kT, of an incompressible neo-Hooke body whose shape fluctuates.
+
+    The mean of w = ½(λ₁² + λ₂² + λ₃² − 3) over all F of det F = 1 with the weight exp(−w/kT); the measure of
+    the stretches is Π |λ_i² − λ_j²| dln λ₁ dln λ₂.
+
+    Parameters
+    ----------
+    kT
+        Over the shear modulus and the volume.
+    """
+    ends = 12.0 * np.sqrt(kT)
+    x, y = np.meshgrid(*2 * [np.linspace(-ends, ends, 801)])
+    squares = np.exp(2.0 * np.stack([x, y, -x - y]))
+    w = 0.5 * (squares.sum(axis=0) - 3.0)
+    measure = np.exp(-w / kT)
+    for i, j in ((0, 1), (1, 2), (2, 0)):
+        measure = measure * abs(squares[i] - squares[j])
+    return float((w * measure).sum() / measure.sum() / kT)
