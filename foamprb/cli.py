@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import foamprb
 from foamprb.errors import InputError, RankError, RunStopped, suggestion
+from foamprb.view.command import declare, view
 
 if TYPE_CHECKING:
     from foamprb.flow.read.source import Source
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from foamprb.parallel.team import OnDevice
     from foamprb.settings.settings import StartFrom
 
-_COMMANDS = ("run", "info", "validate", "compile")
+_COMMANDS = ("run", "info", "view", "validate", "compile")
 
 
 class _Parser(argparse.ArgumentParser):
@@ -50,6 +51,9 @@ def _parser() -> argparse.ArgumentParser:
         "run", help="track the particles of constant/softCloudProperties", add_help=False, allow_abbrev=False
     )
     info = commands.add_parser("info", help="say what a case holds", add_help=False, allow_abbrev=False)
+    viewing = commands.add_parser(
+        "view", help="show the bodies of a run: a page for any browser", add_help=False, allow_abbrev=False
+    )
     validate = commands.add_parser(
         "validate", help="compare with independent solutions", add_help=False, allow_abbrev=False
     )
@@ -59,10 +63,10 @@ def _parser() -> argparse.ArgumentParser:
         add_help=False,
         allow_abbrev=False,
     )
-    for command in (run, info, validate, compiling):
+    for command in (run, info, viewing, validate, compiling):
         command.add_argument("--help", action="help", help="show this text and stop")
         command.add_argument("--debug", action="store_true", help="show where in the code an error arose")
-    for command in (run, info):
+    for command in (run, info, viewing):
         command.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         command.add_argument("--decomposed", action="store_true", help="read the processor folders")
         command.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
@@ -78,6 +82,7 @@ def _parser() -> argparse.ArgumentParser:
         divided.add_argument(
             "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
         )
+    declare(viewing)
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -214,6 +219,10 @@ def _info(arguments: argparse.Namespace, _: Root | None) -> int:
     return 0
 
 
+def _view(arguments: argparse.Namespace, _: Root | None) -> int:
+    return view(arguments, _source(arguments))
+
+
 def _validate(arguments: argparse.Namespace, _: Root | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
@@ -275,6 +284,7 @@ def _answer(words: Sequence[str], team: Root | None = None) -> int:
         commands: dict[str, Callable[[argparse.Namespace, Root | None], int]] = {
             "run": _run,
             "info": _info,
+            "view": _view,
             "validate": _validate,
             "compile": _compile,
         }
