@@ -232,7 +232,7 @@ def gather(
         for t, snapshot in enumerate(snapshots):
             found = snapshot.points if name == "" else snapshot.arrays[name]
             with np.errstate(over="ignore", invalid="ignore"):
-                values[t, places[t]] = found.reshape(len(found), -1)[rows[t]]
+                values[t, places[t]] = found.reshape(len(found), k)[rows[t]]
         return values
 
     present = np.zeros((m, n), dtype=bool)

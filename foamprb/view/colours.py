@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import colorsys
 import math
+import re
 from functools import cache
 from typing import NamedTuple
 
@@ -126,4 +127,4 @@ def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
 
 def _pretty(unit: str) -> str:
     """``m/s2`` → m/s²."""
-    return "".join(c.translate(_SUPERSCRIPTS) if c.isdigit() else c for c in unit)
+    return re.sub(r"(?<=[A-Za-z])-?\d+", lambda power: power[0].translate(_SUPERSCRIPTS), unit)

@@ -68,7 +68,7 @@ def pack(whole: NDArray[Any]) -> Column:
     # Zigzag: 0, −1, 1, −2, … → 0, 1, 2, 3, ….
     small = np.where(differences < 0, -2 * differences - 1, 2 * differences).astype(np.uint32)
     # What follows in time lies side by side.
-    small = np.ascontiguousarray(small.reshape(len(whole), -1).T)
+    small = np.ascontiguousarray(small.reshape(len(whole), math.prod(whole.shape[1:])).T)
     n_bytes = max(1, (int(small.max(initial=0)).bit_length() + 7) // 8)
     planes = [(small >> (8 * k)).astype(np.uint8).tobytes() for k in range(n_bytes)]
     return Column(whole.shape, order, n_bytes, deflated(b"".join(planes)))

@@ -91,7 +91,7 @@ def boundary(mesh: Mesh) -> Geometry:
         own = triangles[mesh.triangle_patch == index]
         if len(own):
             surfaces.append(Surface(patch.name, patch.type, *_smooth(nodes, own, share)))
-    return Geometry(tuple(surfaces), _edges(nodes, triangles, mesh.triangle_patch), _flat_normal(surfaces))
+    return Geometry(tuple(surfaces), _edges(nodes, triangles, mesh.triangle_patch), flat_normal(surfaces))
 
 
 def _smooth(nodes: Floats, triangles: Ints, share: float) -> tuple[Floats, Ints]:
@@ -126,7 +126,7 @@ def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
     return np.asarray(nodes[pairs[first[sharp]]])
 
 
-def _flat_normal(surfaces: list[Surface]) -> Floats | None:
+def flat_normal(surfaces: list[Surface]) -> Floats | None:
     """The direction in which nothing happens, if ``empty`` patches or wedges say so."""
     areas = [surface.areas for surface in surfaces if surface.type in FLAT_TYPES]
     if not areas:

@@ -44,17 +44,22 @@ from foamprb.view.scene import (
 )
 
 _FOLDER = Path(__file__).parent / "page"
+_NOTES, _DESCRIPTION = 400, 1000
+"""Bytes that a page may say of arrays that are left out, and of one that is not."""
 
 
 class Page:
     """The parts of a page, packed; the text of the file is :meth:`write`.
+
+    ``needed`` is its size without what can be left out, bytes, and ``left_out`` names what is.
 
     Parameters
     ----------
     scene
         What is shown, with all its arrays.
     most_bytes
-        Size that the file is to stay below. Arrays that do not fit are left out, those named last first.
+        Size that the file is to stay below. Arrays that do not fit are left out; that by which the bodies are
+        coloured stays.
     order
         Names of the arrays, those that matter most first.
     version
@@ -71,22 +76,25 @@ class Page:
         extra = [part.points for part in (scene.slice, scene.paths) if part is not None]
         grid = grid_of(points, bodies.x[bodies.present], *extra)
         self._frame = _Frame(*_corners(points, bodies, extra))
-        packed = self._bodies(grid)
-        packed |= self._surroundings(grid)
-        self.needed = sum(map(len, self._sections)) + len(_script()) + len(_text("page.css")) + 30_000
-        room = most_bytes - self.needed
-        fields = {}
-        for name in dict.fromkeys((*order, *bodies.fields)):
-            if name not in bodies.fields:
+        self._header = self._described() | self._bodies(grid) | self._surroundings(grid)
+        fields = self._header["fields"] = {}
+        name = scene.colour[0]
+        if name in bodies.fields:
+            fields[name] = self._field(bodies.fields[name], pack_field(bodies.fields[name]))
+        self.needed = len(self.write().encode("utf-8"))
+        room = most_bytes - self.needed - _NOTES
+        for name in sorted(
+            bodies.fields, key=lambda name: order.index(name) if name in order else len(order)
+        ):
+            if name in fields:
                 continue
-            part = pack_field(bodies.fields[name])
-            room -= len(part.column.data)
-            if room < 0 and name != scene.colour[0]:
-                room += len(part.column.data)
+            packed = pack_field(bodies.fields[name])
+            size = len(packed.column.data) + _DESCRIPTION
+            if size > room:
                 self.left_out.append(name)
             else:
-                fields[name] = self._field(bodies.fields[name], part)
-        self._header = self._described() | packed | {"fields": fields}
+                room -= size
+                fields[name] = self._field(bodies.fields[name], packed)
 
     def write(self) -> str:
         """The text of the file."""
@@ -104,7 +112,7 @@ class Page:
             "version": self._version,
             "title": html.escape(f"{self._scene.title} – {self._scene.subtitle}"),
             "style": style,
-            "licence": html.escape(_text("LICENSE.three")),
+            "licence": html.escape(_text("LICENSE.three"), quote=False),
             # Inside a script element only this could end it.
             "scene": header.replace("<", "\\u003c"),
             "sections": "\n".join(

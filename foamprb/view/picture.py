@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import sys
 from dataclasses import dataclass
@@ -284,6 +285,25 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: fl
 def has_display() -> bool:
     """Whether a window can be shown."""
     return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
+
+
+def require_graphics() -> None:
+    """Refuse to draw where VTK would crash: without a display it draws by one of two libraries.
+
+    Raises
+    ------
+    InputError
+        There is neither.
+    """
+    if has_display():
+        return
+    for library in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so"):
+        try:
+            ctypes.CDLL(library)
+        except OSError:
+            continue
+        return
+    raise InputError("no display and no libEGL: VTK cannot draw. On Debian: apt-get install libegl1.")
 
 
 def require_display() -> None:

@@ -18,12 +18,13 @@ from foamprb.view.bodies import fates_of, gather, require_array, told
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
-from foamprb.view.picture import film, has_display, picture, require_display, window
+from foamprb.view.picture import film, has_display, picture, require_display, require_graphics, window
 from foamprb.view.results import Results, open_results
 from foamprb.view.scene import Scene, automatic_enlargement, box, busiest, camera_for, gravity
 
 log = logging.getLogger("foamprb")
 
+LATEST = "latestTime"
 DEFAULT_COLOUR = "taylorDeformation"
 ORDER = ("taylorDeformation", "shearRate", "U", "Ca", "t0", "t1", "d", "rho", "age", "capillaryNumber",
          "angularVelocity", "J", "semiAxes", "stresslet")  # fmt: skip
@@ -42,7 +43,7 @@ class Request:
     cloud: str | None = None
     source: Source | None = None
     """Where the geometry and the flow of a plane come from."""
-    flow_time: str = "latestTime"
+    flow_time: str = LATEST
     time: float | None = None
     """Time that is shown first, or in a picture, s; by default the one with most bodies."""
     colour: str = DEFAULT_COLOUR
@@ -102,7 +103,9 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         )
     if page.left_out:
         log.warning(
-            "%s: no room in %g MB, left out. -maxSize allows more.", ", ".join(page.left_out), megabytes
+            "%s: left out, there is no room in %g MB. -maxSize allows more.",
+            ", ".join(page.left_out),
+            megabytes,
         )
     target = path or results.folder / f"{results.name}.html"
     text = page.write().encode("utf-8")
@@ -184,7 +187,10 @@ def _surroundings(request: Request) -> tuple[Geometry | None, Slice | None]:
     try:
         flow = read_flow(request.case, request.flow_time, request.source)
     except InputError as error:
-        if request.slice is not None or request.source is not None:
+        asked = (
+            request.slice is not None or request.flow_time != LATEST or request.source not in (None, Source())
+        )
+        if asked:
             raise
         log.warning("No geometry is shown: %s", error)
         return None, None
@@ -209,6 +215,7 @@ def picture_of(
     style = DARK if dark else LIGHT
     if png is None and movie is None:
         require_display()
+    require_graphics()
     results = open_results(request.case, request.cloud)
     scene = make_scene(request, results, range(len(results.entries)))
     if png is not None:

@@ -773,4 +773,5 @@ window.foamprb = {
   get data() { return data; },
   get eye() { return eye; },
   get bodies() { return bodies; },
+  get renderer() { return renderer; },
 };
