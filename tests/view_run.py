@@ -10,8 +10,9 @@ from foam_writer import write_case
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Status
+from foamprb.output.pvd import Series
 from foamprb.output.tables import write_table
-from foamprb.output.vtk import PointCloud, Series
+from foamprb.output.vtk import PointCloud
 
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 INJECTORS = ("soft", "stiff")

@@ -6,10 +6,10 @@ import argparse
 import logging
 import re
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import foamprb
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def view(arguments: argparse.Namespace, source: Source) -> int:
     if arguments.png or arguments.film or arguments.window:
         picture_of(request, arguments.png, arguments.film, read_size(arguments.size), arguments.dark)
         return 0
-    path = write_page(request, arguments.output, arguments.maxSize, foamprb.__version__)
+    path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
     if not arguments.noBrowser and sys.stdout.isatty():
         open_in_browser(path)
     return 0
