@@ -216,7 +216,7 @@ class Device(Executor):
         self._steps_since_sort = _STEPS_PER_SORT
 
     def _keep(self) -> None:
-        """Keep a copy of the particles as they are, and begin to copy it to the host if it is new there."""
+        """Keep a copy of the particles as they are, and begin to copy it to the host if it has not got it."""
         if self._begun:
             return
         for name, kept in self._kept.items():
@@ -265,7 +265,7 @@ class Device(Executor):
         self._steps_since_sort += steps
 
     def _copy(self, value: Any) -> Any:
-        """The same with its arrays on the device; those that are the same objects as before are there."""
+        """Return a tuple with its arrays on the device; those that the last call copied are there already."""
         known = self._copies
         self._copies = []
         return self._copy_with(value, known)

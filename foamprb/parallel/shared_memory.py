@@ -87,12 +87,12 @@ class Windows:
         window.Free()
 
     def find(self, tree: Any) -> Any:
-        """The tuple, with tuples in it, in which places stand for the arrays of this process."""
+        """Return a tuple, and those in it, with this process' arrays for the places that stand for them."""
         return _map(tree, lambda leaf: self.arrays[leaf.key] if isinstance(leaf, Place) else leaf)
 
 
 class Publisher:
-    """What the first process does with the windows: it decides what is in them.
+    """Decides on the first process what is in the windows of all.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ class Groups(NamedTuple):
 
 
 def groups(cloud: Cloud, injector: int) -> Groups:
-    """Dimensionless groups of the particles that one injection model releases."""
+    """Return the dimensionless groups of the particles that one injection model releases."""
     rows = np.flatnonzero(cloud.particles.injector == injector)
     p = cloud.particles.take(slice(None) if len(rows) == cloud.particles.size else rows)
     medium = cloud.medium
@@ -56,14 +56,14 @@ def _range(values: np.ndarray) -> tuple[float, float]:
 
 
 def doubts(g: Groups, integrator: str, where: str) -> list[str]:
-    """One sentence with its number for each group that is out of the model's range.
+    """Return a sentence, with its number, for each group that is out of the model's range.
 
     Parameters
     ----------
     g, integrator
         The groups, and the integrator of the shape.
     where
-        What the sentences speak of, e.g. ``injection model inlet``.
+        What the sentences begin with, e.g. ``injection model inlet``.
     """
     found = []
     scheme = INTEGRATORS[integrator]

@@ -52,7 +52,7 @@ class Job:
     cloud: Cloud
     functions: CloudFunctions
     precompiler: Precompiler | None = None
-    """The process that compiles the loop, if it is another than this."""
+    """The other process that compiles the loop, if there is one."""
 
     @property
     def observed(self) -> ObservedCloud:
@@ -225,7 +225,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
 
 
 def _start(settings: Settings, flow: Flow) -> float:
-    """The first time of the flow, s, if it has one; raise InputError if the run goes beyond the flow."""
+    """Return the first time of the flow, s, or 0; raise InputError if the flow ends before the run."""
     solution, (first, last) = settings.solution, flow.span
     start = first if math.isfinite(first) else 0.0
     if solution.endTime <= start:
@@ -297,5 +297,5 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
 
 
 def _random(*names: str) -> np.random.Generator:
-    """Random numbers of an injection model, or of one of its quantities: no other changes what it draws."""
+    """Random numbers of an injection model or of one of its quantities; they depend on the names alone."""
     return np.random.default_rng([zlib.crc32(name.encode()) for name in names])

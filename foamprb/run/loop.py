@@ -155,7 +155,7 @@ def _advance(job: Job, results: Results, stop: Callable[[], bool], show: Callabl
 
 
 def _steps_at_once(cloud: Cloud, target: int) -> int:
-    """Number of steps on the way to a target after which the run looks up, for a signal for one."""
+    """Number of steps on the way to a target after which the run asks whether to stop."""
     counts = cloud.counts()
     work = counts[Status.PENDING] + counts[Status.ACTIVE]
     return min(target - cloud.step, max(1, cloud.executor.at_once // work))

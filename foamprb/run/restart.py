@@ -1,8 +1,8 @@
 """What a checkpoint holds of a run, and whether a run may go on from it.
 
 A run goes on only with the physics that it began with: the settings, the particles and the flow leave a
-fingerprint in the checkpoint. Free to change are what does not act on a particle: the end time, the write
-interval, the number of threads. Nothing here depends on how the particles are shared out.
+fingerprint in the checkpoint. What does not act on a particle may change: the end time, the write interval,
+the number of threads. Nothing here depends on which process carries which particle.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _CHUNK = 1 << 18
 
 
 def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
-    """What decides the paths of a cloud that has not been advanced: by name, a text or sums of an array."""
+    """Return what decides the paths of a cloud, before its first step: texts and sums of arrays, by name."""
     texts: dict[str, Any] = {"solution/deltaT": cloud.dt}
     for field in fields(settings):
         if field.name not in _LEFT_OUT:
@@ -57,13 +57,25 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     return marks
 
 
-def save(
+def checkpoint_of(
     cloud: Cloud | Snapshot,
     functions: Mapping[str, NDArray[Any]],
     entries: Sequence[Entry],
     marks: Fingerprint,
 ) -> Checkpoint:
-    """The state of a run: its cloud, what its functions remember, its series, and its fingerprint."""
+    """Return the checkpoint of a run.
+
+    Parameters
+    ----------
+    cloud
+        The cloud at a write time, or where the run stops.
+    functions
+        What its cloud functions remember.
+    entries
+        The snapshots that are written.
+    marks
+        The run's :func:`fingerprint`.
+    """
     header = {
         "foamprb": foamprb.__version__,
         "step": cloud.step,
@@ -126,7 +138,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, whe
 
 
 def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Entry, ...]:
-    """The snapshots that a run had written when it wrote a checkpoint, after making sure that all are there.
+    """Return the snapshots that a run had written when it wrote a checkpoint, if all are there.
 
     Parameters
     ----------
@@ -166,13 +178,13 @@ def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Entr
 
 
 def _existing(stem: Path) -> Path:
-    """The file of a snapshot that one process wrote or several, whichever is there."""
+    """Return the file of a snapshot: that of several processes if it is there, else that of one."""
     pieces = with_ending(stem, ".pvtp")
     return pieces if pieces.exists() else with_ending(stem, ".vtp")
 
 
 def _stems(entries: Sequence[Entry]) -> list[list[float | str]]:
-    """Times and files without their suffixes, which depend on how many processes wrote them."""
+    """Return times and files without their endings, which depend on how many processes wrote them."""
     return [[entry.time, Path(entry.file).stem] for entry in entries]
 
 
@@ -182,7 +194,7 @@ def _part(checkpoint: Checkpoint, prefix: str) -> dict[str, NDArray[Any]]:
 
 
 def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """Flatten records and lists of records; of a file, its name: where the case lies does not matter."""
+    """Give the values in nested dataclasses by their paths; for a file its name, wherever it lies."""
     if is_dataclass(value):
         for field in fields(value):
             yield from _leaves(f"{name}/{field.name}", getattr(value, field.name))
@@ -194,7 +206,7 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _sums(array: ArrayLike) -> Sums:
-    """Of whole numbers a checksum; of others sums per column, which round-off hardly changes.
+    """Return what tells an array from another: a checksum of integers, else sums of each column.
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
     """

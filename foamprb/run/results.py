@@ -23,7 +23,7 @@ from foamprb.output.manifest import Manifest
 from foamprb.output.pvd import Series, files_of, read_pvd
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
-from foamprb.run.restart import fingerprint, refuse_changes, restore, save, snapshots_until
+from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
 log = logging.getLogger("foamprb")
@@ -48,16 +48,16 @@ def open_results(job: Job) -> Iterator[Results]:
         with only_writer(job.folder), Writer() as writer:
             yield Results(job, writer)
     except BrokenPipeError:
-        # Of the log: nobody reads on.
+        # It comes from the log, which nobody reads any more.
         raise
     except OSError as error:
         raise RunStopped(f"{str(error).rstrip('.')}. {HOW_TO_GO_ON}") from error
 
 
 class Results:
-    """Everything that a run writes, and what it begins with: :meth:`begin` first, then the others.
+    """All that a run writes, and what it goes on from: :meth:`begin` first, then the other methods.
 
-    A file is in the manifest before it is written, a new one of a cloud function right after.
+    A file is in the manifest before it is written; that of a cloud function is so from the second time on.
 
     Parameters
     ----------
@@ -182,7 +182,7 @@ class Results:
         self._write_checkpoint(snapshot, memory)
 
     def _write_checkpoint(self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]]) -> None:
-        self._checkpoints.write(save(cloud, memory, self._series.entries, self._fingerprint))
+        self._checkpoints.write(checkpoint_of(cloud, memory, self._series.entries, self._fingerprint))
 
     def _checkpoint_files(self) -> tuple[Path, ...]:
         """The checkpoints that are there, and the one of now."""
@@ -203,13 +203,17 @@ class Results:
 
     def _begin_anew(self) -> None:
         """Remove what an earlier run has listed, and nothing else but what this run replaces by its name."""
-        manifest = Manifest.read(self._job.folder)
-        strangers = [file for file in self._checkpoints.files().values() if file not in manifest.files]
-        if strangers:
-            raise InputError(
-                f"{strangers[0]}: {manifest.path.name} does not list this checkpoint, and so perhaps not all "
-                "that its run wrote. Remove it to begin anew."
-            )
+        folder = self._job.folder
+        remedy = (
+            f"So it is not known what an earlier run has written: remove or rename {folder} to begin anew."
+        )
+        try:
+            manifest = Manifest.read(folder)
+        except InputError as error:
+            raise InputError(f"{error} {remedy}") from error
+        unlisted = [file for file in self._checkpoints.files().values() if file not in manifest.files]
+        if unlisted:
+            raise InputError(f"{manifest.path} does not list {unlisted[0].relative_to(folder)}. {remedy}")
         if self._series.pvd.exists():
             try:
                 read_pvd(self._series.pvd)

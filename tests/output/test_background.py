@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 
 import pytest
-from pipe_case import results, short_case
+from pipe_case import edit, results, short_case
 
 from foamprb import execute, prepare
 from foamprb.cli import main
@@ -17,6 +17,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.errors import RunStopped
 from foamprb.output import pvd
 from foamprb.output.background import Writer
+from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.pvd import Series
 
 PATIENCE = 60.0
@@ -129,6 +130,32 @@ def test_results_do_not_depend_on_when_they_are_written(case, tmp_path, monkeypa
     monkeypatch.setattr(Writer, "begin", at_once)
     assert main(["run", "-case", str(case), "-overwrite"]) == 0
     assert results(case) == expected
+
+
+def test_checkpoints_hold_what_cloud_functions_had_observed_at_their_time(case, monkeypatch):
+    """And nothing of what they observe while the checkpoint is written."""
+    edit(
+        case, r"cloudFunctions\s*\{\}", "cloudFunctions { f { type particleHistogram; sampleInterval 10; } }"
+    )
+    write, found = Checkpoints.write, []
+    for slow in (False, True):
+        job, states = prepare(case, threads=1), {}
+
+        def record(checkpoints, checkpoint, job=job, states=states, slow=slow):
+            now = round(checkpoint.time / job.cloud.dt)
+            if slow and now < job.steps:
+                wait_for(lambda: job.cloud.step == now + 50)
+            states[now] = {name: array.copy() for name, array in checkpoint.arrays.items()}
+            return write(checkpoints, checkpoint)
+
+        monkeypatch.setattr(Checkpoints, "write", record)
+        execute(job, "startTime")
+        found.append(states)
+    assert list(found[0]) == list(found[1]) == [50, 100, 150, 200, 250, 300]
+    for early, late in zip(found[0].values(), found[1].values(), strict=True):
+        assert "functions/f/sumD" in early
+        assert early.keys() == late.keys()
+        assert all(early[name].tobytes() == late[name].tobytes() for name in early)
 
 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):

@@ -14,7 +14,9 @@ from pipe_case import copy_of_pipe, edit
 from foamprb.cli import main
 
 COMMANDS = ("run", "info", "validate", "compile")
-ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
+# As on a user's computer, where Python buffers what it writes into a pipe.
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+ENVIRONMENT["PYTHONPATH"] = os.pathsep.join([str(ROOT), *sys.path])
 
 
 @pytest.mark.parametrize("word", ["-h", "-help", "--help"])
@@ -66,6 +68,22 @@ def test_a_run_whose_log_nobody_reads_ends_quietly(tmp_path):
     status, err, line = pipe_into_head("run", "-case", str(case))
     assert (status, err) == (128 + signal.SIGPIPE, "")
     assert line.startswith(("Compiling the particle loop", "Reading flow of case"))
+
+
+def test_a_run_that_is_under_way_when_nobody_reads_on_ends_quietly(tmp_path):
+    case = copy_of_pipe(tmp_path)
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.0001;")
+    words = [sys.executable, "-m", "foamprb", "run", "-case", str(case)]
+    with subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT
+    ) as foamprb:
+        assert foamprb.stdout is not None
+        assert any(line.startswith("Time = 0.0002") for line in foamprb.stdout)
+        foamprb.stdout.close()
+        assert foamprb.stderr is not None
+        assert foamprb.stderr.read() == ""
+    assert foamprb.returncode == 128 + signal.SIGPIPE
+    assert len(list((case / "postProcessing/softCloud/checkpoint").iterdir())) == 2
 
 
 @pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-h"), ("validate", "-list")])

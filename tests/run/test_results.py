@@ -15,7 +15,7 @@ from foamprb.cli import main
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.manifest import Manifest
-from foamprb.output.pvd import read_pvd
+from foamprb.output.pvd import Entry, Series, read_pvd
 
 TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
 HITS = "hits { type patchPostProcessing; patches (wall outlet); }"
@@ -118,13 +118,15 @@ def test_a_file_of_the_user_in_a_folder_of_a_function_is_not_listed(case):
 
 
 def leave_behind(case: Path) -> None:
-    """What a killed run leaves that wrote the cloud of 4 ms with others: pieces, some of them unfinished."""
+    """What a killed run leaves that wrote the cloud of 4 ms with others, but no checkpoint."""
     folder = folder_of(case)
     left = ["softCloud_000003.pvtp", "softCloud_000003/0.vtp", "softCloud_000003/1.vtp"]
     Manifest(folder, Manifest.read(folder).files).expect([folder / name for name in left])
     for name in (*left, "softCloud_000003/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).touch()
+    series = Series(folder, "softCloud")
+    series.relist([*read_pvd(series.pvd), Entry(0.004, left[0])])
 
 
 @pytest.mark.parametrize("option", ["-resume", "-overwrite"])
@@ -174,7 +176,7 @@ def test_a_run_with_a_damaged_manifest_goes_on_but_is_not_replaced(stopped, trut
     manifest.write_text(manifest.read_text().replace("softCloud_000001", "softCloud_000009"))
     before = names(folder_of(stopped))
     text = message(stopped, capsys, "-overwrite")
-    assert "manifest.json is damaged: its contents do not match its checksum" in text
+    assert re.search(r"manifest\.json is damaged: its contents do not match .* remove or rename", text)
     assert names(folder_of(stopped)) == before
     run(stopped, "-resume")
     assert "Warning : " in capsys.readouterr().out
@@ -185,8 +187,9 @@ def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, caps
     folder = folder_of(stopped)
     (folder / "manifest.json").unlink()
     before = names(folder)
+    text = message(stopped, capsys, "-overwrite")
     assert re.search(
-        r"0\.00[23]\.checkpoint: manifest\.json does not list", message(stopped, capsys, "-overwrite")
+        r"manifest\.json does not list checkpoint/0\.00[23]\.checkpoint\. .* remove or rename", text
     )
     assert names(folder) == before
     for file in (folder / "checkpoint").iterdir():
@@ -213,17 +216,41 @@ def test_a_removal_that_is_interrupted_is_taken_up(nth, stopped, truth, monkeypa
     assert results(stopped) == truth
 
 
-def test_a_list_names_whole_files_only_while_a_run_takes_its_place(stopped, monkeypatch):
-    unlink = Path.unlink
+@pytest.mark.parametrize("nth", [1, 2, 3, 4, 5])
+def test_a_finished_run_is_replaced_or_whole(nth, case, monkeypatch):
+    """Without its checkpoints nobody takes what is left for the run, with them all is there."""
+    observe(case, TRACKS.replace("paths", "aaa"))
+    run(case)
+    expected = results(case)
+    unlink, calls = Path.unlink, iter(range(1, 1000))
+
+    def dies(file: Path, missing_ok: bool = False) -> None:
+        if next(calls) == nth:
+            raise KeyboardInterrupt
+        unlink(file, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", dies)
+    assert main(["run", "-case", str(case), "-overwrite"]) == 130
+    monkeypatch.undo()
+    run(case, "-resume")
+    assert results(case) == expected
+
+
+@pytest.mark.parametrize("option", ["-resume", "-overwrite"])
+def test_a_list_names_whole_files_only_while_others_are_removed(option, stopped, monkeypatch):
+    leave_behind(stopped)
+    unlink, removed = Path.unlink, []
 
     def check(file: Path, missing_ok: bool = False) -> None:
+        unlink(file, missing_ok)
+        removed.append(file.name)
         pvd = folder_of(stopped) / "softCloud.pvd"
         if pvd.exists():
             assert all((pvd.parent / entry.file).exists() for entry in read_pvd(pvd))
-        unlink(file, missing_ok)
 
     monkeypatch.setattr(Path, "unlink", check)
-    run(stopped, "-overwrite")
+    run(stopped, option)
+    assert "softCloud_000003.pvtp" in removed
 
 
 def test_only_one_run_writes_to_a_folder(stopped, capsys):

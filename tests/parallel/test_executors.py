@@ -1,0 +1,145 @@
+"""The protocol of who carries the particles, and how one is chosen; each has tests of its own."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+from device_cases import pipe_cloud
+
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.executor import Threads, available_threads
+from foamprb.cloud.state import Particles, Status
+from foamprb.errors import InputError, RunStopped
+from foamprb.output.vtk import Series, read_pvd
+from foamprb.parallel import launch
+from foamprb.parallel.ranks import Ranks
+from foamprb.parallel.signals import caught_signals
+
+
+class Apart(Threads):
+    """Carries copies of the particles, as an executor with memory of its own does."""
+
+    def take(self, cloud: Cloud) -> None:
+        super().take(cloud)
+        self.own = Particles(*(array.copy() for array in cloud.particles))
+
+    def advance(self, flow, steps):
+        cloud = self._cloud
+        return cloud.tracker.advance(flow, self.own, cloud.step, steps, cloud.threads)
+
+    def counts(self):
+        return self.own.counts()
+
+    def gather(self):
+        for array, own in zip(self._cloud.particles, self.own, strict=True):
+            array[:] = own
+
+
+def test_whoever_carries_the_particles_they_come_to_the_same():
+    """Handed over on the way to executors that have them elsewhere and to those that do not."""
+    alone, handed = pipe_cloud("paper"), pipe_cloud("paper")
+    alone.advance(12)
+    for executor, steps in ((Apart(), 3), (Threads(), 4), (Apart(), 5)):
+        handed.hand_over(executor)
+        handed.advance(steps)
+    assert handed.counts() == alone.counts()
+    assert handed.particles.t[0] < alone.particles.t[0]
+    handed.gather()
+    for array, expected in zip(handed.particles, alone.particles, strict=True):
+        np.testing.assert_array_equal(array, expected)
+
+
+def test_a_snapshot_is_in_the_files_that_were_told(tmp_path):
+    cloud = pipe_cloud("paper")
+    cloud.advance(2)
+    series, names = Series(tmp_path, "pipe"), {"status": tuple(status.name for status in Status)}
+    told = cloud.executor.snapshot_files(series.next(cloud.time))
+    end_write = cloud.executor.begin_write(series, cloud.snapshot(), names)
+    cloud.advance(2)
+    end_write()
+    assert {*tmp_path.iterdir()} == {*told, series.pvd}
+    assert [entry.time for entry in read_pvd(series.pvd)] == [2 * cloud.dt]
+
+
+def test_threads_are_those_that_the_process_may_use():
+    executor = launch.choose_executor("cpu", None)
+    assert isinstance(executor, Threads)
+    assert executor.threads == available_threads() == len(os.sched_getaffinity(0))
+    assert tuple(executor.signals) == ()
+
+
+def test_a_device_is_for_one_process():
+    ranks = object.__new__(Ranks)
+    assert launch.choose_executor("cpu", ranks) is ranks
+    with pytest.raises(InputError, match="does not go together with -parallel"):
+        launch.choose_executor("cuda", ranks)
+
+
+class Dismissed(Ranks):
+    """Ranks that only note with which exit status they are sent home."""
+
+    def __init__(self) -> None:
+        self.status: list[int] = []
+
+    def dismiss(self, status: int) -> None:
+        self.status.append(status)
+
+
+def stopped(_):
+    raise RunStopped("the disk is full")
+
+
+@pytest.mark.parametrize(
+    ("lead", "status", "error"), [(lambda _: 0, 0, None), (lambda _: 3, 3, None), (stopped, 1, RunStopped)]
+)
+def test_the_others_leave_with_the_exit_status_of_the_first(lead, status, error, monkeypatch):
+    ranks = Dismissed()
+    monkeypatch.setattr(launch, "connect", lambda: ranks)
+    if error is None:
+        assert launch.run_together(lead) == status
+    else:
+        with pytest.raises(error):
+            launch.run_together(lead)
+    assert ranks.status == [status]
+
+
+def test_a_process_that_is_alone_leads_nobody(monkeypatch):
+    monkeypatch.setattr(launch, "connect", lambda: None)
+    assert launch.run_together(lambda ranks: 0 if ranks is None else 1) == 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_first_signal_is_caught_and_the_second_acts(number):
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    received = []
+    signal.signal(number, lambda n, _: received.append(n))
+    try:
+        with caught_signals() as caught:
+            assert caught == []
+            signal.raise_signal(number)
+            assert (caught, received) == ([number], [])
+            signal.raise_signal(number)
+            assert (caught, received) == ([number], [number])
+    finally:
+        after = signal.signal(number, before[number])
+    assert after is not before[number]
+    assert {n: signal.getsignal(n) for n in before} == before
+
+
+def test_another_thread_catches_nothing():
+    caught_there: list[list[int]] = []
+
+    def run() -> None:
+        before = signal.getsignal(signal.SIGINT)
+        with caught_signals() as caught:
+            assert signal.getsignal(signal.SIGINT) is before
+            caught_there.append(caught)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    assert caught_there == [[]]
