@@ -40,7 +40,7 @@ def throughput(n: int, steps: int, repeats: int) -> dict[str, float]:
 
 def whole_run(case: str, n: int) -> None:
     """A run of n particles with output; its memory is of interest."""
-    from foamprb.run.job import execute, prepare
+    from foamprb import execute, prepare
 
     folder = Path(case)
     pipe.write_soft_cloud(folder, n, 2e-5, 10, 2)

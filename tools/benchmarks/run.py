@@ -15,11 +15,11 @@ WRITES = 10
 
 def with_output(case: str) -> dict[str, float]:
     """What ``foamprb run`` does: its seconds on the wall, and those in which it waited for output."""
-    from foamprb import run
+    import foamprb
     from foamprb.cloud.cloud import Cloud
     from foamprb.output.background import Writer
 
-    job = run.prepare(case)
+    job = foamprb.prepare(case)
     waited = 0.0
 
     def timed(function):
@@ -32,10 +32,10 @@ def with_output(case: str) -> dict[str, float]:
 
         return call
 
-    Writer.finish, Cloud.still = timed(Writer.finish), timed(Cloud.still)
+    Writer.finish, Cloud.snapshot = timed(Writer.finish), timed(Cloud.snapshot)
     start = time.perf_counter()
     # Whatever a measurement that was stopped has left there.
-    run.execute(job, "startTime")
+    foamprb.execute(job, "startTime")
     return {
         "wall": time.perf_counter() - start,
         "waited": waited,
@@ -45,9 +45,9 @@ def with_output(case: str) -> dict[str, float]:
 
 def alone(case: str, steps: int) -> dict[str, float]:
     """The same steps in one call, without output."""
-    from foamprb.run.job import prepare
+    import foamprb
 
-    cloud = prepare(case).cloud
+    cloud = foamprb.prepare(case).cloud
     start = time.perf_counter()
     cloud.advance(steps)
     return {"wall": time.perf_counter() - start, "particle-steps": pipe.particle_steps(cloud)}
