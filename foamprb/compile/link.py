@@ -181,11 +181,15 @@ def _compiler(target: Target) -> str:
     """What makes the code, and how, and for which processor."""
     python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_LINKING}"
     if target == "cuda":
-        return f"{python} numba-cuda {version('numba-cuda')}"
+        return f"{python} numba-cuda {_version('numba-cuda')}"
     # A set has another order in every process.
     options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
     how = f"{_FAST_MATH} {options} {internals().parts}"
-    return f"{python} llvmlite {version('llvmlite')} {how} {_processor()}"
+    return f"{python} llvmlite {_version('llvmlite')} {how} {_processor()}"
+
+
+# It reads files, and every function is asked for.
+_version = cache(version)
 
 
 @cache
