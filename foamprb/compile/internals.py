@@ -26,6 +26,7 @@ import operator
 import os
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -422,7 +423,12 @@ def internals() -> Internals:
     InputError
         If :data:`SWITCH` names what is no part.
     """
-    return _with(*_chosen(os.environ.get(SWITCH, "")))
+    with _lock:
+        return _with(*_chosen(os.environ.get(SWITCH, "")))
+
+
+# Numba takes no pass of the same name twice.
+_lock = threading.Lock()
 
 
 @cache
@@ -511,9 +517,10 @@ def _tried(parts: tuple[str, ...]) -> tuple[str, ...]:
     found: tuple[str, ...] | None = store.load(key)
     if found is None:
         command = [sys.executable, "-m", "foamprb.compile.trial", *parts]
-        found = ()
-        with suppress(OSError, subprocess.SubprocessError):
+        try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT, check=True)
-            found = tuple(done.stdout.split())
+        except (OSError, subprocess.SubprocessError):
+            return ()
+        found = tuple(done.stdout.split())
         store.save(key, found)
     return found

@@ -137,7 +137,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     scope = dict(function.__globals__)
     own = f"{_compiler(target)} {role} {function.__module__} {function.__qualname__}"
     digest = hashlib.sha256(own.encode())
-    digest.update(_fingerprint(function.__code__))
+    digest.update(_fingerprint(function.__code__) + repr(function.__defaults__).encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
@@ -147,6 +147,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         elif isinstance(value, int | float | tuple):
             scope[name] = _offsets(value, target) if _are_offsets(value) else _constant(value, target)
             digest.update(f"{name}={value!r};".encode())
+        elif isinstance(value, type) and issubclass(value, tuple):
+            digest.update(f"{name}={getattr(value, '_fields', '')};".encode())
     if target == "cuda":
         scope |= _for_cuda(scope)
     key = digest.hexdigest()[:24]

@@ -161,6 +161,44 @@ def test_results_of_operators_have_the_types_of_their_operands(cache):
             assert type(f(x, y)) is type(np.asarray(ratio(x, y)).item())
 
 
+def scaled(x, factor=2.0):
+    return factor * x
+
+
+def scaled_by_default(x):
+    return scaled(x)
+
+
+def test_code_changes_with_the_defaults_of_what_it_calls(cache, monkeypatch):
+    """They are no part of a function's byte code."""
+    assert link(scaled_by_default)(1.5) == 3.0
+    monkeypatch.setattr(scaled, "__defaults__", (3.0,))
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(scaled_by_default)(1.5) == 4.5
+
+
+def first_and_second(x):
+    pair = Pair(x, 2.0 * x)
+    return pair.first - pair.second
+
+
+class Pair(NamedTuple):
+    first: float
+    second: float
+
+
+class Riap(NamedTuple):
+    second: float
+    first: float
+
+
+def test_code_changes_with_the_fields_of_what_it_makes(cache, monkeypatch):
+    assert link(first_and_second)(1.0) == -1.0
+    monkeypatch.setitem(globals(), "Pair", Riap)
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert link(first_and_second)(1.0) == 1.0
+
+
 def test_separate_functions_stay_functions(cache):
     """The loop calls them: inlined where it does they would swell it."""
     f = link(quadrupled, separate=(doubled,))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-import projection
 import pytest
 from benchmarks import pipe
 from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
 from benchmarks.report import TARGETS, Target, written_table
 from benchmarks.roofline import Counting
+from figures import projection
 
 import foamprb
 from foamprb.output.tables import write_table

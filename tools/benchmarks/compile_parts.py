@@ -67,7 +67,8 @@ def measured(integrator: str, without: str) -> tuple[float, float]:
 
 def main() -> None:
     """Measure in turns, and print a table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("-repeats", type=int, default=5, metavar="N", help="of each measurement [5]")
     parser.add_argument("-integrator", default="stokes", metavar="NAME", help="whose loop [stokes]")
     parser.add_argument("-serve", action="store_true", help=argparse.SUPPRESS)

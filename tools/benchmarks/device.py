@@ -204,7 +204,10 @@ def compile_only() -> None:
 
 def main() -> int:
     """Measure if there is a device, else compile; the exit status is 1 if neither can be done."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter, add_help=False
+    )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("-n", type=int, default=1_000_000, help="number of particles")
     parser.add_argument("-steps", type=int, default=300)
     parser.add_argument("-quick", action="store_true", help="few particles and steps: to see that all works")

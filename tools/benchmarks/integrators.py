@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
-
 import numpy as np
+from figures import integrators as study
 
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, cpu_of, interleaved, rows
 from foamprb.body.imex import relaxation_time
-
-# The script beside this package, which shows error against work.
-study = importlib.import_module("integrators")
 
 ERRORS = {"error of F 1e-3": 1e-3, "error of F 3e-4": 3e-4}
 _FINER = 1.15

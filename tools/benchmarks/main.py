@@ -53,7 +53,9 @@ def _arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="benchmark",
         description="Measure foamprb's speed and memory, each part in a process of its own.",
+        add_help=False,
     )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("-list", action="store_true", help="list the parts and stop")
     parser.add_argument(
         "-only", nargs="+", choices=PARTS, default=PARTS, metavar="PART", help="only these [all]"

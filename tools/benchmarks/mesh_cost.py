@@ -32,7 +32,8 @@ def block(n: int) -> pyvista.UnstructuredGrid:
 
 def main() -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("n", type=int, nargs="?", default=100, help="cells along an edge [100]")
     n = parser.parse_args().n
     small = build_mesh(block(4))

@@ -139,8 +139,9 @@ def errors(sample: Sampler, pipe: Pipe, x: Floats) -> list[tuple[float, float]]:
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, add_help=False
     )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
     parser.add_argument("-radius", type=float, default=2.1e-3, help="m (default: %(default)s)")
     parser.add_argument(

@@ -77,7 +77,8 @@ def sweep(pipe: Pipe) -> list[tuple[str, str, int, float, float]]:
 
 def main() -> None:
     """Compute, write and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     output = parser.parse_args().output
     rows = sweep(AIR) + sweep(WATER)

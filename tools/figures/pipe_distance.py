@@ -40,7 +40,8 @@ def distances(flow, drag: str, dt: float) -> np.ndarray:
 
 def main() -> None:
     """Compute, write and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("cases", type=Path, nargs="*", default=[Path("cases/pipe")], metavar="CASE")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     parser.add_argument("--dt", type=float, default=1e-5, help="time step, s [1e-5]")

@@ -21,6 +21,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
 from benchmarks.records import Results, read_rows
 from benchmarks.report import number, table
 
@@ -409,7 +411,8 @@ def plot(found: dict[str, Any], file: Path) -> None:
 
 def main() -> None:
     """Project, write and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument(
         "--output", type=Path, default=Path("docs"), help="folder, with performance.csv [docs]"
     )

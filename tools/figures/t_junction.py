@@ -162,7 +162,8 @@ def by_start(job: foamprb.Job, n_y: int, n_z: int) -> dict[str, Floats]:
 
 def main() -> None:
     """Compute, write, print and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("case", type=Path, help="a run of cases/tJunction")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     options = parser.parse_args()

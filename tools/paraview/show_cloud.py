@@ -21,8 +21,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from paraview import servermanager, simple  # type: ignore[import-not-found]
 from vtkmodules.util.numpy_support import vtk_to_numpy
+
+try:
+    from paraview import servermanager, simple  # type: ignore[import-not-found]
+except ImportError:
+    servermanager = simple = None
 
 # Codes of the point array "status".
 ACTIVE, STUCK = 1, 2
@@ -512,7 +516,8 @@ def case_of_active_source() -> Path:
 
 def parse(arguments: list[str]) -> argparse.Namespace:
     """Read the command line."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("case", type=Path, metavar="CASE", help="folder of the OpenFOAM case")
     parser.add_argument("--cloud", default="softCloud", help="name of the cloud (default: softCloud)")
     parser.add_argument("--time", type=float, help="time to show, s (default: the last)")
@@ -571,6 +576,8 @@ def magnification(text: str) -> float:
 def main(arguments: list[str]) -> None:
     """Show a run in a window of its own, or write its picture."""
     options = parse(arguments)
+    if simple is None:
+        raise SystemExit("show_cloud.py needs ParaView: pvpython show_cloud.py CASE")
     if not options.case.is_dir():
         raise SystemExit(f"{options.case}: no such folder.")
     view = simple.CreateView("RenderView")

@@ -1,0 +1,162 @@
+"""The mutation run: what it changes, and that it tells what a test notices from what none does."""
+
+from __future__ import annotations
+
+import importlib.machinery
+import importlib.util
+import sys
+
+import pytest
+from paths import ROOT
+
+SOURCE = b'''"""Not 1 + 1 in a docstring."""
+
+from __future__ import annotations
+
+LIMIT: float = 0.5
+
+
+def sum_of(a: int | str, b: float = 1) -> int | float:
+    """Return 2 * a."""
+    if a < b and not isinstance(a, bool):
+        a -= 1
+        log.info("below %d", 2)
+    if a > 9:
+        raise ValueError(f"{a + 1} is more than 9")
+    store(a, b)
+    return min(a, LIMIT) * b
+'''
+
+CHANGES = [
+    ("comparison", "    if a < b and", "    if (a > b) and"),
+    ("arithmetic", "    return min(a, LIMIT) * b", "    return (min(a, LIMIT) / b)"),
+    ("constant", "LIMIT: float = 0.5", "LIMIT: float = 1.0"),
+    ("constant", "b: float = 1)", "b: float = 2)"),
+    ("constant", "        a -= 1", "        a -= 2"),
+    ("logic", "a < b and not isinstance(a, bool)", "(a < b or not isinstance(a, bool))"),
+    ("logic", "and not isinstance(a, bool)", "and isinstance(a, bool)"),
+    ("logic", "return min(", "return max("),
+    ("branch", '        a -= 1\n        log.info("below %d", 2)', "        pass"),
+    ("statement", "        a -= 1", "        pass"),
+    ("statement", "    store(a, b)", "    pass"),
+    ("argument", "store(a, b)", "store(b, a)"),
+    ("argument", "min(a, LIMIT)", "min(LIMIT, a)"),
+]
+
+BODY = """
+LIMIT = 10
+
+
+def scaled(x, by):
+    if x > LIMIT:
+        return LIMIT
+    return x * by
+"""
+TEST = """
+import time
+
+from foamprb.body.shape import scaled
+
+
+def test_scaled():
+    assert scaled(3, 2) == 6
+
+
+def test_quick():
+    assert True
+"""
+
+
+@pytest.fixture(scope="module")
+def tool():
+    loader = importlib.machinery.SourceFileLoader("mutate", str(ROOT / "tools/hardening/mutate"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("mutate", loader))
+    sys.modules["mutate"] = module
+    loader.exec_module(module)
+    yield module
+    del sys.modules["mutate"]
+
+
+def test_each_kind_is_made_and_nothing_else(tool):
+    """No messages, annotations or docstrings, and nothing under an if that only refuses."""
+    made = {(m.kind, m.of(SOURCE).decode()) for m in tool.mutations("file", SOURCE)}
+    text = SOURCE.decode()
+    for kind, old, new in CHANGES:
+        assert text.count(old) == 1
+        assert (kind, text.replace(old, new)) in made, (kind, new)
+    others = {("comparison", "a > 9", "(a < 9)"), ("constant", "a > 9", "a > 10")}
+    others |= {("argument", "isinstance(a, bool)", "isinstance(bool, a)")}
+    assert made == {(kind, text.replace(old, new)) for kind, old, new in {*CHANGES, *others}}
+
+
+def test_bytes_before_a_change_may_be_of_any_letters(tool):
+    source = "angle = 'µm θ', 1.5\n".encode()
+    (mutation,) = tool.mutations("file", source)
+    assert mutation.of(source).decode() == "angle = 'µm θ', 3.0\n"
+
+
+def test_a_seed_gives_the_same_again_and_more_of_them(tool):
+    few, more = (tool.choose(ROOT, tool.WINGS, n, 7, "body/") for n in (5, 9))
+    assert few == more[:5]
+    assert len(set(more)) == 9
+    assert few != tool.choose(ROOT, tool.WINGS, 5, 8, "body/")
+    for mutation in more:
+        assert mutation.changes((ROOT / mutation.file).read_bytes())
+
+
+@pytest.fixture
+def tree(tmp_path):
+    root = tmp_path / "tree"
+    for name, text in (
+        ("foamprb/__init__.py", ""),
+        ("foamprb/body/__init__.py", ""),
+        ("foamprb/body/shape.py", BODY),
+        ("tests/body/test_shape.py", TEST),
+        ("pyproject.toml", "[tool.pytest.ini_options]\n"),
+    ):
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text)
+    return root
+
+
+def test_survivors_are_what_no_test_notices(tool, tree, tmp_path):
+    chosen = tool.choose(tree, ("body",), 100, 1, "")
+    said = []
+    results = tool.run(tree, tmp_path / "out", chosen, said.append, jobs=2, extra=60.0)
+    noticed = {r.difference.splitlines()[-2]: r for r in results if r.outcome == "caught"}
+    survived = {line for r in results if r.outcome == "survived" for line in r.difference.splitlines()}
+    # Nothing asks what becomes of more than the limit.
+    assert "+LIMIT = 11" in survived
+    assert "+        pass" in survived
+    assert "+    if (x < LIMIT):" not in survived
+    assert any("x / by" in r.difference for r in results if r.outcome == "caught")
+    assert {r.test for r in noticed.values()} == {"tests/body/test_shape.py::test_scaled"}
+    assert (tree / "foamprb/body/shape.py").read_text() == BODY
+    # A second run finds all results there.
+    again = tool.run(tree, tmp_path / "out", chosen, pytest.fail)
+    assert again == results
+    table = tool.table(results)
+    n = len(results)
+    assert f"| `body/` | {n} | {n - 2} | 0 | 2 | {1 - 2 / n:.0%} |" in table
+
+
+def test_tests_that_do_not_end_are_out_of_time(tool, tree, tmp_path):
+    (tree / "foamprb/body/shape.py").write_text(
+        "def count(n):\n    while n > 0:\n        n -= 1\n    return n\n"
+    )
+    (tree / "tests/body/test_shape.py").write_text(
+        "from foamprb.body.shape import count\n\n\ndef test_count():\n    assert count(3) == 0\n"
+    )
+    chosen = [m for m in tool.choose(tree, ("body",), 100, 1, "") if m.kind == "statement"]
+    (result,) = tool.run(tree, tmp_path / "out", chosen, lambda _: None, extra=3.0)
+    assert result.outcome == "time"
+
+
+def test_a_table_is_put_between_its_marks(tool, tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(f"before\n{tool.BEGIN}\nold\n{tool.END}\nafter\n")
+    tool.write(page, "new")
+    assert page.read_text() == f"before\n{tool.BEGIN}\nnew\n{tool.END}\nafter\n"
+    page.write_text("no marks")
+    with pytest.raises(SystemExit):
+        tool.write(page, "new")
