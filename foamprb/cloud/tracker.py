@@ -17,8 +17,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, new_scratch
 from foamprb.cloud.forces.base import Force
-from foamprb.cloud.forces.gravity import Gravity
-from foamprb.cloud.forces.total import coefficients, compose
+from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
@@ -43,7 +42,7 @@ class Models:
     integrator: str = "paper"
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
-    forces: tuple[Force, ...] = (Gravity(),)
+    forces: tuple[Force, ...] = DEFAULT
     """What acts on the barycentre beside drag."""
 
 

@@ -170,9 +170,9 @@ class TestBookkeeping:
         compiled.advance(5)
         table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0))
         with np.errstate(all="ignore"):
-            flow = plain.flow.arrays(0.0, ())
+            flow, air = plain.flow.arrays(0.0, ()), plain.tracker.medium
             track_block(
-                flow, table, medium, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, new_scratch(ROWS)
+                flow, table, air, plain.particles, np.arange(2), 0, 5, plain.dt, 0.0, new_scratch(ROWS)
             )
         for name in ("x", "v", "F"):
             a, b = getattr(compiled.particles, name), getattr(plain.particles, name)

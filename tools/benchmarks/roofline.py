@@ -122,7 +122,7 @@ def operations_by_stage(integrator: str) -> dict[str, collections.Counter[str]]:
     numbers = np.array([Counting(float(x)) for x in data], dtype=object)
     found = {}
     for name, stage in STAGES[integrator].items():
-        counts = operations(stage, numbers, cloud.medium)
+        counts = operations(stage, numbers, cloud.tracker.medium)
         found[name] = collections.Counter({kind: stage.times * counts[kind] for kind in COUNTED})
     return found
 

@@ -12,8 +12,9 @@ from typing import Any
 from foamprb.body.tensor import Scalar, Vector, scale_vector
 from foamprb.cloud.block import Medium
 from foamprb.cloud.forces.base import Force, Inputs, displaced, inputs_of
+from foamprb.cloud.forces.gravity import Gravity
 
-__all__ = ["acceleration", "coefficients", "compose", "slip_acceleration"]
+__all__ = ["DEFAULT", "acceleration", "coefficients", "compose", "slip_acceleration"]
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on what it loads: without
@@ -28,9 +29,6 @@ def no_push(inputs: Inputs, _coefficients: Any) -> tuple[Vector, Scalar]:
 def no_slip(inputs: Inputs, _coefficients: Any) -> Vector:
     """Nothing for the drag to balance."""
     return scale_vector(0.0, inputs.Du_Dt)
-
-
-pushes, slips = no_push, no_slip
 
 
 def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector, Scalar]:
@@ -97,3 +95,11 @@ force: Any = no_push
 def _bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
     """The same function with other functions behind some of the names that it calls."""
     return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
+
+
+DEFAULT: tuple[Force, ...] = (Gravity(),)
+"""The forces of a cloud that chooses none, and of the plain text."""
+
+_default = compose(DEFAULT)
+pushes: Callable[[Inputs, Any], tuple[Vector, Scalar]] = _default["pushes"]
+slips: Callable[[Inputs, Any], Vector] = _default["slips"]
