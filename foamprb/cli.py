@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import foamprb
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
+from foamprb.view.command import declare, view
 
 if TYPE_CHECKING:
     from foamprb.flow.read.source import Source
@@ -50,9 +51,10 @@ def _parser() -> argparse.ArgumentParser:
 
     run = command("run", "track the particles of constant/softCloudProperties")
     info = command("info", "say what a case holds")
+    viewing = command("view", "show the bodies of a run: a page for any browser")
     validate = command("validate", "compare with independent solutions")
     command("compile", "compile the particle loops, so that no run has to")
-    for reading in (run, info):
+    for reading in (run, info, viewing):
         reading.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         reading.add_argument("--decomposed", action="store_true", help="read the processor folders")
         reading.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
@@ -68,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
         divided.add_argument(
             "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
         )
+    declare(viewing)
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -153,6 +156,10 @@ def _info(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return 0
 
 
+def _view(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    return view(arguments, _source(arguments))
+
+
 def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
@@ -175,6 +182,7 @@ def _compile(_: argparse.Namespace, __: Ranks | None) -> int:
 _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "run": _run,
     "info": _info,
+    "view": _view,
     "validate": _validate,
     "compile": _compile,
 }

@@ -13,6 +13,8 @@ from paths import ROOT
 import foamprb
 
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "cases").glob("*/README.md")])
+# Whoever changes the package needs its other names.
+PAGES.remove(ROOT / "docs/development.md")
 SCRIPTS = sorted((ROOT / "cases").glob("*/*.py"))
 
 

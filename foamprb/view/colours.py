@@ -1,0 +1,130 @@
+"""Colours of values and of names, light and dark, and numbers with units that a person can read."""
+
+from __future__ import annotations
+
+import colorsys
+import math
+import re
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Table = NDArray[np.uint8]
+
+NAMES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8c8c8c")
+"""Colours of names that most people tell apart (M. Okabe and K. Ito, Color Universal Design, 2008)."""
+
+MAPS = ("viridis", "cividis", "magma", "coolwarm")
+"""Colour maps of matplotlib that are offered; the last is for values on both sides of zero."""
+
+_GOLDEN_ANGLE = 137.508
+_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_SCALED_UNITS = frozenset({"m", "s", "m/s", "Pa", "N"})
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+class Style(NamedTuple):
+    """Colours of all but the bodies, those of ``page.css``."""
+
+    paper: str
+    ink: str
+    soft: str
+    glass: str
+    edge: str
+    accent: str
+    deposit: str
+    plane: Table
+    """256 colours of a plane through the flow."""
+
+
+@cache
+def colour_map(name: str) -> Table:
+    """256 colours, (256, 3)."""
+    from matplotlib import colormaps
+
+    return np.asarray(colormaps[name](np.arange(256), bytes=True))[:, :3].astype(np.uint8)
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    """``#rrggbb`` → (r, g, b)."""
+    return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
+
+
+def ramp(*colours: str) -> Table:
+    """256 colours, from one over others to the last, (256, 3)."""
+    stops = np.array([rgb(colour) for colour in colours], dtype=np.float64)
+    at = np.linspace(0.0, len(colours) - 1.0, 256)
+    return (
+        np.stack([np.interp(at, range(len(colours)), stops[:, c]) for c in range(3)], axis=1)
+        .round()
+        .astype(np.uint8)
+    )
+
+
+LIGHT = Style(
+    "#ffffff",
+    "#17202a",
+    "#4c5966",
+    "#c9d5de",
+    "#51606e",
+    "#0b5fa5",
+    "#c2410c",
+    ramp("#fbfcfd", "#a9c0d3", "#4d7597"),
+)
+DARK = Style(
+    "#10151b",
+    "#eaf0f5",
+    "#adb9c5",
+    "#2c3945",
+    "#8797a6",
+    "#7cbcf7",
+    "#ff9d66",
+    ramp("#141b22", "#3a5468", "#9cb9cf"),
+)
+
+
+def colour_of_name(k: int) -> str:
+    """Colour of the k-th of several names; beyond the eight, hues at the golden angle."""
+    if k < len(NAMES):
+        return NAMES[k]
+    r, g, b = colorsys.hsv_to_rgb(k * _GOLDEN_ANGLE % 360.0 / 360.0, 2.0 / 3.0, 0.75)
+    return "#{:02x}{:02x}{:02x}".format(*(round(255.0 * c) for c in (r, g, b)))
+
+
+def readable(unit: str, most: float) -> tuple[float, str]:
+    """A unit for numbers up to ``most`` without powers of ten: its size in the given one, and its name."""
+    pretty = _pretty(unit)
+    if unit in _SCALED_UNITS and 0.0 < abs(most) < 1e5:
+        for factor, prefix in _PREFIXES:
+            if abs(most) >= 0.5 * factor:
+                return factor, prefix + pretty
+    return 1.0, pretty
+
+
+def written(value: float, unit: str, most: float) -> str:
+    """A value with its unit, in that for numbers up to ``most``: ``0.04, "s", 0.06`` → "40 ms"."""
+    factor, name = readable(unit, most)
+    text = f"{value / factor:.4g}".replace("-", "−")
+    return f"{text} {name}" if name else text
+
+
+def number(value: float) -> str:
+    """A tick of a scale."""
+    return f"{value:.3g}".replace("-", "−")
+
+
+def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
+    """Round numbers between two limits, the limits among them."""
+    raw = (high - low) / (wanted - 1)
+    power = 10.0 ** math.floor(math.log10(raw))
+    step = next(digit * power for digit in (1.0, 2.0, 2.5, 5.0, 10.0) if digit * power >= raw * (1.0 - 1e-9))
+    inner = step * np.arange(math.ceil(low / step), math.floor(high / step) + 1)
+    far = (inner - low > 0.6 * step) & (high - inner > 0.6 * step)
+    return [low, *(float(f"{value:.12g}") for value in inner[far]), high]
+
+
+def _pretty(unit: str) -> str:
+    """``m/s2`` → m/s²."""
+    return re.sub(r"(?<=[A-Za-z])-?\d+", lambda power: power[0].translate(_SUPERSCRIPTS), unit)

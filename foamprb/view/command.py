@@ -1,0 +1,93 @@
+"""The command ``foamprb view``: its options, and what each of them asks for."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import re
+import sys
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.errors import InputError
+
+if TYPE_CHECKING:
+    from foamprb.flow.read.source import Source
+
+log = logging.getLogger("foamprb")
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of ``foamprb view``, besides those that say where the flow is."""
+    add = parser.add_argument
+    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/CLOUD.html]")
+    add("--noBrowser", action="store_true", help="write the page, do not open it")
+    kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--png", type=Path, metavar="FILE", help="write a picture, not the page")
+    kind.add_argument("--film", type=Path, metavar="FILE", help="write a film, .mp4 or .gif, not the page")
+    kind.add_argument("--window", action="store_true", help="show a window of VTK, write nothing")
+    add("--time", type=float, metavar="TIME", help="time to show first [that with most bodies]")
+    add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
+        help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip
+    add("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="of the colours [all values]")
+    add(
+        "--enlargement",
+        type=float,
+        metavar="S",
+        help="draw the bodies S times larger [so that they are seen]",
+    )
+    add("--slice", metavar="PLANE", help="show the flow on a plane: x, z=0.01 or '(point) (normal)'")
+    add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow on the plane [latest]")
+    add("--bodies", type=int, metavar="N", help="at most N bodies, evenly spread [all]")
+    add(
+        "--maxSize",
+        type=float,
+        default=30.0,
+        metavar="MB",
+        help="of the page; arrays and times give way [30]",
+    )
+    add(
+        "--size", default="1600x900", metavar="WxH", help="of a picture, film or window, in pixels [1600x900]"
+    )
+    add("--dark", action="store_true", help="a picture, film or window on a dark ground")
+
+
+def view(arguments: argparse.Namespace, source: Source) -> int:
+    """Do what the options say; the exit status."""
+    from foamprb.view.show import Request, open_in_browser, picture_of, write_page
+
+    request = Request(
+        arguments.case,
+        arguments.cloud,
+        source,
+        arguments.flowTime,
+        arguments.time,
+        arguments.colour,
+        tuple(arguments.range) if arguments.range else None,
+        arguments.enlargement,
+        arguments.slice,
+        arguments.bodies,
+    )
+    if arguments.png or arguments.film or arguments.window:
+        picture_of(request, arguments.png, arguments.film, read_size(arguments.size), arguments.dark)
+        return 0
+    path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
+    if not arguments.noBrowser and sys.stdout.isatty():
+        open_in_browser(path)
+    return 0
+
+
+def read_size(text: str) -> tuple[int, int]:
+    """Width and height from a text like ``1600x900``.
+
+    Raises
+    ------
+    InputError
+        If the text is another.
+    """
+    found = re.fullmatch(r"([1-9]\d{1,4})x([1-9]\d{1,4})", text)
+    if not found:
+        raise InputError(f"-size {text}: not a width and a height like 1600x900.")
+    return int(found[1]), int(found[2])

@@ -1,0 +1,777 @@
+// The page: state, what follows from it, and the controls that change it.
+
+import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace, NearestFilter, Raycaster, RGBAFormat, Scene, Vector2, Vector3, WebGLRenderer } from "three";
+import { Bodies } from "./bodies.js";
+import { Eye } from "./camera.js";
+import { drawChart } from "./chart.js";
+import { bytesOf, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
+import { load } from "./data.js";
+import { paintLegends, showLegend } from "./legend.js";
+import { Deposits, Paths, Plane, Walls } from "./surroundings.js";
+
+const $ = (id) => document.getElementById(id);
+const words = new URLSearchParams(location.hash.slice(1));
+const MOST_PATHS = 400_000;
+const SPEEDS = [2, 5, 10, 15, 25, 30, 60];
+
+const keys = [
+  ["Space", "play, stop", () => play(!state.playing)],
+  [", and .", "one time back, on", null],
+  ["Home, End", "first, last time", null],
+  ["Arrows", "turn; with shift move", null],
+  ["+ and −", "zoom", null],
+  ["N and P", "choose the next, the previous body", null],
+  ["F", "follow the chosen body", () => follow(!state.follow)],
+  ["Escape", "let the chosen body go", () => choose(-1)],
+  ["0", "first view", () => eye.goHome()],
+  ["W", "whole geometry", () => eye.showAll(halves())],
+  ["M", "mark on the surface", () => toggle("mark")],
+  ["S", "save the picture", () => savePicture()],
+  ["D", "light or dark", () => setTheme(dark() ? "light" : "dark")],
+  ["O", "options", () => openPanel(!$("panel").classList.contains("open"))],
+  ["H", "this list", () => $("about").showModal()],
+];
+
+let data, renderer, eye, bodies, walls, plane, paths, deposits;
+const scene = new Scene();
+const state = {
+  t: 0, chosen: -1, follow: false, playing: false, speed: 10, name: "", part: "", low: 0, high: 1, map: "",
+  enlargement: 1, fates: new Set(), injectors: new Set(), gone: false, curve: null, count: 0,
+};
+let legends = [], dirty = false, textures = {};
+
+async function start() {
+  if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not offer");
+  if (typeof DecompressionStream === "undefined") throw new Error("it needs a browser of 2023 or newer");
+  for (const word of ["bare", "naked"]) document.documentElement.classList.toggle(word, words.has(word));
+  if (words.has("naked")) document.documentElement.classList.add("bare");
+  data = await load();
+  const { scene: spec } = data;
+  const canvas = $("canvas");
+  ColorManagement.enabled = false;
+  renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, preserveDrawingBuffer: false });
+  renderer.outputColorSpace = LinearSRGBColorSpace;
+  bodies = new Bodies(data);
+  walls = new Walls(data);
+  deposits = new Deposits();
+  paths = new Paths(data);
+  scene.add(bodies.mesh, walls.group, paths.lines, deposits.points);
+  if (data.slice) scene.add((plane = new Plane(data)).mesh);
+  eye = new Eye(canvas, spec.home, insets(), () => { dirty = true; }, tap);
+  for (const [name, digits] of Object.entries({ ...spec.maps, ...spec.planeMaps })) textures[name] = { bytes: table(digits), texture: null };
+
+  describe(spec);
+  fill(spec);
+  listen();
+  state.enlargement = spec.enlargement;
+  state.t = Math.min(data.m - 1, Number(words.get("time") ?? spec.first));
+  setTheme(words.get("theme") ?? "auto");
+  setEnlargement(spec.enlargement);
+  setColour(...spec.colour, spec.range);
+  setSlice();
+  $("app").classList.remove("loading");
+  $("notice").textContent = "";
+  resize();
+  eye.goHome();
+  new ResizeObserver(resize).observe($("stage"));
+  show(state.t);
+  requestAnimationFrame(loop);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Drawing
+
+function loop(now) {
+  if (state.playing && now - (loop.last ?? 0) >= 1000 / state.speed - 4) {
+    loop.last = now;
+    show((state.t + 1) % data.m);
+  }
+  if (dirty) draw();
+  requestAnimationFrame(loop);
+}
+
+function draw() {
+  dirty = false;
+  const tangent = 2 * Math.tan((data.scene.home.angle * Math.PI) / 360);
+  bodies.material.uniforms.pixel.value = tangent / eye.height;
+  renderer.render(scene, eye.camera);
+  placeLabels();
+}
+
+function resize() {
+  const { clientWidth: width, clientHeight: height } = $("stage");
+  if (!width || !height) return;
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2.5));
+  renderer.setSize(width, height, false);
+  deposits.points.material.uniforms.ratio.value = renderer.getPixelRatio();
+  eye.insets = insets();
+  eye.resize(width, height);
+  dirty = true;
+}
+
+// Pixels that words, or the card of the chosen body on a narrow screen, take above and below what is shown.
+function insets() {
+  if (words.has("naked")) return [0, 0];
+  const [above, below] = data.scene.home.insets, card = $("card");
+  const covers = !card.hidden && getComputedStyle(card).position === "fixed";
+  return [above, covers ? card.offsetHeight - $("transport").offsetHeight : below];
+}
+
+// In the flow or on a wall.
+const inside = (word) => word === "active" || word === "stuck";
+
+function isShown(i) {
+  if (!data.present(state.t, i)) return false;
+  const { status, fate, injector } = data.codes;
+  const word = status.meaning(state.t, i);
+  if (!inside(word) && !state.gone) return false;
+  if (state.fates.has(fate.code(0, i))) return false;
+  if (injector && state.injectors.has(injector.code(state.t, i))) return false;
+  const { filter } = state;
+  if (filter && filter.field) {
+    const value = filter.field.value(state.t, i, filter.part);
+    if (!(value >= filter.low && value <= filter.high)) return false;
+  }
+  return true;
+}
+
+function show(t) {
+  const before = state.t;
+  state.t = t;
+  const field = data.fields[state.name], codes = data.codes[state.name];
+  const span = state.high - state.low || 1;
+  const colour = codes
+    ? (i) => codes.code(t, i) / 255
+    : (i) => {
+      const value = field.value(t, i, state.part);
+      return Number.isFinite(value) ? Math.max(0, Math.min(1, (value - state.low) / span)) : -1;
+    };
+  state.count = bodies.show(t, isShown, colour);
+  bodies.material.uniforms.chosen.value = state.chosen;
+  paths.lines.material.uniforms.now.value = data.times[t] * (1 + 1e-6) + 1e-12;
+  if (state.follow && state.chosen >= 0) {
+    const a = 3 * (data.n * before + state.chosen), b = 3 * (data.n * t + state.chosen), { x } = data;
+    eye.target.add(new Vector3(x[b] - x[a], x[b + 1] - x[a + 1], x[b + 2] - x[a + 2]));
+    eye.place();
+  }
+  showDeposits();
+  $("time").value = t;
+  const text = written(data.times[t], "s", data.times[data.m - 1]);
+  $("time").setAttribute("aria-valuetext", text);
+  $("time-text").textContent = text;
+  $("clock").textContent = `t = ${text}`;
+  $("caption").textContent = caption();
+  if (state.chosen >= 0) showCard();
+  dirty = true;
+}
+
+function caption() {
+  const drawn = state.enlargement === 1 ? "drawn to scale" : `drawn ${number(state.enlargement, 3)}× larger`;
+  return `${state.count} ${state.count === 1 ? "body" : "bodies"}, ${drawn}`;
+}
+
+function showDeposits() {
+  const wanted = $("deposits").value;
+  const list = [];
+  if (wanted !== "none") {
+    const { n, m, x } = data, { status, fate } = data.codes;
+    const t = wanted === "all" ? m - 1 : state.t;
+    for (let i = 0; i < n; i++) {
+      if (status.meaning(t, i) !== "stuck" || !data.present(t, i) || state.fates.has(fate.code(0, i))) continue;
+      if (wanted === "now" && !bodies.shown[i]) continue;
+      const p = 3 * (n * t + i);
+      list.push(x[p], x[p + 1], x[p + 2]);
+    }
+  }
+  deposits.draw(list);
+}
+
+function showPaths() {
+  const wanted = $("paths").value;
+  let list = [];
+  if (wanted === "chosen" && state.chosen >= 0) list = [state.chosen];
+  if (wanted === "all") {
+    for (let i = 0; i < data.n; i++) {
+      const { fate, injector } = data.codes;
+      if (state.fates.has(fate.code(0, i)) || (injector && state.injectors.has(injector.code(data.m - 1, i)))) continue;
+      list.push(i);
+    }
+    const most = Math.max(1, Math.floor(MOST_PATHS / data.m));
+    if (list.length > most) {
+      say(`Paths of ${most} of ${list.length} bodies are drawn.`);
+      list = Array.from({ length: most }, (_, k) => list[Math.floor((k * list.length) / most)]);
+    }
+  }
+  paths.draw(list);
+  paths.lines.material.uniforms.opacity.value = wanted === "chosen" ? 0.95 : Math.max(0.18, Math.min(0.6, 60 / list.length));
+  dirty = true;
+}
+
+// Names of patches, each where it hides none before it.
+function placeLabels() {
+  const kept = [];
+  const point = new Vector3();
+  const blocked = [...$("stage").querySelectorAll("#heading, #facts, .legend")].map(boxOf);
+  for (const label of $("labels").children) {
+    const patch = walls.patches[label.dataset.patch], anchor = data.surfaces[label.dataset.patch].anchor;
+    label.hidden = true;
+    if (!$("names").checked || !patch.visible) continue;
+    point.set(...anchor).project(eye.camera);
+    if (Math.abs(point.x) > 1 || Math.abs(point.y) > 1 || point.z > 1) continue;
+    label.hidden = false;
+    const width = label.offsetWidth, height = label.offsetHeight;
+    const x = Math.max(4, Math.min(eye.width - width - 4, (0.5 + 0.5 * point.x) * eye.width - width / 2));
+    const y = Math.max(4, Math.min(eye.height - height - 4, (0.5 - 0.5 * point.y) * eye.height - height - 6));
+    const box = { left: x, top: y, right: x + width, bottom: y + height };
+    if ([...kept, ...blocked].some((b) => b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom)) {
+      label.hidden = true;
+      continue;
+    }
+    kept.push(box);
+    label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  }
+}
+
+function boxOf(element) {
+  const own = element.getBoundingClientRect(), stage = $("stage").getBoundingClientRect();
+  return { left: own.left - stage.left, top: own.top - stage.top, right: own.right - stage.left, bottom: own.bottom - stage.top };
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// What the controls do
+
+function describe(spec) {
+  document.title = `${spec.title} – ${spec.subtitle}`;
+  $("title").textContent = spec.title;
+  $("subtitle").textContent = spec.subtitle;
+  $("made").textContent = spec.made;
+  $("notes").textContent = spec.notes.join(" ");
+  for (const [key, meaning] of keys) {
+    const term = document.createElement("dt"), what = document.createElement("dd");
+    term.textContent = key;
+    what.textContent = meaning;
+    $("keys").append(term, what);
+  }
+}
+
+function option(select, value, text) {
+  const element = document.createElement("option");
+  element.value = value;
+  element.textContent = text;
+  select.append(element);
+}
+
+const partWords = { magnitude: "magnitude", x: "x", y: "y", z: "z" };
+const nameOf = (field, part) => (part ? `${field.label}, ${partWords[part] ?? part}` : field.label);
+
+function fill(spec) {
+  for (const select of [$("colour"), $("filter")]) {
+    if (select === $("filter")) option(select, "", "all values");
+    for (const field of Object.values(data.fields)) {
+      for (const part of field.parts) option(select, `${field.name}:${part}`, nameOf(field, part));
+    }
+    if (select === $("colour")) for (const codes of Object.values(data.codes)) option(select, `${codes.name}:`, codes.label);
+  }
+  for (const name of Object.keys(spec.maps)) option($("map"), name, name);
+  const wanted = data.m / 8;
+  state.speed = SPEEDS.reduce((a, b) => (Math.abs(b - wanted) < Math.abs(a - wanted) ? b : a));
+  for (const speed of SPEEDS) option($("speed"), speed, `${speed}/s`);
+  $("speed").value = state.speed;
+  $("time").max = data.m - 1;
+  const { fate, injector } = data.codes;
+  choices($("fates"), fate, (i) => fate.code(0, i), state.fates);
+  if (injector) choices($("injectors"), injector, (i) => injector.code(data.m - 1, i), state.injectors);
+  $("injectors").hidden = !injector || injector.meanings.length < 2;
+  $("deposits-row").hidden = !fate.meanings.some((word) => word.startsWith("stuck"));
+  if (data.n > spec.mostDeposits) $("deposits").value = "none";
+  else $("deposits").value = "now";
+  $("walls").hidden = data.surfaces.length === 0;
+  walls.patches.forEach((patch, k) => {
+    const label = check(`${patch.name}`, patch.visible, (on) => { patch.visible = on; paint(); });
+    const kind = document.createElement("span");
+    kind.className = "count";
+    kind.textContent = patch.type;
+    label.append(kind);
+    $("patches").append(label);
+    const name = document.createElement("span");
+    name.textContent = patch.name;
+    name.dataset.patch = k;
+    $("labels").append(name);
+  });
+  $("plane").hidden = !data.slice;
+  if (data.slice) {
+    data.slice.values.forEach((value, k) => option($("slice"), k, value.label));
+    option($("slice"), "none", "not shown");
+  }
+}
+
+function check(text, on, change) {
+  const label = document.createElement("label"), box = document.createElement("input");
+  label.className = "check";
+  box.type = "checkbox";
+  box.checked = on;
+  box.addEventListener("change", () => change(box.checked));
+  label.append(box, text);
+  return label;
+}
+
+function choices(details, codes, codeOf, hidden) {
+  const counts = new Map();
+  for (let i = 0; i < data.n; i++) counts.set(codeOf(i), (counts.get(codeOf(i)) ?? 0) + 1);
+  const list = details.querySelector(".choices");
+  for (const [code, count] of [...counts].sort((a, b) => a[0] - b[0])) {
+    const label = check(codes.meanings[code] ?? "none", true, (on) => {
+      hidden[on ? "delete" : "add"](code);
+      showPaths();
+      show(state.t);
+    });
+    const number = document.createElement("span");
+    number.className = "count";
+    number.textContent = count;
+    label.append(number);
+    list.append(label);
+  }
+}
+
+function setColour(name, part, range = null) {
+  Object.assign(state, { name, part });
+  $("colour").value = `${name}:${part}`;
+  const codes = data.codes[name];
+  for (const id of ["range-row", "range-buttons", "map-row"]) $(id).hidden = Boolean(codes);
+  if (codes) {
+    setTexture({ bytes: tableOfNames(codes.meanings.length), texture: null }, true);
+    const present = new Set();
+    for (let t = 0; t < (codes.constant ? 1 : data.m); t++) for (let i = 0; i < data.n; i++) present.add(codes.code(t, i));
+    legends[0] = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present.has(k) && word) };
+    showLegends();
+  } else {
+    setRange(...(range ?? data.fields[name].ranges[part]), false);
+    const symmetric = state.low === -state.high;
+    setMap(symmetric && data.scene.maps.coolwarm ? "coolwarm" : "viridis");
+  }
+  show(state.t);
+}
+
+function setRange(low, high, redraw = true) {
+  if (!(high > low)) return;
+  Object.assign(state, { low, high });
+  $("range-low").value = number(low).replace("−", "-").replace(/ × 10(.*)/, (_, p) => `e${plain(p)}`);
+  $("range-high").value = number(high).replace("−", "-").replace(/ × 10(.*)/, (_, p) => `e${plain(p)}`);
+  const field = data.fields[state.name];
+  const unit = field.unit ? ` (${pretty(field.unit)})` : "";
+  $("range-word").textContent = `Range${unit}`;
+  legends[0] = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, table: textures[state.map]?.bytes };
+  if (redraw) { showLegends(); show(state.t); }
+}
+
+const plain = (text) => [...text].map((c) => ({ "⁻": "-" })[c] ?? "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("");
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+function setMap(name) {
+  state.map = name;
+  $("map").value = name;
+  setTexture(textures[name], false);
+  if (legends[0] && !legends[0].names) legends[0].table = textures[name].bytes;
+  showLegends();
+}
+
+function setTexture(entry, sharp) {
+  bodies.material.uniforms.colours.value = textureOf(entry, sharp);
+  dirty = true;
+}
+
+function textureOf(entry, sharp) {
+  if (!entry.texture) {
+    entry.texture = new DataTexture(entry.bytes, 256, 1, RGBAFormat);
+    entry.texture.magFilter = entry.texture.minFilter = sharp ? NearestFilter : LinearFilter;
+    entry.texture.needsUpdate = true;
+  }
+  return entry.texture;
+}
+
+function setSlice() {
+  if (!plane) return;
+  const field = data.slice.values[Number($("slice").value)];
+  plane.colour(field);
+  if (field) {
+    const map = textures[dark() ? "dark" : "light"];
+    plane.material.uniforms.colours.value = textureOf(map, false);
+    legends[1] = { label: capital(field.label), unit: field.unit, low: field.range[0], high: field.range[1], table: map.bytes };
+  } else legends.length = 1;
+  showLegends();
+  dirty = true;
+}
+
+function showLegends() {
+  $("legends").replaceChildren();
+  for (const spec of [...legends].reverse()) if (spec && (spec.names || spec.table)) showLegend($("legends"), spec);
+}
+
+function setEnlargement(value) {
+  state.enlargement = value;
+  bodies.material.uniforms.enlargement.value = value;
+  const most = Math.log10(Math.max(10, 10 * data.scene.enlargement));
+  $("enlargement").value = Math.log10(value) / most;
+  const text = value === 1 ? "to scale" : `${number(value, 3)}×`;
+  $("enlargement-text").textContent = text;
+  $("enlargement").setAttribute("aria-valuetext", value === 1 ? "to scale" : `${number(value, 3)} times`);
+  $("caption").textContent = caption();
+  dirty = true;
+}
+
+const dark = () => document.documentElement.dataset.theme === "dark";
+
+function setTheme(wanted) {
+  $("theme").value = wanted;
+  const system = matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = wanted === "auto" ? (system ? "dark" : "light") : wanted;
+  paint();
+  setSlice();
+}
+
+function variable(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+function paint() {
+  const rgb = (name) => bytesOf(variable(name)).map((byte) => byte / 255);
+  const paper = rgb("--paper");
+  // Colours are as they are on the screen: nothing is to convert them.
+  renderer.setClearColor(new Color().setRGB(...paper), 1);
+  walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
+  bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
+  bodies.material.uniforms.accent.value.set(...rgb("--accent"));
+  paths.lines.material.uniforms.base.value.set(...rgb("--ink"));
+  deposits.points.material.uniforms.base.value.set(...rgb("--deposit"));
+  deposits.points.material.uniforms.paper.value.set(...paper);
+  dirty = true;
+}
+
+function play(on) {
+  state.playing = on && data.m > 1;
+  document.documentElement.classList.toggle("playing", state.playing);
+  $("play-word").textContent = state.playing ? "Stop" : "Play";
+  $("play").title = state.playing ? "Stop (space)" : "Play (space)";
+}
+
+function step(by) {
+  play(false);
+  show(Math.max(0, Math.min(data.m - 1, state.t + by)));
+  say($("time-text").textContent);
+}
+
+function halves() {
+  return data.scene.frame.halves;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// One body
+
+function rayAt(x, y) {
+  const ray = new Raycaster();
+  ray.setFromCamera(new Vector2((2 * x) / eye.width - 1, 1 - (2 * y) / eye.height), eye.camera);
+  return ray.ray;
+}
+
+function bodyAt(x, y) {
+  const { origin, direction } = rayAt(x, y);
+  return bodies.pick(state.t, origin, direction, bodies.material.uniforms.pixel.value);
+}
+
+function tap({ x, y }) {
+  choose(bodyAt(x, y));
+}
+
+function choose(i) {
+  state.chosen = i;
+  if (i < 0) follow(false);
+  $("card").hidden = i < 0;
+  if (i >= 0) {
+    openPanel(false);
+    say(`Body ${data.ids[i]} is chosen.`);
+  }
+  showPaths();
+  show(state.t);
+  resize();
+  if (i >= 0) bringIntoView(i);
+}
+
+function bringIntoView(i) {
+  const { x, y, z } = placeOf(i), [above, below] = eye.insets;
+  if (z < 1 && x > 0 && x < eye.width && y > above && y < eye.height - below) return;
+  if (!data.present(state.t, i)) return;
+  const p = 3 * (data.n * state.t + i);
+  eye.target.set(data.x[p], data.x[p + 1], data.x[p + 2]);
+  eye.place();
+}
+
+// Where the middle of a body is on the picture, in its pixels.
+function placeOf(i) {
+  const p = 3 * (data.n * state.t + i);
+  const point = new Vector3(data.x[p], data.x[p + 1], data.x[p + 2]).project(eye.camera);
+  return { x: (0.5 + 0.5 * point.x) * eye.width, y: (0.5 - 0.5 * point.y) * eye.height, z: point.z };
+}
+
+function chooseNext(by) {
+  const shown = [...bodies.shown.keys()].filter((i) => bodies.shown[i]);
+  if (shown.length === 0) return;
+  const at = shown.indexOf(state.chosen);
+  choose(shown[at < 0 ? (by > 0 ? 0 : shown.length - 1) : (at + by + shown.length) % shown.length]);
+}
+
+function follow(on) {
+  state.follow = on && state.chosen >= 0;
+  $("follow").checked = state.follow;
+  if (!state.follow) return;
+  const p = 3 * (data.n * state.t + state.chosen);
+  eye.target.set(data.x[p], data.x[p + 1], data.x[p + 2]);
+  eye.distance = Math.min(eye.distance, Math.max(eye.fit / 3, 30 * data.radius[state.chosen] * state.enlargement));
+  eye.place();
+}
+
+function series(field, part, i) {
+  const { status } = data.codes;
+  return data.times.map((_, t) => (data.present(t, i) && inside(status.meaning(t, i)) ? field.value(t, i, part) : NaN));
+}
+
+function showCard() {
+  const i = state.chosen, { t } = state, { fate, injector } = data.codes;
+  $("card-title").textContent = `Body ${data.ids[i]}`;
+  const { t0, t1 } = data.fields;
+  const story = [];
+  if (injector) story.push(`from ${injector.meaning(data.m - 1, i)}`);
+  if (t0) story.push(`released at ${written(t0.value(0, i, ""), "s", data.times[data.m - 1])}`);
+  story.push(t1 ? `${fate.meaning(0, i)} at ${written(t1.value(0, i, ""), "s", data.times[data.m - 1])}` : fate.meaning(0, i));
+  $("card-story").textContent = capital(story.join(", "));
+  const [some] = Object.values(data.fields);
+  const field = state.curve ?? (data.fields[state.name] ? { name: state.name, part: state.part } : { name: some.name, part: some.parts[0] });
+  const rows = [];
+  if (!data.present(t, i)) rows.push(["", "not released yet", null]);
+  else {
+    const p = 3 * (data.n * t + i), { middle, size } = data.scene.frame;
+    const x = [0, 1, 2].map((c) => middle[c] + size * data.x[p + c]);
+    const { factor, unit } = readable("m", size);
+    rows.push([`position (${unit})`, x.map((v) => number(v / factor, 4)).join(", "), null]);
+    for (const f of Object.values(data.fields)) {
+      if (f.name === "t0" || f.name === "t1") continue;
+      for (const part of f.parts) rows.push([nameOf(f, part), written(f.value(t, i, part), f.unit), { name: f.name, part }]);
+    }
+  }
+  const list = $("card-rows");
+  const focused = list.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+  list.replaceChildren();
+  for (const [name, value, target] of rows) {
+    const row = document.createElement("button");
+    row.type = "button";
+    const left = document.createElement("span"), right = document.createElement("span");
+    left.textContent = name;
+    right.textContent = value;
+    row.append(left, right);
+    row.disabled = !target;
+    if (target) {
+      row.dataset.key = `${target.name}:${target.part}`;
+      row.title = "Show its curve in time";
+      row.setAttribute("aria-pressed", String(target.name === field.name && target.part === field.part));
+      row.addEventListener("click", () => { state.curve = target; showCard(); });
+    }
+    list.append(row);
+    if (focused && row.dataset.key === focused) row.focus();
+  }
+  const f = data.fields[field.name];
+  if (f) drawChart($("chart"), { label: nameOf(f, field.part), unit: f.unit, times: data.times, values: series(f, field.part, i), now: t });
+}
+
+function saveTable() {
+  const i = state.chosen, { middle, size } = data.scene.frame;
+  const columns = [["t [s]", data.times]];
+  for (let c = 0; c < 3; c++) columns.push([`${"xyz"[c]} [m]`, data.times.map((_, t) => middle[c] + size * data.x[3 * (data.n * t + i) + c])]);
+  for (const f of Object.values(data.fields)) {
+    for (const part of f.parts) columns.push([`${f.name}${part ? `_${part}` : ""}${f.unit ? ` [${f.unit}]` : ""}`, series(f, part, i)]);
+  }
+  const rows = data.times.map((_, t) => (data.present(t, i) ? columns.map(([, values]) => Number(values[t].toPrecision(7))).join(",") : null));
+  const text = [columns.map(([name]) => name).join(","), ...rows.filter(Boolean)].join("\n");
+  save(new Blob([`${text}\n`], { type: "text/csv" }), `${data.scene.title}_body_${data.ids[i]}.csv`);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Saving
+
+function save(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name.replace(/[^\w.-]+/g, "_");
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+// The picture with all that is written on it, twice as fine as the screen.
+async function paintPicture() {
+  const { width, height } = eye, before = renderer.getPixelRatio(), s = 2;
+  renderer.setPixelRatio(s);
+  renderer.setSize(width, height, false);
+  deposits.points.material.uniforms.ratio.value = s;
+  draw();
+  const page = new OffscreenCanvas(width * s, height * s), context = page.getContext("2d");
+  context.drawImage(renderer.domElement, 0, 0);
+  renderer.setPixelRatio(before);
+  renderer.setSize(width, height, false);
+  deposits.points.material.uniforms.ratio.value = before;
+  draw();
+  const style = { font: getComputedStyle(document.body).fontFamily, ink: variable("--ink"), soft: variable("--soft") };
+  const write = (text, x, y, font, colour, align) => {
+    context.font = font;
+    context.fillStyle = colour;
+    context.textAlign = align;
+    context.fillText(text, x, y);
+  };
+  write(data.scene.title, 22 * s, 32 * s, `600 ${17 * s}px ${style.font}`, style.ink, "left");
+  write(data.scene.subtitle, 22 * s, 53 * s, `${14 * s}px ${style.font}`, style.soft, "left");
+  write($("clock").textContent, (width - 22) * s, 32 * s, `600 ${17 * s}px ${style.font}`, style.ink, "right");
+  write(caption(), (width - 22) * s, 53 * s, `${14 * s}px ${style.font}`, style.soft, "right");
+  context.textAlign = "center";
+  for (const label of $("labels").children) {
+    if (label.hidden) continue;
+    const box = boxOf(label);
+    write(label.textContent, ((box.left + box.right) / 2) * s, (box.bottom - 5) * s, `${12 * s}px ${style.font}`, style.soft, "center");
+  }
+  context.textAlign = "left";
+  paintLegends(context, legends, style, s, height * s);
+  return page;
+}
+
+async function savePicture() {
+  const page = await paintPicture();
+  save(await page.convertToBlob({ type: "image/png" }), `${data.scene.title}_t${number(data.times[state.t])}.png`);
+  say("The picture is saved.");
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Controls
+
+function say(text) {
+  $("status").textContent = text;
+}
+
+function openPanel(on) {
+  $("panel").classList.toggle("open", on);
+  $("open-panel").setAttribute("aria-expanded", String(on));
+  if (on && getComputedStyle($("corner")).display !== "none") $("close-panel").focus();
+}
+
+function toggle(id) {
+  $(id).checked = !$(id).checked;
+  $(id).dispatchEvent(new Event("change"));
+}
+
+function readNumber(id, otherwise) {
+  const text = $(id).value.trim().replace(",", ".").replace("−", "-");
+  const value = text === "" ? otherwise : Number(text);
+  const wrong = Number.isNaN(value);
+  $(id).setAttribute("aria-invalid", String(wrong));
+  if (wrong) say("That is not a number.");
+  return wrong ? otherwise : value;
+}
+
+function setFilter() {
+  const [name, part] = $("filter").value.split(":");
+  state.filter = name ? { field: data.fields[name], part, low: readNumber("filter-low", -Infinity), high: readNumber("filter-high", Infinity) } : null;
+  show(state.t);
+}
+
+function listen() {
+  const on = (id, kind, react) => $(id).addEventListener(kind, react);
+  on("time", "input", () => { play(false); show(Number($("time").value)); });
+  on("play", "click", () => play(!state.playing));
+  on("backward", "click", () => step(-1));
+  on("forward", "click", () => step(1));
+  on("speed", "change", () => { state.speed = Number($("speed").value); });
+  on("colour", "change", () => setColour(...$("colour").value.split(":")));
+  for (const id of ["range-low", "range-high"]) on(id, "change", () => setRange(readNumber("range-low", state.low), readNumber("range-high", state.high)));
+  on("range-all", "click", () => setRange(...data.fields[state.name].ranges[state.part]));
+  on("range-now", "click", () => {
+    let low = Infinity, high = -Infinity;
+    for (let i = 0; i < data.n; i++) {
+      const value = bodies.shown[i] ? data.fields[state.name].value(state.t, i, state.part) : NaN;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+    setRange(low, high);
+  });
+  on("map", "change", () => setMap($("map").value));
+  on("enlargement", "input", () => {
+    const most = Math.log10(Math.max(10, 10 * data.scene.enlargement));
+    const value = 10 ** (most * Number($("enlargement").value));
+    setEnlargement(value < 1.02 ? 1 : Number(value.toPrecision(2)));
+  });
+  on("mark", "change", () => { bodies.material.uniforms.mark.value = $("mark").checked ? 1 : 0; dirty = true; });
+  on("paths", "change", showPaths);
+  on("deposits", "change", () => { showDeposits(); dirty = true; });
+  on("gone", "change", () => { state.gone = $("gone").checked; show(state.t); });
+  for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);
+  const chooseWanted = () => {
+    const i = data.ids.indexOf(Number($("wanted").value));
+    if ($("wanted").value.trim() === "" || i < 0) say("There is no such body.");
+    else choose(i);
+  };
+  on("choose", "click", chooseWanted);
+  on("wanted", "keydown", (event) => { if (event.key === "Enter") chooseWanted(); });
+  on("opacity", "change", paint);
+  on("names", "change", () => { dirty = true; });
+  on("slice", "change", setSlice);
+  on("home", "click", () => eye.goHome());
+  on("whole", "click", () => eye.showAll(halves()));
+  on("theme", "change", () => setTheme($("theme").value));
+  on("picture", "click", savePicture);
+  on("help", "click", () => $("about").showModal());
+  on("follow", "change", () => follow($("follow").checked));
+  on("card-close", "click", () => { choose(-1); $("canvas").focus(); });
+  on("card-next", "click", () => chooseNext(1));
+  on("card-previous", "click", () => chooseNext(-1));
+  on("card-table", "click", saveTable);
+  on("open-panel", "click", () => openPanel(true));
+  on("close-panel", "click", () => { openPanel(false); $("open-panel").focus(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => setTheme($("theme").value));
+  document.addEventListener("keydown", onKey);
+}
+
+function onKey(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey || $("about").open) return;
+  const target = event.target;
+  if (target.matches("input[type=text], select")) return;
+  const onSlider = target.matches("input[type=range]");
+  const onButton = target.matches("button, summary, input[type=checkbox]");
+  const turned = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+  if (turned) {
+    if (onSlider || target !== $("canvas")) return;
+    if (event.shiftKey) eye.move(-40 * turned[0], 40 * turned[1]);
+    else eye.turn(-0.09 * turned[0], -0.09 * turned[1]);
+    event.preventDefault();
+    return;
+  }
+  if (event.key === " " && onButton) return;
+  const actions = {
+    " ": () => play(!state.playing), ",": () => step(-1), ".": () => step(1), "+": () => eye.zoom(0.85), "=": () => eye.zoom(0.85),
+    "-": () => eye.zoom(1 / 0.85), n: () => chooseNext(1), p: () => chooseNext(-1),
+  };
+  if (!onSlider) Object.assign(actions, { Home: () => step(-Infinity), End: () => step(Infinity) });
+  for (const [key, , act] of keys) if (act && key !== "Space") actions[key.length === 1 ? key.toLowerCase() : key] = act;
+  const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  if (!act) return;
+  act();
+  event.preventDefault();
+}
+
+// What tests and other scripts may use.
+const ready = start();
+ready.catch((error) => {
+  $("notice").textContent = `This page cannot be shown: ${error.message}.`;
+  $("notice").classList.add("failed");
+  throw error;
+});
+window.foamprb = {
+  ready, state, show, choose, bodyAt, setColour, setEnlargement, paintPicture, draw, placeOf,
+  get data() { return data; },
+  get eye() { return eye; },
+  get bodies() { return bodies; },
+  get renderer() { return renderer; },
+};

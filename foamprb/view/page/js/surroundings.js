@@ -1,0 +1,241 @@
+// What the bodies move in: walls and edges, a plane through the flow, paths, and marks where they stuck.
+
+import {
+  BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
+  RawShaderMaterial, Vector3,
+} from "three";
+import { SHADE } from "./shade.js";
+
+const SURFACE_VERTEX = `
+precision highp float;
+in vec3 position, normal;
+uniform mat4 modelViewMatrix, projectionMatrix;
+out vec3 across, place;
+void main() {
+  vec4 seen = modelViewMatrix * vec4(position, 1.0);
+  across = mat3(modelViewMatrix) * normal;
+  place = seen.xyz;
+  gl_Position = projectionMatrix * seen;
+}`;
+
+const SURFACE_FRAGMENT = `
+precision highp float;
+in vec3 across, place;
+uniform vec3 base, deep;
+uniform float opacity;
+out vec4 colour;
+${SHADE}
+void main() {
+  vec3 normal = normalize(gl_FrontFacing ? across : -across);
+  vec3 towards = normalize(-place);
+  float facing = abs(dot(normal, towards));
+  float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
+  vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
+  // Glass is denser where one looks along it.
+  colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)));
+}`;
+
+const LINE_VERTEX = `
+precision highp float;
+in vec3 position;
+in float time;
+uniform mat4 modelViewMatrix, projectionMatrix;
+out float when;
+void main() {
+  when = time;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  // Edges are seen on the walls that they belong to.
+  gl_Position.z -= 2e-5 * gl_Position.w;
+}`;
+
+const LINE_FRAGMENT = `
+precision highp float;
+in float when;
+uniform vec3 base;
+uniform float opacity, now;
+out vec4 colour;
+void main() {
+  if (when > now) discard;
+  colour = vec4(base, opacity);
+}`;
+
+const PLANE_VERTEX = `
+precision highp float;
+in vec3 position;
+in float value;
+uniform mat4 modelViewMatrix, projectionMatrix;
+out float at;
+void main() {
+  at = value;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  gl_Position.z += 4e-5 * gl_Position.w;
+}`;
+
+const PLANE_FRAGMENT = `
+precision highp float;
+in float at;
+uniform sampler2D colours;
+out vec4 colour;
+void main() { colour = vec4(texture(colours, vec2((at * 255.0 + 0.5) / 256.0, 0.5)).rgb, 1.0); }`;
+
+const POINT_VERTEX = `
+precision highp float;
+in vec3 position;
+uniform mat4 modelViewMatrix, projectionMatrix;
+uniform float ratio;
+void main() {
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  gl_Position.z = 0.0;
+  gl_PointSize = 8.0 * ratio;
+}`;
+
+const POINT_FRAGMENT = `
+precision highp float;
+uniform vec3 base, paper;
+uniform float ratio;
+out vec4 colour;
+void main() {
+  float away = 8.0 * ratio * length(gl_PointCoord - 0.5);
+  float cover = 1.0 - smoothstep(4.0 * ratio - 1.0, 4.0 * ratio, away);
+  if (cover <= 0.0) discard;
+  colour = vec4(mix(base, paper, smoothstep(2.6 * ratio - 0.5, 2.6 * ratio + 0.5, away)), cover);
+}`;
+
+function material(vertexShader, fragmentShader, uniforms, more = {}) {
+  const values = Object.fromEntries(Object.entries(uniforms).map(([name, value]) => [name, { value }]));
+  return new RawShaderMaterial({ glslVersion: GLSL3, vertexShader, fragmentShader, uniforms: values, ...more });
+}
+
+export const isWall = (patch) => patch.type === "wall" || patch.type === "mappedWall";
+export const isFlat = (patch) => patch.type === "empty" || patch.type === "wedge";
+
+export class Walls {
+  constructor(data) {
+    this.group = new Group();
+    this.patches = data.surfaces.map((surface) => {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(surface.points, 3));
+      geometry.setIndex(new BufferAttribute(surface.triangles, 1));
+      geometry.computeVertexNormals();
+      const side = (more, order) => {
+        const mesh = new Mesh(geometry, material(SURFACE_VERTEX, SURFACE_FRAGMENT,
+          { base: new Vector3(), deep: new Vector3(), opacity: 1, darkness: 0 }, more));
+        mesh.renderOrder = order;
+        this.group.add(mesh);
+        return mesh;
+      };
+      const clear = { transparent: true, depthWrite: false };
+      return {
+        name: surface.name, type: surface.type, visible: !isFlat(surface),
+        far: side({ side: BackSide }, 0), veil: side({ side: BackSide, ...clear }, 1), near: side({ side: FrontSide, ...clear }, 5),
+      };
+    });
+    const edges = new BufferGeometry();
+    edges.setAttribute("position", new BufferAttribute(data.edges, 3));
+    edges.setAttribute("time", new BufferAttribute(new Float32Array(data.edges.length / 3), 1));
+    this.edges = new LineSegments(edges, material(LINE_VERTEX, LINE_FRAGMENT, { base: new Vector3(), opacity: 0.75, now: 1 }, { transparent: true, depthWrite: false }));
+    this.edges.renderOrder = 4;
+    this.group.add(this.edges);
+  }
+
+  paint(palette, style, dark) {
+    for (const patch of this.patches) {
+      const wall = isWall(patch);
+      patch.far.visible = patch.visible && style === "glass" && wall;
+      patch.veil.visible = patch.visible && style !== "none" && !patch.far.visible;
+      patch.near.visible = patch.visible && style !== "none";
+      for (const mesh of [patch.far, patch.veil, patch.near]) {
+        const { base, deep, opacity } = mesh.material.uniforms;
+        base.value.set(...(wall ? palette.glass : palette.accent));
+        deep.value.set(...(wall ? palette.glassDeep : palette.accent));
+        opacity.value = mesh === patch.far ? 1 : wall ? (style === "glass" ? 0.1 : 0.06) : 0.05;
+        mesh.material.uniforms.darkness.value = dark ? 1 : 0;
+      }
+    }
+    this.edges.material.uniforms.base.value.set(...palette.edge);
+  }
+}
+
+export class Plane {
+  constructor(data) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(data.slice.points, 3));
+    geometry.setIndex(new BufferAttribute(data.slice.triangles, 1));
+    this.value = new BufferAttribute(new Float32Array(data.slice.points.length / 3), 1);
+    geometry.setAttribute("value", this.value);
+    this.material = material(PLANE_VERTEX, PLANE_FRAGMENT, { colours: null }, { side: DoubleSide });
+    this.mesh = new Mesh(geometry, this.material);
+    this.mesh.renderOrder = 1;
+  }
+
+  colour(field) {
+    this.mesh.visible = Boolean(field);
+    if (!field) return;
+    const [low, high] = field.range;
+    for (let i = 0; i < field.whole.length; i++) {
+      this.value.array[i] = (field.low[0] + field.step[0] * field.whole[i] - low) / (high - low || 1);
+    }
+    this.value.needsUpdate = true;
+  }
+}
+
+// Paths of bodies up to now: those that the run recorded, else from time to time.
+export class Paths {
+  constructor(data) {
+    this.data = data;
+    this.lines = new LineSegments(new BufferGeometry(), material(LINE_VERTEX, LINE_FRAGMENT,
+      { base: new Vector3(), opacity: 0.5, now: 0 }, { transparent: true, depthWrite: false }));
+    this.lines.frustumCulled = false;
+    this.lines.renderOrder = 3;
+    this.recorded = new Map();
+    if (data.paths) data.paths.bodies.forEach((body, k) => this.recorded.set(body, k));
+  }
+
+  // The paths of some bodies.
+  draw(bodies) {
+    const { data } = this;
+    const { n, m, x, times, paths } = data;
+    const places = [], when = [];
+    const add = (from, i, to, j, time) => {
+      places.push(from[3 * i], from[3 * i + 1], from[3 * i + 2], to[3 * j], to[3 * j + 1], to[3 * j + 2]);
+      when.push(time, time);
+    };
+    for (const body of bodies) {
+      const k = this.recorded.get(body);
+      if (k !== undefined) {
+        for (let i = paths.start[k] + 1; i < paths.start[k + 1]; i++) add(paths.points, i - 1, paths.points, i, paths.times[i]);
+      } else {
+        for (let t = 1; t < m; t++) {
+          const i = n * (t - 1) + body, j = n * t + body;
+          if (!data.present(t - 1, body) || !data.present(t, body)) continue;
+          if (x[3 * i] === x[3 * j] && x[3 * i + 1] === x[3 * j + 1] && x[3 * i + 2] === x[3 * j + 2]) continue;
+          add(x, i, x, j, times[t]);
+        }
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
+    geometry.setAttribute("time", new BufferAttribute(new Float32Array(when), 1));
+    this.lines.geometry.dispose();
+    this.lines.geometry = geometry;
+    this.lines.visible = places.length > 0;
+  }
+}
+
+// Small marks, of one size on the screen, where bodies stuck.
+export class Deposits {
+  constructor() {
+    this.points = new Points(new BufferGeometry(), material(POINT_VERTEX, POINT_FRAGMENT,
+      { base: new Vector3(), paper: new Vector3(), ratio: 1 }, { transparent: true, depthTest: false, depthWrite: false }));
+    this.points.frustumCulled = false;
+    this.points.renderOrder = 6;
+  }
+
+  draw(places) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(places), 3));
+    this.points.geometry.dispose();
+    this.points.geometry = geometry;
+    this.points.visible = places.length > 0;
+  }
+}

@@ -1,0 +1,513 @@
+"""A scene by VTK: a picture, a film, or a window; a display is needed by the window only."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pyvista
+from numpy.typing import NDArray
+from PIL import Image
+from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtkPolyDataMapper2D
+
+from foamprb.errors import InputError
+from foamprb.flow.base import WALLS
+from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.output.atomic import atomic_write
+from foamprb.view.bodies import UNNAMED, Codes
+from foamprb.view.colours import (
+    Style,
+    Table,
+    colour_map,
+    colour_of_name,
+    number,
+    readable,
+    rgb,
+    ticks,
+    written,
+)
+from foamprb.view.geometry import FLAT_TYPES, PLANE, Geometry, Surface
+from foamprb.view.scene import INSETS, MOST_DEPOSITS, VIEW_ANGLE, Scene, anchor, round_limits
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+PAGE_HEIGHT = 900.0
+"""Height of a picture in which words are as large as on the page."""
+# Steps around and from pole to pole of a sphere, for at most so many bodies.
+_SPHERES = ((2_000, 48, 24), (20_000, 24, 12))
+_COARSEST = (12, 7)
+_MOST_MARKED = 2_000
+_MARK_WIDTH, _SPOT_WIDTH = 0.04, 0.3
+_BAR = 280.0
+_UNKNOWN = 153
+
+
+class Shape(NamedTuple):
+    """A triangulated piece of the unit sphere."""
+
+    points: Floats
+    """(v, 3)."""
+    triangles: Ints
+    """(t, 3)."""
+
+
+@dataclass
+class Drawing:
+    """A scene on a plotter, and what changes from time to time."""
+
+    plotter: Any
+    scene: Scene
+    words: bool
+    style: Style
+    scale: float
+    """Pixels of the picture to each of the page."""
+
+    def show(self, frame: int) -> None:
+        """Draw the bodies of a time, and write the time."""
+        scene, bodies = self.scene, self.scene.bodies
+        shown = np.flatnonzero(bodies.shown[frame])
+        for old in ("bodies", "mark"):
+            self.plotter.remove_actor(old, render=False)
+        if len(shown):
+            colours = body_colours(scene, frame, shown)
+            F = bodies.F[frame, shown].astype(np.float64)
+            place, size = bodies.x[frame, shown], bodies.radius[shown] * scene.enlargement
+            self._add("bodies", draw(sphere_for(len(shown)), place, F, size, colours))
+            if len(shown) <= _MOST_MARKED:
+                self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours)))
+        self._mark_deposits(frame)
+        if self.words:
+            times = bodies.times
+            self._write("clock", f"t = {written(times[frame], 's', times[-1])}", 17, "right", 30, bold=True)
+            self._write("caption", scene.caption(len(shown)), 14, "right", 53)
+
+    def _add(self, name: str, mesh: Any) -> None:
+        """Draw a mesh with colours of its own, in the light of the bodies."""
+        self.plotter.add_mesh(
+            mesh, scalars="colour", rgb=True, smooth_shading=True, name=name, render=False,
+            reset_camera=False, show_scalar_bar=False, ambient=0.36, diffuse=0.68, specular=0.25,
+            specular_power=40.0,
+        )  # fmt: skip
+
+    def label(self) -> None:
+        """Write what does not change: the title, the legends and the names of the patches."""
+        scene = self.scene
+        self._write("title", scene.title, 17, "left", 30, bold=True)
+        self._write("subtitle", scene.subtitle, 14, "left", 53)
+        left = 22.0
+        if scene.slice is not None:
+            label, unit, values = scene.slice.values[PLANE]
+            limits = round_limits(float(values.min()), float(values.max()))
+            left = self._bar("plane", label, unit, limits, self.style.plane, left)
+        name, part = scene.colour
+        if name in scene.bodies.fields:
+            field = scene.bodies.fields[name]
+            label = f"{field.label}, {part}" if part else field.label
+            self._bar("legend", label, field.unit, scene.limits, colour_map(scene.map_name), left)
+        else:
+            self._names(scene.codes(name), left)
+        for surface in scene.geometry.surfaces if scene.geometry is not None else ():
+            if surface.type not in FLAT_TYPES:
+                self.plotter.add_point_labels(
+                    anchor(surface, scene.camera)[None], [surface.name], name=f"patch {surface.name}",
+                    font_size=round(12 * self.scale), text_color=self.style.soft, show_points=False,
+                    shape=None, always_visible=True, render=False, reset_camera=False,
+                    justification_horizontal="center", justification_vertical="bottom",
+                )  # fmt: skip
+
+    def _write(
+        self, name: str, text: str, size: float, side: str, top: float, left: float = 22.0, bold: bool = False
+    ) -> None:
+        """Write a line, so many of the page's pixels below the upper edge and from the left or right one."""
+        width, height = self.plotter.window_size
+        s = self.scale
+        actor = pyvista.Text(
+            text, position=(width - left * s if side == "right" else left * s, height - top * s)
+        )
+        actor.prop.font_size = max(6, round(size * s))
+        actor.prop.justification_horizontal = side
+        actor.prop.bold = bold
+        actor.prop.color = self.style.ink if bold else self.style.soft
+        self.plotter.add_actor(actor, name=name, render=False, reset_camera=False)
+
+    def _bar(
+        self,
+        name: str,
+        label: str,
+        unit: str,
+        limits: tuple[float, float],
+        table: Table,
+        left: float,
+    ) -> float:
+        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins."""
+        bottom = self.plotter.window_size[1] / self.scale
+        factor, shown_unit = readable(unit, max(map(abs, limits)))
+        low, high = limits[0] / factor, limits[1] / factor
+        title = label[:1].upper() + label[1:] + (f"  ({shown_unit})" if shown_unit else "")
+        self._write(f"{name} title", title, 13, "left", bottom - 54, left, bold=True)
+        self._rectangles(
+            name, left + _BAR * np.linspace(0.0, 1.0, 256, endpoint=False), _BAR / 256.0, 36.0, 12.0, table
+        )
+        for k, value in enumerate(ticks(low, high)):
+            share = (value - low) / (high - low)
+            side = "left" if share == 0.0 else "center"
+            self._write(f"{name} {k}", number(value), 12, side, bottom - 20, left + _BAR * share)
+        return left + _BAR + 40.0
+
+    def _names(self, codes: Codes, left: float) -> None:
+        """Draw the colours of the names that occur."""
+        bottom = self.plotter.window_size[1] / self.scale
+        present = [
+            k for k in np.unique(codes.codes).tolist() if k < len(codes.meanings) and codes.meanings[k]
+        ]
+        self._write("legend title", codes.label.capitalize(), 13, "left", bottom - 54, left, bold=True)
+        for k in present:
+            colour = np.array([rgb(colour_of_name(k))], dtype=np.uint8)
+            self._rectangles(f"swatch {k}", np.array([left]), 12.0, 28.0, 12.0, colour)
+            self._write(f"name {k}", codes.meanings[k], 13, "left", bottom - 29, left + 18.0)
+            left += 18.0 + 8.0 * len(codes.meanings[k]) + 22.0
+
+    def _rectangles(
+        self, name: str, left: Floats, width: float, bottom: float, height: float, colours: Table
+    ) -> None:
+        """Fill rectangles side by side, in the page's pixels from the lower left corner."""
+        n, s = len(left), self.scale
+        x, y = np.array([0.0, width, width, 0.0]), np.array([0.0, 0.0, height, height])
+        points = np.zeros((n, 4, 3))
+        points[:, :, 0], points[:, :, 1] = (left[:, None] + x) * s, (bottom + y) * s
+        data = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), np.arange(4 * n).reshape(n, 4))
+        data.cell_data["colour"] = colours
+        data.cell_data.active_scalars_name = "colour"
+        mapper = vtkPolyDataMapper2D()
+        mapper.SetInputData(data)
+        actor = vtkActor2D()
+        actor.SetMapper(mapper)
+        self.plotter.add_actor(actor, name=name, render=False, reset_camera=False)
+
+    def _mark_deposits(self, frame: int) -> None:
+        """Mark the places where bodies are stuck, in front of all."""
+        bodies = self.scene.bodies
+        stuck = [k for k, word in enumerate(bodies.status.meanings) if word == "stuck"]
+        codes = bodies.status.codes
+        rows = np.flatnonzero(bodies.present[frame] & np.isin(codes[min(frame, len(codes) - 1)], stuck))
+        self.plotter.remove_actor("deposits", render=False)
+        if not 0 < len(rows) <= MOST_DEPOSITS:
+            return
+        mapper = vtkPolyDataMapper2D()
+        mapper.SetInputData(pyvista.PolyData(bodies.x[frame, rows]))
+        world = vtkCoordinate()
+        world.SetCoordinateSystemToWorld()
+        mapper.SetTransformCoordinate(world)
+        actor = vtkActor2D()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.deposit)))
+        actor.GetProperty().SetPointSize(6.0 * self.scale)
+        self.plotter.add_actor(actor, name="deposits", render=False, reset_camera=False)
+
+
+def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, words: bool = True) -> None:
+    """Write a picture of the scene's first time, ``.png``, in one step.
+
+    Raises
+    ------
+    InputError
+        If the file is to be of another kind.
+    OSError
+        If the file cannot be written.
+    """
+    if path.suffix.lower() != ".png":
+        raise InputError(f"-png {path}: the name must end in .png.")
+    with vtk_messages():
+        drawing = _drawing(scene, size, style, words, off_screen=True)
+        drawing.show(scene.first)
+        image = drawing.plotter.screenshot(return_img=True)
+        drawing.plotter.close()
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        Image.fromarray(image).save(file, format="png")
+
+
+def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: float | None = None) -> None:
+    """Write a film of all times, ``.mp4`` or ``.gif``.
+
+    Parameters
+    ----------
+    scene, path, size, style
+        As of :func:`picture`.
+    rate
+        Times a second; by default such that the film takes about eight seconds.
+
+    Raises
+    ------
+    InputError
+        If the file is to be of another kind, or imageio is not installed.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in (".mp4", ".gif"):
+        raise InputError(f"-film {path}: the name must end in .mp4 or .gif.")
+    try:
+        from imageio.v2 import get_writer
+    except ImportError:
+        raise InputError("-film needs imageio: pip install 'foamprb[film]'.") from None
+    m = len(scene.bodies.times)
+    rate = rate or float(np.clip(round(m / 8.0), 4, 30))
+    # Codecs of films take sides that are even.
+    even = (size[0] // 2 * 2, size[1] // 2 * 2)
+    options: dict[str, Any] = {"duration": 1e3 / rate, "loop": 0}
+    if suffix == ".mp4":
+        options = {"fps": rate, "quality": 8, "macro_block_size": 1}
+    # The encoder must find the suffix in the name.
+    temporary = path.with_name(f".{path.stem}.unfinished{suffix}")
+    writer: Any
+    try:
+        with vtk_messages(), get_writer(temporary, **options) as writer:
+            drawing = _drawing(scene, even, style, words=True, off_screen=True)
+            for frame in range(m):
+                drawing.show(frame)
+                drawing.plotter.render()
+                writer.append_data(drawing.plotter.screenshot(return_img=True))
+            drawing.plotter.close()
+        temporary.replace(path)
+    except (ImportError, ValueError) as error:
+        # Without its encoder imageio knows no such file.
+        raise InputError(
+            f"-film {path}: {' '.join(str(error).split())}. Is 'foamprb[film]' installed?"
+        ) from error
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def has_display() -> bool:
+    """Whether a window can be shown."""
+    return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
+
+
+def require_graphics() -> None:
+    """Refuse to draw where VTK would crash: without a display it draws by one of two libraries.
+
+    Raises
+    ------
+    InputError
+        There is neither.
+    """
+    if has_display():
+        return
+    for library in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so"):
+        try:
+            ctypes.CDLL(library)
+        except OSError:
+            continue
+        return
+    raise InputError("no display and no libEGL: VTK cannot draw. On Debian: apt-get install libegl1.")
+
+
+def require_display() -> None:
+    """Refuse to show a window where there is no display.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    if not has_display():
+        raise InputError(
+            "-window needs a display. Without one: -png FILE, -film FILE, or the page that view writes."
+        )
+
+
+def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
+    """Show the scene in a window, with a slider for the time, until the user closes it."""
+    drawing = _drawing(scene, size, style, words=True, off_screen=False)
+    drawing.show(scene.first)
+    last = len(scene.bodies.times) - 1
+
+    def on_slide(value: float) -> None:
+        drawing.show(round(value))
+        drawing.plotter.render()
+
+    if last > 0:
+        drawing.plotter.add_slider_widget(
+            on_slide, (0, last), value=scene.first, title="", fmt="%.0f", color=style.ink, style="modern",
+            pointa=(0.62, 0.07), pointb=(0.96, 0.07),
+        )  # fmt: skip
+    drawing.plotter.show()
+
+
+def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off_screen: bool) -> Drawing:
+    """The scene without its bodies."""
+    plotter = pyvista.Plotter(off_screen=off_screen, window_size=list(size), lighting=None)
+    plotter.set_background(style.paper)
+    plotter.enable_anti_aliasing("msaa", multi_samples=8)
+    light = vtkLight()
+    light.SetLightTypeToCameraLight()
+    light.SetPosition(-0.35, 0.6, 0.72)
+    plotter.renderer.AddLight(light)
+    scale = size[1] / PAGE_HEIGHT
+    drawing = Drawing(plotter, scene, words, style, scale)
+    if scene.geometry is not None:
+        draw_geometry(plotter, scene.geometry, style)
+    if scene.slice is not None:
+        draw_plane(plotter, scene, style)
+    if words:
+        drawing.label()
+    _place_camera(plotter, scene, size, [inset * scale for inset in INSETS] if words else [0.0, 0.0])
+    return drawing
+
+
+def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: list[float]) -> None:
+    camera, eye = scene.camera, plotter.camera
+    width, height = size
+    above, below = insets
+    free = max(0.3, 1.0 - (above + below) / height)
+    distance = camera.distance(width / height, free)
+    eye.view_angle = VIEW_ANGLE
+    eye.focal_point = camera.focus
+    eye.position = camera.focus + distance * camera.towards
+    eye.up = camera.up
+    # The middle of what is free, which lies lower where more is written above.
+    eye.SetWindowCenter(0.0, (above - below) / height)
+    plotter.renderer.ResetCameraClippingRange()
+    plotter.camera_set = True
+
+
+def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
+    """Draw the boundary: the far side of walls, a hint of the near one and of other patches; the edges."""
+    for surface in geometry.surfaces:
+        if surface.type in FLAT_TYPES:
+            continue
+        mesh = _polydata(surface)
+        wall = surface.type in WALLS
+        colour = style.glass if wall else style.accent
+        more = {"smooth_shading": True, "render": False, "reset_camera": False, "color": colour}
+        if wall:
+            plotter.add_mesh(mesh, culling="front", ambient=0.62, diffuse=0.4, specular=0.0, **more)
+            plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
+        else:
+            plotter.add_mesh(mesh, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
+    if len(geometry.edges):
+        lines = pyvista.line_segments_from_points(geometry.edges.reshape(-1, 3))
+        plotter.add_mesh(
+            lines, color=style.edge, line_width=1.0, render=False, reset_camera=False, lighting=False
+        )
+
+
+def draw_plane(plotter: Any, scene: Scene, style: Style) -> None:
+    """Draw the plane through the flow, coloured by the speed."""
+    plane = scene.slice
+    if plane is None:
+        return
+    values = plane.values[PLANE][2]
+    low, high = round_limits(float(values.min()), float(values.max()))
+    mesh = pyvista.PolyData.from_regular_faces(plane.points, plane.triangles)
+    at = np.clip((values - low) / ((high - low) or 1.0) * 255.0, 0, 255).astype(np.uint8)
+    mesh.point_data["colour"] = style.plane[at]
+    plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, render=False, reset_camera=False,
+                     show_scalar_bar=False)  # fmt: skip
+
+
+def _polydata(surface: Surface) -> Any:
+    return pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
+
+
+def body_colours(scene: Scene, frame: int, shown: Ints) -> Table:
+    """Colours of the shown bodies at a time, (s, 3)."""
+    name, part = scene.colour
+    if name in scene.bodies.fields:
+        values = scene.bodies.fields[name].channel(part)
+        low, high = scene.limits
+        own = values[min(frame, len(values) - 1), shown].astype(np.float64)
+        share = (np.nan_to_num(own) - low) / ((high - low) or 1.0)
+        at = np.clip(255.0 * share + 0.5, 0, 255).astype(np.uint8)
+        colours: Table = np.where(np.isfinite(own)[:, None], colour_map(scene.map_name)[at], _UNKNOWN)
+        return colours.astype(np.uint8)
+    codes = scene.codes(name)
+    table = np.full((UNNAMED + 1, 3), _UNKNOWN, dtype=np.uint8)
+    for k in range(len(codes.meanings)):
+        table[k] = rgb(colour_of_name(k))
+    own_codes = codes.codes[min(frame, len(codes.codes) - 1), shown]
+    return np.asarray(table[own_codes], dtype=np.uint8)
+
+
+def marked(colours: Table) -> Table:
+    """Colours of the mark on bodies of such colours: darker on light ones, lighter on dark ones."""
+    plain = colours.astype(np.float64)
+    light = plain @ np.array([0.3, 0.59, 0.11]) > 0.45 * 255.0
+    mark = np.where(light[:, None], 0.42 * plain, 0.38 * plain + 0.62 * 255.0)
+    return np.asarray(np.rint(0.2 * plain + 0.8 * mark), dtype=np.uint8)
+
+
+def sphere_for(count: int) -> Shape:
+    """The unit sphere, the coarser the more bodies there are."""
+    around, down = next(((a, d) for most, a, d in _SPHERES if count <= most), _COARSEST)
+    ball = pyvista.Sphere(radius=1.0, theta_resolution=around, phi_resolution=down)
+    points = np.asarray(ball.points, dtype=np.float64)
+    return Shape(
+        points / np.linalg.norm(points, axis=1, keepdims=True), np.asarray(ball.regular_faces, dtype=np.int64)
+    )
+
+
+def mark() -> Shape:
+    """What moves with the material: bands along three great circles, and a spot around the first axis."""
+    n = 72
+    angle = 2.0 * np.pi * np.arange(n) / n
+    ring = np.arange(n)
+    after = (ring + 1) % n
+    points, triangles = [], []
+    offset = 0
+    for axis in range(3):
+        for side in (-_MARK_WIDTH, _MARK_WIDTH):
+            circle = np.zeros((n, 3))
+            circle[:, (axis + 1) % 3], circle[:, (axis + 2) % 3] = np.cos(angle), np.sin(angle)
+            points.append(np.sqrt(1.0 - side**2) * circle + side * np.eye(3)[axis])
+        low, high = offset + ring, offset + n + ring
+        triangles += [
+            np.stack([low, offset + after, high], axis=1),
+            np.stack([offset + after, offset + n + after, high], axis=1),
+        ]
+        offset += 2 * n
+    # Rings of the spot, whose rim is a chord of the given length away from its middle.
+    turn = 2.0 * np.arcsin(0.5 * _SPOT_WIDTH)
+    for share in (1.0, 0.5):
+        out = turn * share
+        points.append(
+            np.stack(
+                [np.full(n, np.cos(out)), np.sin(out) * np.cos(angle), np.sin(out) * np.sin(angle)], axis=1
+            )
+        )
+    points.append(np.array([[1.0, 0.0, 0.0]]))
+    outer, inner = offset, offset + n
+    triangles += [
+        np.stack([outer + ring, outer + after, inner + ring], axis=1),
+        np.stack([outer + after, inner + after, inner + ring], axis=1),
+        np.stack([inner + ring, inner + after, np.full(n, offset + 2 * n)], axis=1),
+    ]
+    return Shape(np.concatenate(points), np.concatenate(triangles).astype(np.int64))
+
+
+def draw(shape: Shape, place: Floats, F: Floats, size: Floats, colours: Table) -> Any:
+    """A shape on the unit sphere as it is on each of n bodies, all in one mesh, normals by F⁻ᵀ.
+
+    Parameters
+    ----------
+    shape
+        On the unit sphere.
+    place, F, size
+        Of the bodies, (n, 3), (n, 3, 3) and (n,): a point X goes to ``place + size * F X``.
+    colours
+        (n, 3).
+    """
+    n, v = len(place), len(shape.points)
+    points = place[:, None, :] + size[:, None, None] * (shape.points @ F.transpose(0, 2, 1))
+    normals = shape.points @ np.linalg.inv(F)
+    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    faces = shape.triangles[None] + (v * np.arange(n))[:, None, None]
+    mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), faces.reshape(-1, 3))
+    mesh.point_data["Normals"] = normals.reshape(-1, 3)
+    mesh.point_data.active_normals_name = "Normals"
+    mesh.point_data["colour"] = np.repeat(colours, v, axis=0)
+    return mesh

@@ -1,0 +1,245 @@
+"""Bodies as they are gathered from a run's files."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+
+import numpy as np
+import pytest
+from view_run import INJECTORS, clouds, motion, write_run
+
+from foamprb.errors import InputError
+from foamprb.output.pvd import Series
+from foamprb.output.vtk import write_snapshot
+from foamprb.view.bodies import UNNAMED, fates_of, gather, require_array, told
+from foamprb.view.results import open_results
+
+N, M = 12, 7
+
+
+@pytest.fixture
+def moved():
+    return motion(N, M)
+
+
+@pytest.fixture
+def case(tmp_path, moved):
+    write_run(tmp_path, moved, mesh=False, fates=True)
+    return tmp_path
+
+
+def replace(case, index, **arrays):
+    """Write a snapshot anew with other arrays."""
+    folder = case / "postProcessing/softCloud"
+    cloud = clouds(motion(N, M))[index]
+    points = arrays.pop("points", cloud.points)
+    changed = {name: values for name, values in {**cloud.arrays, **arrays}.items() if values is not None}
+    write_snapshot(
+        folder / f"softCloud_{index:06d}.vtp", dataclasses.replace(cloud, points=points, arrays=changed)
+    )
+
+
+def test_every_time_has_its_own_particles(case, moved):
+    bodies = gather(open_results(case), range(M))
+    np.testing.assert_array_equal(bodies.ids, np.arange(N))
+    np.testing.assert_array_equal(bodies.times, moved.times)
+    for k, cloud in enumerate(clouds(moved)):
+        np.testing.assert_array_equal(bodies.ids[bodies.present[k]], cloud.arrays["origId"])
+        np.testing.assert_array_equal(bodies.x[k, bodies.present[k]], cloud.points)
+        assert np.allclose(bodies.F[k, bodies.present[k]], moved.F[k, cloud.arrays["origId"]], atol=1e-6)
+    np.testing.assert_allclose(bodies.radius, moved.radius, rtol=1e-12)
+    # Where a body is not yet, it waits where it will be released.
+    late = np.flatnonzero(~bodies.present[0])
+    release = np.argmax(bodies.present[:, late], axis=0)
+    np.testing.assert_array_equal(bodies.x[0, late], moved.x[release, late])
+
+
+def test_the_order_in_a_file_is_of_no_account(case, moved):
+    cloud = clouds(moved)[-1]
+    order = np.random.default_rng(3).permutation(len(cloud.points))
+    replace(case, M - 1, points=cloud.points[order], **{n: a[order] for n, a in cloud.arrays.items()})
+    bodies = gather(open_results(case), range(M))
+    np.testing.assert_array_equal(bodies.x[-1], moved.x[-1])
+
+
+def test_statuses_and_what_is_shown(case):
+    bodies = gather(open_results(case), range(M))
+    assert bodies.status.meanings[bodies.status.codes[-1, 1]] == "stuck"
+    assert bodies.shown[-1, 1]
+    assert bodies.status.meanings[bodies.status.codes[-1, 2]] == "escaped"
+    assert not bodies.shown[-1, 2]
+    assert bodies.shown[0, 2]
+    assert bodies.codes["patch"].codes[0, 1] == UNNAMED
+    assert bodies.codes["injector"].meanings == INJECTORS
+    assert bodies.codes["injector"].codes.shape == (1, N)
+
+
+@pytest.mark.parametrize("with_table", [True, False])
+def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
+    results = open_results(case)
+    bodies = gather(results, range(M))
+    fate = fates_of(bodies, results, results.fates() if with_table else None)
+    assert fate.meanings == ("active", "stuck on floor", "escaped through lid")
+    assert fate.codes[0, :4].tolist() == [0, 1, 2, 0]
+
+
+def test_what_the_table_tells_is_there_for_each_body(case):
+    results = open_results(case)
+    bodies = gather(results, range(M))
+    more = told(bodies, results.fates())
+    np.testing.assert_allclose(more["Ca"].values[0, :, 0], np.linspace(0.1, 1.0, N), rtol=1e-6)
+    assert more["t1"].unit == "s"
+
+
+def test_values_that_never_change_are_there_once(case):
+    fields = gather(open_results(case), range(M)).fields
+    assert fields["d"].values.shape == (1, N, 1)
+    assert fields["U"].values.shape == (M, N, 3)
+    assert fields["U"].parts == ("magnitude", "x", "y", "z")
+    np.testing.assert_allclose(
+        fields["U"].channel("magnitude"), np.linalg.norm(fields["U"].values, axis=2), rtol=1e-6
+    )
+    np.testing.assert_array_equal(fields["semiAxes"].channel("c"), fields["semiAxes"].values[:, :, 2])
+    assert fields["taylorDeformation"].unit == ""
+
+
+def test_failed_bodies_are_not_drawn(case, moved):
+    cloud = clouds(moved)[-1]
+    points, glyph = cloud.points.copy(), cloud.arrays["glyph"].copy()
+    points[3] = np.nan
+    glyph[4] = 1e30
+    replace(case, M - 1, points=points, glyph=glyph)
+    bodies = gather(open_results(case), range(M))
+    assert bodies.present[-1].sum() == N - 2
+    assert np.isfinite(bodies.x).all()
+    assert np.isfinite(bodies.F).all()
+    # They are where they were last seen.
+    np.testing.assert_array_equal(bodies.x[-1, 3], bodies.x[-2, 3])
+
+
+def test_some_of_the_bodies(case, moved):
+    bodies = gather(open_results(case), range(M), most=5)
+    np.testing.assert_array_equal(bodies.ids, [0, 2, 4, 7, 9])
+    np.testing.assert_array_equal(bodies.x[-1], moved.x[-1, bodies.ids])
+
+
+def test_some_of_the_times(case):
+    whole = gather(open_results(case), range(M))
+    some = whole.at(np.array([0, 3, 6]))
+    read = gather(open_results(case), [0, 3, 6])
+    np.testing.assert_array_equal(some.x[some.present], read.x[read.present])
+    np.testing.assert_array_equal(some.present, read.present)
+    assert some.fields["d"].values.shape == (1, N, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("taylorDeformation", ("taylorDeformation", "")),
+        ("U", ("U", "magnitude")),
+        ("U:y", ("U", "y")),
+        ("semiAxes", ("semiAxes", "a")),
+        ("injector", ("injector", "")),
+        ("fate", ("fate", "")),
+        ("Ca", ("Ca", "")),
+    ],
+)
+def test_arrays_by_name(case, text, expected):
+    assert require_array(open_results(case), text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("taylorDeformatoin", "Did you mean 'taylorDeformation'?"),
+        ("glyph", "no such array"),
+        ("U:w", "Allowed: magnitude, x, y, z"),
+        ("d:x", "It has no components"),
+    ],
+)
+def test_arrays_that_there_are_not(case, text, said):
+    with pytest.raises(InputError, match=said.replace("?", r"\?")):
+        require_array(open_results(case), text)
+
+
+class TestDamage:
+    def test_no_results(self, tmp_path):
+        with pytest.raises(InputError, match=r"no results here .* foamprb run"):
+            open_results(tmp_path)
+        with pytest.raises(InputError, match="no such folder"):
+            open_results(tmp_path / "nowhere")
+
+    def test_another_cloud(self, case):
+        with pytest.raises(InputError, match="Did you mean 'softCloud'"):
+            open_results(case, "softCloude")
+
+    def test_two_clouds_without_a_name(self, case):
+        folder = case / "postProcessing"
+        for name in ("a", "b"):
+            shutil.copytree(folder / "softCloud", folder / name)
+            (folder / name / "softCloud.pvd").rename(folder / name / f"{name}.pvd")
+        assert open_results(case).name == "softCloud"
+        shutil.rmtree(folder / "softCloud")
+        with pytest.raises(InputError, match=r"2 clouds are here: a, b.* -cloud"):
+            open_results(case)
+        assert open_results(case, "b").name == "b"
+
+    def test_a_damaged_list(self, case):
+        pvd = case / "postProcessing/softCloud/softCloud.pvd"
+        pvd.write_text(pvd.read_text()[:200])
+        with pytest.raises(InputError, match=r"softCloud\.pvd"):
+            open_results(case)
+
+    def test_an_empty_list(self, case):
+        pvd = case / "postProcessing/softCloud/softCloud.pvd"
+        pvd.write_text('<VTKFile type="Collection"><Collection/></VTKFile>')
+        with pytest.raises(InputError, match="lists no files"):
+            open_results(case)
+
+    @pytest.mark.parametrize("share", [0.0, 0.3, 0.9])
+    def test_a_file_cut_short(self, case, share, capfd):
+        results = open_results(case)
+        path = case / "postProcessing/softCloud/softCloud_000002.vtp"
+        path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+        with pytest.raises(InputError, match=r"softCloud_000002\.vtp: damaged \(.*foamprb run"):
+            gather(results, range(M))
+        assert capfd.readouterr() == ("", "")
+
+    def test_a_missing_file(self, case):
+        (case / "postProcessing/softCloud/softCloud_000001.vtp").unlink()
+        with pytest.raises(InputError, match=r"softCloud_000001\.vtp: missing"):
+            gather(open_results(case), range(M))
+
+    def test_a_file_of_another_run(self, case):
+        replace(case, 2, shearRate=None)
+        with pytest.raises(InputError, match=r"softCloud_000002\.vtp: no array 'shearRate'"):
+            gather(open_results(case), range(M))
+
+    def test_files_that_are_no_bodies(self, case):
+        replace(case, M - 1, glyph=None)
+        with pytest.raises(InputError, match="no array 'glyph'"):
+            open_results(case)
+
+    def test_a_particle_twice(self, case, moved):
+        ids = clouds(moved)[-1].arrays["origId"].copy()
+        ids[3] = ids[4]
+        replace(case, M - 1, origId=ids)
+        with pytest.raises(InputError, match="a particle is in it twice"):
+            gather(open_results(case), range(M))
+
+    def test_a_damaged_table(self, case):
+        (case / "postProcessing/softCloud/fates.csv").write_text("id,fate\n0\n")
+        with pytest.raises(InputError, match=r"fates\.csv: not the table"):
+            open_results(case).fates()
+
+
+def test_a_cloud_without_particles(tmp_path):
+    folder = tmp_path / "postProcessing/softCloud"
+    empty = clouds(motion(1, 1))[0]
+    nobody = dataclasses.replace(
+        empty, points=np.zeros((0, 3)), arrays={name: array[:0] for name, array in empty.arrays.items()}
+    )
+    Series(folder, "softCloud").append(nobody)
+    bodies = gather(open_results(tmp_path), [0])
+    assert bodies.x.shape == (1, 0, 3)

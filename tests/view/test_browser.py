@@ -1,0 +1,586 @@
+"""The page in Chromium: what it draws, what it answers, and that it asks nobody for anything."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+from view_run import Motion, motion, write_run
+
+from foamprb.view.colours import LIGHT, colour_map, colour_of_name, rgb
+from foamprb.view.picture import picture
+from foamprb.view.results import open_results
+from foamprb.view.scene import VIEW_ANGLE, Scene
+from foamprb.view.show import Request, make_scene, write_page
+
+CHROMIUM = shutil.which("chromium")
+pytestmark = [pytest.mark.browser, pytest.mark.skipif(CHROMIUM is None, reason="chromium is not on PATH")]
+
+SOFTWARE = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+)
+WIDTH, HEIGHT = 1200, 800
+N, M = 30, 8
+
+
+@pytest.fixture(scope="module")
+def moved() -> Motion:
+    few = motion(N, M)
+    return few._replace(radius=3.0 * few.radius)
+
+
+@pytest.fixture(scope="module")
+def request_(tmp_path_factory, moved) -> Request:
+    case = tmp_path_factory.mktemp("browser") / "cube"
+    write_run(case, moved, fates=True)
+    return Request(case, slice="z=0.02", enlargement=1.5)
+
+
+@pytest.fixture(scope="module")
+def address(request_) -> str:
+    return write_page(request_, None, 30.0, "1.2.3").as_uri()
+
+
+@pytest.fixture(scope="module")
+def scene(request_) -> Scene:
+    return make_scene(request_, open_results(request_.case), range(M))
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    api = pytest.importorskip("playwright.sync_api")
+    with api.sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=list(SOFTWARE))
+        yield chromium
+        chromium.close()
+
+
+class Tab:
+    """A page of the browser, and all that it said and asked for."""
+
+    def __init__(self, browser: Any, address: str, words: str = "", **options: Any) -> None:
+        size = {"width": WIDTH, "height": HEIGHT}
+        self.page = browser.new_page(**{"viewport": size, "color_scheme": "light", **options})
+        self.said: list[str] = []
+        self.asked: list[str] = []
+        self.page.on("console", lambda message: self.said.append(message.text))
+        self.page.on("pageerror", lambda error: self.said.append(str(error)))
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.goto(f"{address}#{words}")
+        self.page.wait_for_function("window.foamprb")
+        self.run("foamprb.ready")
+        self.run("foamprb.draw()")
+
+    def run(self, script: str) -> Any:
+        return self.page.evaluate(f"async () => await ({script})")
+
+    def text(self, name: str) -> str:
+        return str(self.page.locator(f"#{name}").inner_text())
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """What the canvas shows, (height, width, 3)."""
+        self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        return np.array(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB"))
+
+
+@pytest.fixture
+def tab(browser, address, request) -> Iterator[Tab]:
+    found = getattr(request, "param", {})
+    opened = Tab(browser, address, **found)
+    yield opened
+    try:
+        assert opened.said == []
+        assert [url for url in opened.asked if not url.startswith((address, "blob:"))] == []
+    finally:
+        opened.page.close()
+
+
+NAKED = pytest.mark.parametrize("tab", [{"words": "naked"}], indirect=True)
+
+
+def projected(scene: Scene, points: NDArray[np.float64], width: int, height: int) -> NDArray[np.float64]:
+    """Pixels, (n, 2), and depth of points in a picture without words."""
+    camera = scene.camera
+    across = np.cross(camera.up, camera.towards)
+    across /= np.linalg.norm(across)
+    upright = np.cross(camera.towards, across)
+    seen = points - camera.focus - camera.distance(width / height) * camera.towards
+    depth = -(seen @ camera.towards)
+    scale = 0.5 * height / math.tan(math.radians(VIEW_ANGLE / 2))
+    return np.column_stack(
+        [
+            0.5 * width + scale * (seen @ across) / depth,
+            0.5 * height - scale * (seen @ upright) / depth,
+            depth,
+        ]
+    )
+
+
+def in_front(scene: Scene, frame: int, width: int, height: int) -> list[int]:
+    """Bodies of which the middle is seen: no other is near it and nearer to the eye."""
+    bodies = scene.bodies
+    shown = np.flatnonzero(bodies.shown[frame])
+    at = projected(scene, bodies.x[frame, shown], width, height)
+    reach = 0.5 * height / math.tan(math.radians(VIEW_ANGLE / 2)) * 3.0 * bodies.radius[shown] / at[:, 2]
+    clear = []
+    for k, body in enumerate(shown):
+        off = np.hypot(*(at[:, :2] - at[k, :2]).T)
+        if not ((off < reach) & (at[:, 2] < at[k, 2])).any():
+            clear.append(int(body))
+    return clear
+
+
+class TestPicture:
+    def test_it_draws_and_says_nothing(self, tab):
+        assert tab.text("title") == "cube"
+        assert tab.text("caption") == "30 bodies, drawn 1.5× larger"
+        assert tab.text("clock") == "t = 0.4 s"
+        image = tab.pixels()[:, : WIDTH - 300]
+        # Bodies, walls and the plane: many colours, on white paper.
+        assert len(np.unique(image.reshape(-1, 3), axis=0)) > 2000
+        assert (image[5, 5] == 255).all()
+
+    @NAKED
+    def test_it_is_the_picture_that_VTK_draws(self, tab, scene, tmp_path):
+        picture(scene, tmp_path / "vtk.png", (WIDTH, HEIGHT), LIGHT, words=False)
+        theirs = np.array(Image.open(tmp_path / "vtk.png").convert("RGB")).astype(float)
+        ours = tab.pixels().astype(float)
+        assert ours.shape == theirs.shape
+        # Light and glass are not alike to the last shade, but everything is where it belongs.
+        assert np.abs(ours - theirs).mean() < 10.0
+        body = saturation(theirs) > 0.35
+        assert 0.02 < body.mean() < 0.5
+        both = body & (saturation(ours) > 0.35)
+        assert both.sum() / (body | (saturation(ours) > 0.35)).sum() > 0.85
+        paper = (theirs > 250).all(axis=2)
+        assert ((ours > 250).all(axis=2) == paper).mean() > 0.99
+
+    @NAKED
+    def test_bodies_have_the_colours_of_their_values(self, tab, scene):
+        tab.page.evaluate("() => { document.getElementById('mark').click(); }")
+        for name, part in (("taylorDeformation", ""), ("U", "x"), ("injector", "")):
+            tab.run(f"foamprb.setColour('{name}', '{part}')")
+            image = tab.pixels().astype(float)
+            frame = scene.first
+            bodies = scene.bodies
+            right = total = 0
+            for body in in_front(scene, frame, WIDTH, HEIGHT):
+                x, y, _ = projected(scene, bodies.x[frame, [body]], WIDTH, HEIGHT)[0]
+                if not (0 < x < WIDTH and 0 < y < HEIGHT):
+                    continue
+                if name == "injector":
+                    expected = np.array(
+                        rgb(colour_of_name(int(bodies.codes[name].codes[0, body]))), dtype=float
+                    )
+                else:
+                    low, high = tab.run("[foamprb.state.low, foamprb.state.high]")
+                    value = bodies.fields[name].channel(part)[frame, body]
+                    table = colour_map("coolwarm" if low == -high else "viridis")
+                    expected = table[round(255 * (value - low) / (high - low))].astype(float)
+                found = image[int(y), int(x)]
+                total += 1
+                # Shading changes the brightness, hardly the hue.
+                cosine = found @ expected / np.linalg.norm(found) / np.linalg.norm(expected)
+                right += cosine > 0.985
+            assert total >= 8
+            assert right >= 0.9 * total, name
+
+    def test_light_and_dark(self, tab):
+        tab.page.emulate_media(color_scheme="dark")
+        assert (tab.pixels()[5, 5] == (16, 21, 27)).all()
+        tab.page.select_option("#theme", "light")
+        assert (tab.pixels()[5, 5] == 255).all()
+        tab.page.keyboard.press("d")
+        assert (tab.pixels()[5, 5] == (16, 21, 27)).all()
+
+    def test_the_mark_goes_with_the_material(self, browser, tmp_path):
+        """Spheres that only turn: their picture changes from time to time by the mark alone."""
+        angle = 0.3 * np.arange(7)
+        F = np.zeros((7, 2, 3, 3))
+        F[..., 2, 2] = 1.0
+        F[..., 0, 0] = F[..., 1, 1] = np.cos(angle)[:, None]
+        F[..., 1, 0] = np.sin(angle)[:, None]
+        F[..., 0, 1] = -F[..., 1, 0]
+        x = np.broadcast_to([[0.2, 0.5, 0.5], [0.8, 0.5, 0.5]], (7, 2, 3))
+        write_run(tmp_path, Motion(0.1 * np.arange(7), x, F, np.array([0.2, 0.2])), mesh=False)
+        page = write_page(Request(tmp_path), None, 30.0, "")
+        opened = Tab(browser, page.as_uri(), "naked")
+        changed = []
+        for _ in range(2):
+            before, after = (opened.run(f"foamprb.show({t})") or opened.pixels().astype(int) for t in (4, 5))
+            body = (before < 250).any(axis=2).sum()
+            changed.append((np.abs(after - before) > 20).any(axis=2).sum() / body)
+            opened.page.evaluate("() => { document.getElementById('mark').click(); }")
+        assert changed[0] > 0.05
+        assert changed[1] == 0.0
+        assert opened.said == []
+        opened.page.close()
+
+
+def saturation(image: NDArray[np.float64]) -> NDArray[np.float64]:
+    most, least = image.max(axis=2), image.min(axis=2)
+    return np.asarray((most - least) / np.maximum(most, 1.0))
+
+
+class TestNumbers:
+    def test_what_it_unpacked_is_what_was_run(self, tab, moved):
+        places = np.array(tab.run("Array.from(foamprb.data.x)")).reshape(M, N, 3)
+        frame = tab.run("foamprb.data.scene.frame")
+        present = np.array(
+            [[tab.run(f"foamprb.data.present({t}, {i})") for i in range(N)] for t in (0, M - 1)]
+        )
+        late = np.arange(N) % 3 == 0
+        np.testing.assert_array_equal(present[0], ~late)
+        assert present[1].all()
+        x = np.array(frame["middle"]) + frame["size"] * places
+        assert np.abs(x - moved.x)[:, ~late].max() < 3e-7
+        F = np.array(tab.run("Array.from(foamprb.data.F)")).reshape(M, N, 3, 3)
+        F = tab.run("foamprb.data.shapeStep") * F
+        assert np.abs(F - moved.F)[:, ~late].max() < 3e-4
+        assert tab.run("Array.from(foamprb.data.ids)") == list(range(N))
+        speed = np.array(
+            [[tab.run(f"foamprb.data.fields.U.value({t}, {i}, 'magnitude')") for i in (1, 4)] for t in (0, 5)]
+        )
+        expected = np.linalg.norm(np.gradient(moved.x, 0.1, axis=0), axis=2)[[0, 5]][:, [1, 4]]
+        np.testing.assert_allclose(speed, expected, rtol=1e-3)
+
+
+class TestChoosing:
+    @NAKED
+    def test_a_click_meets_the_body_under_it(self, tab, scene):
+        """Where a body's middle is, is computed here from the scene's camera."""
+        chosen = in_front(scene, scene.first, WIDTH, HEIGHT)
+        assert len(chosen) >= 8
+        for body in chosen[:8]:
+            x, y, _ = projected(scene, scene.bodies.x[scene.first, [body]], WIDTH, HEIGHT)[0]
+            tab.page.mouse.click(x, y)
+            assert tab.run("foamprb.state.chosen") == body
+        tab.page.mouse.click(3, 3)
+        assert tab.run("foamprb.state.chosen") == -1
+
+    def test_the_edge_of_a_body_is_where_it_is_drawn(self, tab):
+        """Pixels of the chosen body's accent outline answer for it, those beyond do not."""
+        tab.run("foamprb.choose(4)")
+        for t in range(M):
+            tab.run(f"foamprb.show({t})")
+            wrong = tab.run("""(() => {
+                const f = foamprb, at = f.placeOf(4);
+                if (f.bodyAt(at.x, at.y) !== 4) return 0;
+                let wrong = 0;
+                for (let angle = 0; angle < 6.28; angle += 0.3) {
+                    // Outwards until it is met no more: then never again.
+                    let met = true;
+                    for (let r = 1; r < 400; r++) {
+                        const now = f.bodyAt(at.x + r * Math.cos(angle), at.y + r * Math.sin(angle)) === 4;
+                        if (now && !met) wrong++;
+                        met = now;
+                        if (!now && r > 350) break;
+                    }
+                }
+                return wrong;
+            })()""")
+            assert wrong <= 6
+
+    def test_its_card_has_its_numbers_and_its_curve(self, tab, moved):
+        tab.run("foamprb.choose(4)")
+        assert tab.text("card-title") == "Body 4"
+        assert tab.text("card-story") == "From soft, released at 0 s, active at 0.7 s"
+        rows = tab.page.locator("#card-rows button").all_inner_texts()
+        values = dict(row.split("\n") for row in rows)
+        assert float(values["diameter at rest"].split()[0]) == pytest.approx(2e3 * moved.radius[4], rel=1e-3)
+        axes = np.sort(np.linalg.svd(moved.F[4, 4], compute_uv=False))[::-1] * moved.radius[4] * 1e3
+        assert values["semi-axis, a"].endswith(" mm")
+        assert float(values["semi-axis, a"].split()[0]) == pytest.approx(axes[0], rel=2e-3)
+        assert tab.page.locator("#chart svg path.curve").count() == 1
+        assert "Taylor deformation" in tab.text("chart")
+        tab.page.get_by_role("button", name="shear rate").click()
+        assert "shear rate (1/s)" in tab.text("chart")
+
+    def test_its_numbers_can_be_saved(self, tab, moved):
+        tab.run("foamprb.choose(4)")
+        with tab.page.expect_download() as waiting:
+            tab.page.click("#card-table")
+        assert waiting.value.suggested_filename == "cube_body_4.csv"
+        with Path(waiting.value.path()).open() as file:
+            table = list(csv.DictReader(file))
+        assert len(table) == M
+        assert [float(row["x [m]"]) for row in table] == pytest.approx(moved.x[:, 4, 0], abs=1e-6)
+
+    def test_by_keys(self, tab):
+        tab.page.focus("#canvas")
+        tab.page.keyboard.press("n")
+        first = tab.run("foamprb.state.chosen")
+        tab.page.keyboard.press("n")
+        assert tab.run("foamprb.state.chosen") > first >= 0
+        tab.page.keyboard.press("p")
+        assert tab.run("foamprb.state.chosen") == first
+        tab.page.keyboard.press("Escape")
+        assert tab.run("foamprb.state.chosen") == -1
+        assert not tab.page.is_visible("#card")
+
+    def test_by_number(self, tab):
+        tab.page.fill("#wanted", "17")
+        tab.page.click("#choose")
+        assert tab.text("card-title") == "Body 17"
+        tab.page.fill("#wanted", "400")
+        tab.page.click("#choose")
+        assert tab.text("status") == "There is no such body."
+
+    @pytest.mark.parametrize(
+        "tab", [{"has_touch": True, "viewport": {"width": 390, "height": 800}}], indirect=True
+    )
+    def test_by_a_tap(self, tab):
+        spot = tab.run("""(() => {
+            const f = foamprb;
+            for (let i = 0; i < f.data.n; i++) {
+                const at = f.placeOf(i);
+                if (at.y > 90 && at.y < 600 && f.bodyAt(at.x, at.y) === i) return [i, at.x, at.y];
+            }
+        })()""")
+        tab.page.touchscreen.tap(spot[1], spot[2])
+        assert tab.run("foamprb.state.chosen") == spot[0]
+        card = tab.page.locator("#card").bounding_box()
+        assert card["x"] == 0
+        assert card["y"] + card["height"] == pytest.approx(800, abs=1)
+
+    def test_following(self, tab):
+        tab.run("foamprb.choose(4)")
+        tab.page.check("#follow")
+        before = tab.run("foamprb.placeOf(4)")
+        tab.page.focus("#canvas")
+        tab.page.keyboard.press(".")
+        after = tab.run("foamprb.placeOf(4)")
+        assert (after["x"], after["y"]) == pytest.approx((before["x"], before["y"]), abs=0.5)
+
+
+class TestTime:
+    def test_the_slider_changes_the_time_and_the_picture(self, tab):
+        before = tab.pixels()
+        tab.page.focus("#time")
+        tab.page.keyboard.press("ArrowRight")
+        assert tab.run("foamprb.state.t") == 5
+        assert tab.text("clock") == "t = 0.5 s"
+        assert tab.page.get_attribute("#time", "aria-valuetext") == "0.5 s"
+        assert (np.abs(tab.pixels().astype(int) - before) > 30).any(axis=2).mean() > 0.005
+        tab.page.keyboard.press("Home")
+        assert tab.text("clock") == "t = 0 s"
+        assert tab.text("caption").startswith("20 bodies")
+
+    def test_playing_and_stopping(self, tab):
+        assert not tab.run("foamprb.state.playing")
+        tab.page.select_option("#speed", "30")
+        tab.page.focus("#canvas")
+        tab.page.keyboard.press(" ")
+        assert tab.text("play-word") == "Stop"
+        tab.page.wait_for_function("foamprb.state.t !== 4")
+        tab.page.keyboard.press(" ")
+        assert not tab.run("foamprb.state.playing")
+
+    def test_step_by_step(self, tab):
+        tab.page.click("#forward")
+        assert tab.run("foamprb.state.t") == 5
+        tab.page.click("#backward")
+        tab.page.keyboard.press(",")
+        assert tab.run("foamprb.state.t") == 3
+
+
+class TestControls:
+    def test_enlargement_is_said(self, tab):
+        tab.page.locator("#enlargement").fill("0")
+        assert tab.text("caption") == "30 bodies, drawn to scale"
+        assert tab.text("enlargement-text") == "to scale"
+
+    def test_filters(self, tab):
+        tab.run("foamprb.show(7)")
+        assert tab.text("caption").startswith("29 bodies")
+        tab.page.get_by_label("stuck on floor").uncheck()
+        assert tab.text("caption").startswith("28 bodies")
+        tab.page.check("#gone")
+        assert tab.text("caption").startswith("29 bodies")
+        tab.page.click("#injectors summary")
+        tab.page.get_by_label("stiff").uncheck()
+        assert tab.text("caption").startswith("15 bodies")
+        tab.page.click("#by-range summary")
+        tab.page.select_option("#filter", "d:")
+        tab.page.fill("#filter-low", "0.07")
+        tab.page.keyboard.press("Enter")
+        count = tab.run("""(() => {
+            const f = foamprb;
+            let count = 0;
+            for (let i = 0; i < f.data.n; i += 2) count += f.data.fields.d.value(0, i, "") >= 0.07;
+            return count;
+        })()""")
+        assert tab.text("caption").startswith(f"{count} ")
+        tab.page.fill("#filter-low", "a")
+        tab.page.keyboard.press("Enter")
+        assert tab.page.get_attribute("#filter-low", "aria-invalid") == "true"
+
+    def test_colours_have_a_legend_with_a_unit(self, tab):
+        tab.page.select_option("#colour", "U:magnitude")
+        legend = tab.page.locator("#legends").inner_text()
+        assert "Velocity, magnitude (m/s)" in legend
+        tab.page.fill("#range-high", "0.25")
+        tab.page.keyboard.press("Tab")
+        assert tab.run("foamprb.state.high") == 0.25
+        assert "250" in tab.page.locator("#legends").inner_text()
+        tab.page.click("#range-now")
+        assert tab.run("foamprb.state.low") > 0.0
+        tab.page.select_option("#colour", "fate:")
+        assert "escaped through lid" in tab.page.locator("#legends").inner_text()
+        assert not tab.page.is_visible("#range-row")
+
+    def test_paths_and_deposits(self, tab):
+        tab.run("foamprb.show(7)")
+        before = tab.pixels()
+        tab.page.select_option("#paths", "all")
+        with_paths = tab.pixels()
+        assert (np.abs(with_paths.astype(int) - before) > 20).any(axis=2).mean() > 0.002
+        tab.page.select_option("#deposits", "none")
+        without = tab.pixels()
+        mark = np.array(rgb(LIGHT.deposit))
+        assert (np.abs(with_paths.astype(int) - mark).max(axis=2) < 12).any()
+        assert not (np.abs(without.astype(int) - mark).max(axis=2) < 12).any()
+
+    def test_walls_names_and_the_plane(self, tab):
+        labels = tab.page.locator("#labels span")
+        assert set(labels.all_inner_texts()) & {"floor", "lid", "sides"}
+        tab.page.uncheck("#names")
+        tab.run("foamprb.draw()")
+        assert not any(label.is_visible() for label in labels.all())
+        before = tab.pixels()
+        tab.page.select_option("#slice", "none")
+        tab.page.select_option("#opacity", "none")
+        assert (np.abs(tab.pixels().astype(int) - before) > 10).any(axis=2).mean() > 0.05
+        assert tab.page.locator(".legend").count() == 1
+
+    def test_turning_moving_zooming(self, tab):
+        tab.page.focus("#canvas")
+        place = "[foamprb.eye.yaw, foamprb.eye.pitch, foamprb.eye.distance, foamprb.eye.target.x]"
+        before = tab.run(place)
+        for key in ("ArrowLeft", "ArrowUp", "+", "Shift+ArrowLeft"):
+            tab.page.keyboard.press(key)
+        after = tab.run(place)
+        assert all(a != b for a, b in zip(before, after, strict=True))
+        tab.page.mouse.move(300, 300)
+        tab.page.mouse.down()
+        tab.page.mouse.move(380, 320, steps=4)
+        tab.page.mouse.up()
+        assert tab.run("foamprb.state.chosen") == -1
+        assert tab.run(place)[0] != after[0]
+        tab.page.mouse.wheel(0, 300)
+        tab.page.wait_for_function(f"foamprb.eye.distance > {after[2]}")
+        tab.page.keyboard.press("0")
+        assert tab.run(place) == pytest.approx(before)
+        tab.page.keyboard.press("w")
+
+    def test_zooming_keeps_what_is_under_the_pointer(self, tab):
+        at = tab.run("foamprb.placeOf(4)")
+        tab.run("(foamprb.eye.target.set(foamprb.data.x[0], 0, 0), foamprb.eye.place())")
+        tab.page.keyboard.press("0")
+        tab.run(f"foamprb.eye.zoom(0.8, {at['x']}, {at['y']})")
+        now = tab.run("foamprb.placeOf(4)")
+        # Exactly in the plane of the target, nearly before and behind it.
+        assert math.hypot(now["x"] - at["x"], now["y"] - at["y"]) < 0.1 * 900
+
+    def test_the_picture_can_be_saved_with_its_words(self, tab):
+        with tab.page.expect_download() as waiting:
+            tab.page.click("#picture")
+        assert waiting.value.suggested_filename == "cube_t0.4.png"
+        image = np.array(Image.open(waiting.value.path()).convert("RGB"))
+        stage = tab.page.locator("#stage").bounding_box()
+        assert image.shape[:2] == (2 * round(stage["height"]), 2 * round(stage["width"]))
+        # Ink in the upper corners, where the title and the caption are.
+        assert (image[20:120, 30:300].min(axis=2) < 60).any()
+        assert (image[20:120, -300:-30].min(axis=2) < 60).any()
+
+    def test_the_keys_are_told(self, tab):
+        tab.page.keyboard.press("h")
+        assert tab.page.is_visible("#about")
+        assert "MIT License" in tab.text("about")
+        tab.page.keyboard.press("Escape")
+        assert not tab.page.is_visible("#about")
+
+    def test_all_controls_are_reached_by_tab_and_have_names(self, tab):
+        tab.page.click("#injectors summary")
+        tab.page.click("#by-range summary")
+        tab.page.focus("#canvas")
+        reached = set()
+        for _ in range(90):
+            tab.page.keyboard.press("Tab")
+            reached.add(tab.run("document.activeElement.id"))
+        wanted = tab.run(
+            "[...document.querySelectorAll('button, select, input')]"
+            ".filter(e => e.checkVisibility({ visibilityProperty: true }) && e.id).map(e => e.id)"
+        )
+        assert set(wanted) <= reached
+
+
+LAYOUTS = [(1440, 860), (1024, 640), (800, 1100), (390, 800), (800, 390)]
+
+
+@pytest.mark.parametrize("size", LAYOUTS, ids=lambda size: f"{size[0]}x{size[1]}")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_overlaps_and_nothing_is_cut(browser, address, size, scheme):
+    opened = Tab(browser, address, viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    assert opened.run("document.documentElement.scrollWidth") <= size[0]
+    boxes = opened.run("""(() => {
+        const sides = ({ left, top, right, bottom }) => [left, top, right, bottom];
+        const box = (e) => sides(e.getBoundingClientRect());
+        const of = (q) => [...document.querySelectorAll(q)].filter(e => e.checkVisibility()).map(box);
+        return [...of("#heading h1, #heading p"), ...of("#facts p"), ...of(".legend"),
+                ...of("#corner button, #transport button, #transport input, #transport select"),
+                ...of("#transport output, #labels span:not([hidden])")];
+    })()""")
+    for left, top, right, bottom in boxes:
+        assert left >= -0.5
+        assert top >= -0.5
+        assert right <= size[0] + 0.5
+        assert bottom <= size[1] + 0.5
+    for k, a in enumerate(boxes):
+        for b in boxes[:k]:
+            apart = a[0] >= b[2] - 0.5 or b[0] >= a[2] - 0.5 or a[1] >= b[3] - 0.5 or b[1] >= a[3] - 0.5
+            assert apart, (a, b)
+    assert opened.said == []
+    opened.page.close()
+
+
+def test_without_WebGL_it_says_so(browser, address):
+    page = browser.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
+    page.goto(address)
+    page.wait_for_function("document.getElementById('notice').textContent.includes('WebGL')")
+    assert "cannot be shown" in page.locator("#notice").inner_text()
+    page.close()
+
+
+def test_a_hundred_thousand_bodies_stay_fluid(browser, tmp_path):
+    """Two triangles each, and a new time costs a processor less than a frame at 30 a second."""
+    write_run(tmp_path, motion(100_000, 3), mesh=False)
+    path = write_page(Request(tmp_path), None, 1e3, "")
+    opened = Tab(browser, path.as_uri(), "naked", viewport={"width": 320, "height": 200})
+    times = opened.run("""(() => {
+        const times = [];
+        for (let k = 0; k < 15; k++) {
+            const start = performance.now();
+            foamprb.show(k % 3);
+            times.push(performance.now() - start);
+        }
+        return times.sort((a, b) => a - b);
+    })()""")
+    assert times[len(times) // 4] < 33.0
+    assert opened.run("(foamprb.draw(), foamprb.renderer.info.render.triangles)") < 210_000
+    assert opened.said == []
+    opened.page.close()
