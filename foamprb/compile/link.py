@@ -194,15 +194,19 @@ def _link_select(target: Target) -> _Part:
     return _parts[key]
 
 
+# Found once: a process that has gone to another user may not be able to look again.
+_version = cache(version)
+
+
 def _compiler(target: Target) -> str:
     """What makes the code, and how, and for which processor."""
     python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_LINKING}"
     if target == "cuda":
-        return f"{python} numba-cuda {version('numba-cuda')}"
+        return f"{python} numba-cuda {_version('numba-cuda')}"
     # A set has another order in every process.
     options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
     how = f"{_FAST_MATH} {options} {internals().parts}"
-    return f"{python} llvmlite {version('llvmlite')} {how} {_processor()}"
+    return f"{python} llvmlite {_version('llvmlite')} {how} {_processor()}"
 
 
 @cache

@@ -82,7 +82,8 @@ def read_settings(
         sub_models = _section(root, "subModels")
         with mistakes:
             models = read_entries(entries.SubModels, sub_models, also=coefficient_names())
-            drag, forces = _forces(models.particleForces)
+        with mistakes:
+            drag, forces = _forces(_section(sub_models, "particleForces"))
             gravity = read_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0)
         with mistakes:
             patches, touching = read_patch_interaction(sub_models)

@@ -10,7 +10,7 @@ from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, analy
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.flow.analytic import walk_pipe
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.walk import MeshFlow
+from foamprb.flow.meshflow import MeshFlow
 
 NOTHING = Medium(1e-12, 1e-12, (0.0, 0.0, 0.0))
 RADIUS = 1.0

@@ -8,7 +8,8 @@ from mesh_shapes import corners, grid
 
 from foamprb.compile.link import link
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.walk import REACHED, MeshFlow, walk
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.walk import REACHED, walk
 
 # Six tetrahedra of each cube, along its main diagonal.
 PATHS = ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))
