@@ -19,7 +19,7 @@ from contextlib import suppress
 from functools import cache, partial
 from importlib.metadata import version
 from pathlib import Path
-from types import CodeType, FunctionType, ModuleType
+from types import CellType, CodeType, FunctionType, ModuleType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numba
@@ -56,7 +56,8 @@ def link(
     Parameters
     ----------
     entry
-        A plain function whose callees are module globals (imported by name, not as ``module.name``).
+        A plain function whose callees are module globals (imported by name, not as ``module.name``). What a
+        function captures from the one around it, or has as defaults, are numbers, or tuples of numbers.
     bindings
         Functions and constants to put under a global name that ``entry`` or its callees use, e.g.
         ``{"traction": roscoe}``.
@@ -135,9 +136,13 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         return _link_select(target)
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    own = f"{_compiler(target)} {role} {function.__module__} {function.__qualname__}"
+    own = (
+        f"{_compiler(target)} {role} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
+    )
     digest = hashlib.sha256(own.encode())
-    digest.update(_fingerprint(function.__code__) + repr(function.__defaults__).encode())
+    digest.update(_fingerprint(function.__code__))
+    captured = [cell.cell_contents for cell in function.__closure__ or ()]
+    digest.update(repr(captured).encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
@@ -153,7 +158,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         scope |= _for_cuda(scope)
     key = digest.hexdigest()[:24]
     if key not in _parts:
-        clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__)
+        cells = tuple(CellType(_constant(value, target)) for value in captured)
+        clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
         # Code is linked by name, and other processes may have put other models behind a name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__

@@ -12,6 +12,7 @@ from foamprb.dictionary.constraints import Axes, Constant, Pairs, Vector3, Words
 from foamprb.dictionary.dimensions import (
     ACCELERATION,
     DENSITY,
+    DYNAMIC_VISCOSITY,
     KINEMATIC_VISCOSITY,
     Dimensions,
     described,
@@ -20,7 +21,16 @@ from foamprb.dictionary.dimensions import (
 )
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
 
-__all__ = ["READERS", "Acceleration", "Density", "Files", "Line", "Reader", "Viscosity"]
+__all__ = [
+    "READERS",
+    "Acceleration",
+    "Density",
+    "DynamicViscosity",
+    "Files",
+    "Line",
+    "Reader",
+    "Viscosity",
+]
 
 Line = NewType("Line", str)
 """An entry's whole text, of one word or more."""
@@ -28,6 +38,8 @@ Files = NewType("Files", tuple[Path, ...])
 """Names of existing files, in the case's ``constant`` folder or absolute."""
 Viscosity = NewType("Viscosity", float)
 """A kinematic viscosity, m2/s, that may be written with its name and dimensions."""
+DynamicViscosity = NewType("DynamicViscosity", float)
+"""A dynamic viscosity, Pa s, that may be written with its name and dimensions."""
 Density = NewType("Density", float)
 """A density, kg/m3, that may be written with its name and dimensions."""
 Acceleration = NewType("Acceleration", str)
@@ -174,6 +186,9 @@ READERS: dict[Any, Reader] = {
     Line: Reader(lambda entry: entry.text, "any text"),
     Viscosity: Reader(
         _dimensioned(KINEMATIC_VISCOSITY), f"a number, or {written(KINEMATIC_VISCOSITY)} and a number"
+    ),
+    DynamicViscosity: Reader(
+        _dimensioned(DYNAMIC_VISCOSITY), f"a number, or {written(DYNAMIC_VISCOSITY)} and a number"
     ),
     Density: Reader(_dimensioned(DENSITY), f"a number, or {written(DENSITY)} and a number"),
     Acceleration: Reader(_dimensions_of_acceleration, written(ACCELERATION)),

@@ -9,15 +9,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch, PatchFaces, Tetrahedra
+from foamprb.flow.pipes import (
+    PipeArrays,
+    WomersleyArrays,
+    gap_pipe,
+    normal_pipe,
+    sample_pipe,
+    sample_womersley,
+    walk_pipe,
+)
+from foamprb.flow.sampling import sample_with
 
 _FREE = -1
 
@@ -64,96 +75,6 @@ def cross_free(flow: Any, triangle: int, x: Vector) -> tuple[int, Vector, Tensor
 def recover_free(flow: Any, x: Vector) -> int:
     """The flow is everywhere."""
     return 0
-
-
-class PipeArrays(NamedTuple):
-    """Poiseuille flow along x in a circular pipe."""
-
-    radius: float
-    mean_velocity: float
-    length: float
-
-
-_WALL, _INLET, _OUTLET = 0, 1, 2
-
-
-def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """u = 2 U (1 − r²/a²), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
-    k = 2.0 * flow.mean_velocity / (flow.radius * flow.radius)
-    r2 = x[1] * x[1] + x[2] * x[2]
-    u = (2.0 * flow.mean_velocity - k * r2, 0.0, 0.0)
-    l = (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return u, l, (0.0, 0.0, 0.0)
-
-
-class WomersleyArrays(NamedTuple):
-    """Poiseuille flow along x in a circular pipe, and an oscillation of its pressure gradient."""
-
-    radius: float
-    mean_velocity: float
-    length: float
-    amplitude: float
-    """Of −(∂p/∂x)/ρ over ω, m/s."""
-    omega: float
-    """1/s."""
-    phase: float
-    real: Floats
-    """Coefficients of the powers of r²/a² in the profile 1 − J₀(i^{3/2} α r/a)/J₀(i^{3/2} α)."""
-    imaginary: Floats
-
-
-def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
-    scale = 1.0 / (flow.radius * flow.radius)
-    s = scale * (x[1] * x[1] + x[2] * x[2])
-    f, g, df, dg = 0.0 * s, 0.0 * s, 0.0 * s, 0.0 * s
-    for k in range(flow.real.shape[0] - 1, -1, -1):
-        df, dg = df * s + f, dg * s + g
-        f, g = f * s + flow.real[k], g * s + flow.imaginary[k]
-    a = flow.omega * t + flow.phase
-    cosine, sine = math.cos(a), math.sin(a)
-    w = flow.amplitude
-    u = 2.0 * flow.mean_velocity * (1.0 - s) + w * (f * sine + g * cosine)
-    slope = 2.0 * scale * (w * (df * sine + dg * cosine) - 2.0 * flow.mean_velocity)
-    u_t = w * flow.omega * (f * cosine - g * sine)
-    return (u, 0.0, 0.0), (0.0, slope * x[1], slope * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (u_t, 0.0, 0.0)
-
-
-def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Where the segment from x0 to x1 first leaves the pipe."""
-    fraction, patch = 1.0, _FREE
-    dx, dy, dz = x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]
-    if x1[0] < 0.0:
-        fraction, patch = max(-x0[0] / dx, 0.0), _INLET
-    elif x1[0] > flow.length:
-        fraction, patch = max((flow.length - x0[0]) / dx, 0.0), _OUTLET
-    if x1[1] * x1[1] + x1[2] * x1[2] > flow.radius * flow.radius:
-        a = dy * dy + dz * dz
-        b = x0[1] * dy + x0[2] * dz
-        c = min(x0[1] * x0[1] + x0[2] * x0[2] - flow.radius * flow.radius, 0.0)
-        # The root of a f² + 2 b f + c that lies ahead, without cancellation.
-        root = math.sqrt(b * b - a * c)
-        hit = -c / (b + root) if b > 0.0 else (root - b) / a
-        if hit <= fraction:
-            fraction, patch = hit, _WALL
-    return host, fraction, patch, patch
-
-
-def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Clearance between the ellipsoid and the wall's tangent plane, m."""
-    n = normal_pipe(flow, _WALL, x)
-    r = math.sqrt(x[1] * x[1] + x[2] * x[2])
-    return flow.radius - r - reach(R, F, n), _WALL, _WALL
-
-
-def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
-    """Unit normal into the fluid, of the wall or of an end."""
-    if triangle == _INLET:
-        return 1.0, 0.0, 0.0
-    if triangle == _OUTLET:
-        return -1.0, 0.0, 0.0
-    r = math.sqrt(x[1] * x[1] + x[2] * x[2]) + 1e-300
-    return 0.0, -x[1] / r, -x[2] / r
 
 
 def everywhere(points: Floats) -> NDArray[np.bool_]:
@@ -257,6 +178,163 @@ def linear(gradient: ArrayLike, u0: ArrayLike = (0.0, 0.0, 0.0)) -> AnalyticFlow
         "recover": recover_free,
     }
     return AnalyticFlow(LinearArrays(np.asarray(u0, dtype=float), g), kernels)
+
+
+class FunctionArrays(NamedTuple):
+    """Steps of the differences by which a function's derivatives are taken, m and s."""
+
+    length: float
+    time: float
+
+
+def velocity(x: float, y: float, z: float, t: float) -> tuple[float, float, float]:
+    """Stand for a user's function, which :func:`function` puts in its place."""
+    raise NotImplementedError
+
+
+def velocity_gradient(x: float, y: float, z: float, t: float) -> tuple[Vector, Vector, Vector]:
+    """Stand for a user's gradient, as :func:`velocity` does for the velocity."""
+    raise NotImplementedError
+
+
+def steady(x: float, y: float, z: float, t: float) -> Any:
+    """Call a function that knows no time."""
+    return of_place(x, y, z)
+
+
+def of_place(x: float, y: float, z: float) -> Any:
+    """Stand for a user's function of the place alone."""
+    raise NotImplementedError
+
+
+def sample_function(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Velocity, m/s, its gradient as given, 1/s, and ∂u/∂t by differences, m/s²."""
+    a, b, c = velocity_gradient(x[0], x[1], x[2], t)
+    l = (a[0] + 0.0, a[1] + 0.0, a[2] + 0.0, b[0] + 0.0, b[1] + 0.0, b[2] + 0.0,
+         c[0] + 0.0, c[1] + 0.0, c[2] + 0.0)  # fmt: skip
+    return _velocity(x[0], x[1], x[2], t), l, _rate(flow, x, t)
+
+
+def sample_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s², by central differences of the fourth order."""
+    h, (x0, x1, x2) = flow.length, x
+    p = _difference(
+        _velocity(x0 - 2.0 * h, x1, x2, t), _velocity(x0 - h, x1, x2, t),
+        _velocity(x0 + h, x1, x2, t), _velocity(x0 + 2.0 * h, x1, x2, t), h,
+    )  # fmt: skip
+    q = _difference(
+        _velocity(x0, x1 - 2.0 * h, x2, t), _velocity(x0, x1 - h, x2, t),
+        _velocity(x0, x1 + h, x2, t), _velocity(x0, x1 + 2.0 * h, x2, t), h,
+    )  # fmt: skip
+    r = _difference(
+        _velocity(x0, x1, x2 - 2.0 * h, t), _velocity(x0, x1, x2 - h, t),
+        _velocity(x0, x1, x2 + h, t), _velocity(x0, x1, x2 + 2.0 * h, t), h,
+    )  # fmt: skip
+    l = (p[0], q[0], r[0], p[1], q[1], r[1], p[2], q[2], r[2])
+    return _velocity(x0, x1, x2, t), l, _rate(flow, x, t)
+
+
+def _velocity(x: float, y: float, z: float, t: float) -> Vector:
+    a, b, c = velocity(x, y, z, t)
+    return a + 0.0, b + 0.0, c + 0.0
+
+
+def _rate(flow: FunctionArrays, x: Vector, t: float) -> Vector:
+    """∂u/∂t at the fixed point."""
+    h = flow.time
+    return _difference(
+        _velocity(x[0], x[1], x[2], t - 2.0 * h), _velocity(x[0], x[1], x[2], t - h),
+        _velocity(x[0], x[1], x[2], t + h), _velocity(x[0], x[1], x[2], t + 2.0 * h), h,
+    )  # fmt: skip
+
+
+def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
+    """Derivative at the middle of four values at −2h, −h, h and 2h."""
+    s, w = 8.0 / (12.0 * h), 1.0 / (12.0 * h)
+    return (
+        s * (c[0] - b[0]) - w * (d[0] - a[0]),
+        s * (c[1] - b[1]) - w * (d[1] - a[1]),
+        s * (c[2] - b[2]) - w * (d[2] - a[2]),
+    )
+
+
+class FunctionFlow(AnalyticFlow):
+    """A flow given by a function of the user's; see :func:`function`."""
+
+    def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
+        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at time t, s."""
+        return sample_with(self.kernels["sample"], self._parameters, points, hosts, t)
+
+
+def function(
+    u: Callable[..., Any],
+    gradient: Callable[..., Any] | None = None,
+    length: float = 1e-3,
+    time: float = 1e-3,
+) -> AnalyticFlow:
+    """Flow u(x, y, z) or u(x, y, z, t) from a plain Python function, without bounds.
+
+    The function is compiled into the particle loop, which takes a while for each new function; it may use
+    numbers, ``math``, ``numpy``'s functions of numbers, and other plain functions.
+
+    Parameters
+    ----------
+    u
+        Returns the three components of the velocity, m/s, at a place, m, and perhaps a time, s.
+    gradient
+        Of the same arguments, returns the three rows of ∂u_i/∂x_j, 1/s, each of three numbers. Without it the
+        gradient is taken from u by central differences of the fourth order, and so is ∂u/∂t always.
+    length, time
+        Over which u changes, m and s. The differences are taken over a thousandth of it, which gives
+        derivatives to 1e-8 where u changes over a tenth of it to a thousand times as much.
+
+    Raises
+    ------
+    TypeError
+        If u or the gradient is not such a function.
+    """
+    names: dict[str, Any] = {"velocity": _of_place_and_time(u, "u", (3,))}
+    template = sample_differences
+    if gradient is not None:
+        names["velocity_gradient"] = _of_place_and_time(gradient, "gradient", (3, 3))
+        template = sample_function
+    names["_velocity"] = _with_names(_velocity, names)
+    names["_rate"] = _with_names(_rate, names)
+    kernels: dict[str, Callable[..., Any]] = {
+        "sample": _with_names(template, names),
+        "walk": walk_free,
+        "gap": gap_free,
+        "normal": normal_free,
+        "recover": recover_free,
+    }
+    return FunctionFlow(FunctionArrays(1e-3 * length, 1e-3 * time), kernels)
+
+
+def _with_names(template: Callable[..., Any], names: Mapping[str, Any]) -> Callable[..., Any]:
+    """The function with other functions in place of some of those that it calls."""
+    assert isinstance(template, FunctionType)
+    return FunctionType(template.__code__, {**template.__globals__, **names}, template.__name__)
+
+
+def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callable[..., Any]:
+    """A user's function as one of x, y, z and t; TypeError if it is no plain function that gives numbers."""
+    if not isinstance(given, FunctionType):
+        raise TypeError(f"{what} is {given!r}, not a plain function (def or lambda).")
+    captured = [*(cell.cell_contents for cell in given.__closure__ or ()), *(given.__defaults__ or ())]
+    if not all(isinstance(value, int | float | tuple) for value in captured):
+        raise TypeError(
+            f"{what} captures or has as a default something else than numbers or tuples of numbers; other "
+            "functions must be defined in the module."
+        )
+    count = given.__code__.co_argcount - len(given.__defaults__ or ())
+    if count not in (3, 4):
+        raise TypeError(f"{what} has {count} arguments, not (x, y, z) or (x, y, z, t).")
+    found: Any = None
+    with suppress(ArithmeticError, ValueError):
+        found = np.shape(given(*(0.1, 0.2, 0.3, 0.4)[:count]))
+    if found not in (None, shape):
+        raise TypeError(f"{what} returns something of shape {found}, not {shape}.")
+    return given if count == 4 else _with_names(steady, {"of_place": given})
 
 
 def shear(rate: float) -> AnalyticFlow:

@@ -14,6 +14,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
 from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall
 
@@ -257,24 +258,3 @@ class MeshFlow:
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
     for i in range(points.shape[0]):
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
-
-
-def sample_with(
-    kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
-) -> tuple[Floats, Floats]:
-    """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
-    points = np.ascontiguousarray(points, dtype=np.float64)
-    values = np.empty((len(points), 12))
-    sampler = link(_sample_all, {"sample": kernel})
-    sampler(arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
-    return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
-
-
-def _sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
-    """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
-    for i in range(points.shape[0]):
-        u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
-        for k in range(3):
-            values[i, k] = u[k]
-        for k in range(9):
-            values[i, 3 + k] = l[k]

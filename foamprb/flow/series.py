@@ -20,7 +20,8 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.locator import MeshArrays, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.meshflow import MeshFlow, sample_with
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import corners, interpolate, inward, shape
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh

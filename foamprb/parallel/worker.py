@@ -20,7 +20,7 @@ from foamprb.cloud.state import Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.meshflow import sample_with
+from foamprb.flow.sampling import sample_with
 from foamprb.output.vtk import PieceArray, write_snapshot
 from foamprb.parallel.exchange import RECORD, pack, unpack
 from foamprb.parallel.shared_memory import Windows

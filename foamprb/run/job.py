@@ -31,7 +31,7 @@ from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.source import Source, read_flow, read_transient_flow
+from foamprb.flow.read.source import Source, check_region, read_flow, read_transient_flow
 from foamprb.flow.series import SeriesFlow
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
@@ -119,7 +119,10 @@ def prepare(
     """
     case = Path(case)
     source = source or Source()
-    settings = read_settings(case, dictionary, source.region)
+    check_region(case, source)
+    # A transient flow, of a range of times, has the density of the latest.
+    single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
+    settings = read_settings(case, dictionary, source.region, single)
     precompiler = _precompile(settings) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)

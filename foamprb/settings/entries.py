@@ -28,7 +28,7 @@ from foamprb.dictionary.constraints import (
 )
 from foamprb.dictionary.schema import Instead
 from foamprb.dictionary.tree import Dictionary
-from foamprb.dictionary.values import Density, Files, Line
+from foamprb.dictionary.values import Density, DynamicViscosity, Files, Line, Viscosity
 from foamprb.settings.patches import INTERACTION_MODELS
 from foamprb.settings.settings import StartFrom
 
@@ -141,6 +141,9 @@ class ConstantProperties:
 
     rho0: Annotated[float, Positive] | Dictionary
     rhoInf: Annotated[Density, Positive] | None = None
+    nu: Annotated[Viscosity, Positive] | None = None
+    mu: Annotated[DynamicViscosity, Positive] | None = None
+    TInf: Annotated[float, Positive] | None = None
     solid: Dictionary | None = None
     shape: Dictionary | None = None
     parcelTypeId: Annotated[None, NoEffect("particles are told apart by their injection model")] = None

@@ -1,17 +1,24 @@
-"""The fluid and gravity: ρ_f from the cloud's dictionary, ν from ``transportProperties``, g from ``g``."""
+"""The fluid and gravity: ρ_f and ν from the cloud's dictionary or the case's, g from ``g``."""
 
 from __future__ import annotations
 
 import logging
 from pathlib import Path
-from typing import Annotated, Literal
 
 from foamprb.dictionary.constraints import Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entries, read_entry
-from foamprb.dictionary.tree import Dictionary
-from foamprb.dictionary.values import Acceleration, Density, Viscosity
+from foamprb.dictionary.tree import Dictionary, Source
+from foamprb.dictionary.values import Acceleration
+from foamprb.flow.read.fluid import (
+    FILES,
+    CaseViscosity,
+    fluid_file,
+    mean_density,
+    read_density,
+    read_viscosity,
+)
 from foamprb.settings import entries
 from foamprb.settings.settings import Fluid
 
@@ -26,7 +33,7 @@ def of_region(case: Path, region: str, name: str) -> Path:
     return own if (case / own).is_file() else Path("constant") / name
 
 
-def read_fluid(case: Path, region: str, constant: Dictionary) -> Fluid:
+def read_fluid(case: Path, region: str, constant: Dictionary, time: float | str = "latestTime") -> Fluid:
     """Read ρ_f and ν.
 
     Parameters
@@ -34,51 +41,58 @@ def read_fluid(case: Path, region: str, constant: Dictionary) -> Fluid:
     case, region
         The case, and a region of its mesh.
     constant
-        The cloud's ``constantProperties``; if they give no density, ``transportProperties`` may.
+        The cloud's ``constantProperties``, which go before the case's own dictionary of the fluid, and this
+        before the field ``rho``.
+    time
+        At which the field ``rho`` is read.
 
     Raises
     ------
     InputError
         If there are mistakes, in ``constantProperties`` or in the other file, all of them.
     """
-    file = of_region(case, region, "transportProperties")
+    file = fluid_file(case, region)
+    properties, viscosity = None, None
+    rho: float | None = None
     mistakes = Mistakes()
     with mistakes:
         properties = read_entries(entries.ConstantProperties, constant)
+        if properties.nu is not None and properties.mu is not None:
+            mistakes.add(constant.mistake("gives nu and mu. Allowed: one of them."))
+        viscosity = CaseViscosity(properties.nu, properties.mu)
     with mistakes:
-        transport = read_dictionary(case / file, case)
-        with mistakes:
-            nu = _viscosity(transport)
-        with mistakes:
-            other = None if "rhoInf" in constant.entries else _density(transport)
+        if not {"nu", "mu"} & set(constant.entries):
+            if file is None:
+                raise constant.missing(
+                    "nu", f"Allowed: {Positive.text}, m2/s; or mu, Pa s; or nu in constant/{FILES[0]}."
+                )
+            viscosity = read_viscosity(file, case, properties.TInf if properties else None)
+    with mistakes:
+        if properties and properties.rhoInf is not None:
+            rho = properties.rhoInf
+        elif "rhoInf" not in constant.entries:
+            rho = _density_of_case(case, region, constant, file, time)
     mistakes.raise_any()
-    if properties.rhoInf is not None:
-        return Fluid(properties.rhoInf, nu)
-    if other is None:
-        raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {file}.")
-    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, other, file)
-    return Fluid(other, nu)
+    assert viscosity is not None
+    assert rho is not None
+    if viscosity.temperature is not None:
+        log.info("%s: the viscosity is %g Pa s, at %g K.", file, viscosity.mu, viscosity.temperature)
+    return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
 
 
-def _viscosity(transport: Dictionary) -> float:
-    """Read ν, m2/s, of a Newtonian fluid."""
-    mistakes = Mistakes()
-    with mistakes:
-        if "transportModel" in transport.entries:
-            read_entry(transport, "transportModel", Literal["Newtonian"])
-    with mistakes:
-        coefficients = transport.entries.get("NewtonianCoeffs", transport).dictionary()
-        nu = read_entry(coefficients, "nu", Annotated[Viscosity, Positive])
-    mistakes.raise_any()
-    return float(nu)
-
-
-def _density(transport: Dictionary) -> float | None:
-    """Read ρ_f, kg/m3, under one of the names that OpenFOAM's solvers give it; None without any."""
-    for key in ("rhoInf", "rho"):
-        if key in transport.entries:
-            return float(read_entry(transport, key, Annotated[Density, Positive]))
-    return None
+def _density_of_case(
+    case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str
+) -> float:
+    """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
+    found = None if file is None else read_density(file, case)
+    where = str(Source(file, case)) if file is not None else ""
+    if found is None and (field := mean_density(case, region, time)) is not None:
+        found, where = field[0], f"the field rho at time {field[1]}, its mean"
+    if found is None:
+        also = where or f"constant/{FILES[0]}"
+        raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
+    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, found, where)
+    return found
 
 
 def read_gravity(case: Path, region: str) -> Vector3:

@@ -33,18 +33,23 @@ _TO_BEGIN = (
 )
 
 
-def read_settings(case: Path, dictionary: Path | None = None, region: str = "") -> Settings:
+def read_settings(
+    case: Path, dictionary: Path | None = None, region: str = "", time: float | str = "latestTime"
+) -> Settings:
     """Read and validate the settings of a cloud.
 
     Parameters
     ----------
     case
-        The case; ν comes from its ``constant/transportProperties`` and, if ``gravity`` is among the
-        particle forces, g from its ``constant/g``.
+        The case; if the cloud does not give them, ν comes from its ``constant/transportProperties``,
+        ``physicalProperties`` or ``thermophysicalProperties``, ρ_f from there or from the field ``rho``; and,
+        if ``gravity`` is among the particle forces, g from its ``constant/g``.
     dictionary
         The cloud's dictionary, relative to the case; ``constant/softCloudProperties`` by default.
     region
         Region of the mesh: its files in ``constant/REGION`` go before those in ``constant``.
+    time
+        Time of the flow, at which the field ``rho`` is read.
 
     Raises
     ------
@@ -72,7 +77,7 @@ def read_settings(case: Path, dictionary: Path | None = None, region: str = "") 
     # Without a fluid, and if their model is not known, the particles are still checked.
     fluid = Fluid(math.nan, math.nan)
     with mistakes:
-        fluid = read_fluid(case, region, _section(root, "constantProperties"))
+        fluid = read_fluid(case, region, _section(root, "constantProperties"), time)
     with mistakes:
         sub_models = _section(root, "subModels")
         with mistakes:

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.dictionary.files import existing, has_both_forms
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.field import Kind
 from foamprb.flow.read.foamfile import header, read_cell_zones
@@ -26,8 +28,23 @@ def available_times(case: Path) -> tuple[str, ...]:
 
 
 def regions(case: Path) -> tuple[str, ...]:
-    """Names of the regions of a case whose mesh is divided into regions; none for a case of one mesh."""
-    return tuple(sorted(path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")))
+    """Names of the regions of a case whose mesh is divided into regions; none for a case of one mesh.
+
+    Before there is any mesh, they are those of ``constant/regionProperties``.
+    """
+    with_mesh = {path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")}
+    return tuple(sorted(with_mesh or _listed_regions(case)))
+
+
+def _listed_regions(case: Path) -> set[str]:
+    """The words in the inner parentheses of ``regions ( fluid (air water) solid (heater) )``."""
+    path = case / "constant/regionProperties"
+    try:
+        entry = read_dictionary(path, case).entries.get("regions") if existing(path) else None
+    except InputError:
+        return set()
+    text = entry.text if isinstance(entry, Stream) else ""
+    return {unquoted(word) for words in re.findall(r"\(([^()]*)\)", text) for word in words.split()}
 
 
 def select_time(case: Path, time: float | str = "latestTime", region: str = "") -> str:
@@ -79,8 +96,10 @@ def require_case(case: Path, region: str) -> None:
         raise InputError(
             f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
         )
-    require_choice(case, names)
-    raise InputError(f"{case / 'constant' / 'polyMesh'}: no mesh here; is {case} an OpenFOAM case?")
+    if not region:
+        require_choice(case, names)
+    folder = case / "constant" / region / "polyMesh"
+    raise InputError(f"{folder}: no mesh here; is {case} an OpenFOAM case?")
 
 
 def require_region(case: Path, region: str, names: Sequence[str]) -> None:

@@ -182,12 +182,15 @@ class _Field:
         """
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._valued is None:
-            return from_points(mesh, _vectors(_array(grid.point_data, name, path), name, path))
-        cells = _vectors(_array(grid.cell_data, name, path), name, path)
+            points = _vectors(_array(grid.point_data, name, path), name, path, "at point")
+            return from_points(mesh, points)
+        cells = _vectors(_array(grid.cell_data, name, path), name, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
             rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
-            boundary[rows] = _vectors(_array(surfaces[index][1].cell_data, name, path), name, path)
+            surface_name, surface = surfaces[index]
+            values = _array(surface.cell_data, name, path)
+            boundary[rows] = _vectors(values, name, path, f"on patch {surface_name}, face")
         given = _gradients(grid, self._gradient, path) if self._gradient else None
         return self._reconstruct(cells, boundary, given)
 
@@ -290,11 +293,11 @@ def _moving(surfaces: Sequence[tuple[str, Any]], velocity: str) -> set[str]:
     return found
 
 
-def _vectors(values: Any, name: str, path: Path) -> Floats:
+def _vectors(values: Any, name: str, path: Path, where: str) -> Floats:
     vectors = np.asarray(values, dtype=np.float64)
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise InputError(f"{path}: array {name} has shape {vectors.shape}, but a velocity has 3 components.")
-    require_numbers(vectors, path, "value", f"of {name} at number")
+    require_numbers(vectors, path, "value", where)
     return vectors
 
 
@@ -305,5 +308,5 @@ def _gradients(grid: Any, name: str, path: Path) -> Floats:
     values = np.asarray(grid.cell_data[name], dtype=np.float64)
     if values.shape != (grid.n_cells, 9):
         raise InputError(f"{path}: array {name} has shape {values.shape}, but a gradient has 9 components.")
-    require_numbers(values, path, "value", f"of {name} at number")
+    require_numbers(values, path, "value", "at cell")
     return values.reshape(-1, 3, 3).transpose(0, 2, 1)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import regions, require_region
 from foamprb.flow.read.decomposed import (
     describe_decomposed,
     is_only_decomposed,
@@ -21,7 +22,7 @@ from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.series import read_series
 from foamprb.flow.series import SeriesFlow
 
-__all__ = ["Source", "describe_source", "read_flow", "read_transient_flow"]
+__all__ = ["Source", "check_region", "describe_source", "read_flow", "read_transient_flow"]
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,14 @@ def describe_source(case: Path, source: Source) -> Sequence[str]:
         return describe_file(source.file, source.velocity, source.division)
     decomposed = source.decomposed or is_only_decomposed(case, source.region)
     return (describe_decomposed if decomposed else describe)(case, source.region).lines()
+
+
+def check_region(case: Path, source: Source) -> None:
+    """Raise InputError, with all regions, if the source names one that the case does not have."""
+    if source.file is None and source.region and case.is_dir():
+        folders = [path for path in case.glob("processor*") if (path / "constant").is_dir()]
+        names = regions(case) or (regions(folders[0]) if folders else ())
+        require_region(case, source.region, names)
 
 
 def read_flow(case: Path, time: float | str = "latestTime", source: Source | None = None) -> MeshFlow:

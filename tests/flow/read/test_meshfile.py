@@ -425,3 +425,20 @@ def test_a_time_that_is_none_is_refused(tmp_path, time):
     (tmp_path / "flow.pvd").write_text(f"{head}{''.join(sets)}</Collection></VTKFile>")
     with pytest.raises(InputError, match=rf"flow.pvd: the time {time} is none"):
         read_mesh_file(tmp_path / "flow.pvd")
+
+
+@pytest.mark.parametrize(
+    ("where", "message"),
+    [
+        ("cell_data", r"the first is \(1 nan 0\) at cell 5\."),
+        ("point_data", r"the first is \(1 nan 0\) at point 5\."),
+    ],
+)
+def test_a_velocity_that_is_no_number_is_named_with_its_place(where, message, tmp_path):
+    shape = block(2)
+    values = np.tile([1.0, 0.0, 0.0], (shape.n_cells if where == "cell_data" else shape.n_points, 1))
+    values[5, 1] = np.nan
+    getattr(shape, where)["U"] = values
+    shape.save(tmp_path / "flow.vtu")
+    with pytest.raises(InputError, match=message):
+        read_mesh_file(tmp_path / "flow.vtu")

@@ -13,6 +13,7 @@ from foam_writer import GRADIENT, Format, header, write_case
 from mesh_shapes import block, box_patches, corners, grid, pipe
 from paths import PIPE
 
+from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.mesh import build_mesh
@@ -204,6 +205,19 @@ def test_regions(case):
         read_case(case, region="aire")
     with pytest.raises(InputError, match=r"iron: no field U; the fields are \(none\)"):
         read_case(case, region="iron")
+
+
+def test_regions_are_known_before_they_have_a_mesh(case, capsys):
+    """From OpenFOAM's regionProperties; and before any other file is asked for."""
+    shutil.rmtree(case / "constant" / "polyMesh")
+    (case / "constant/regionProperties").write_text("regions ( fluid (air water) solid (heater) none () );")
+    for command in ("run", "info"):
+        assert main([command, "-case", str(case), "-region", "airr"]) == 1
+        assert "no region airr. Did you mean 'air'? Allowed: air, heater, water." in capsys.readouterr().err
+    with pytest.raises(InputError, match=r"choose one with -region\. Allowed: air, heater, water"):
+        read_case(case)
+    with pytest.raises(InputError, match="constant/air/polyMesh: no mesh here"):
+        read_case(case, region="air")
 
 
 def test_a_case_of_one_mesh_has_no_regions(case):

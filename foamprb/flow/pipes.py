@@ -1,0 +1,100 @@
+"""Flow along x in a circular pipe, steady or pulsating: the functions that a particle loop calls."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from foamprb.body.ellipsoid import reach
+from foamprb.body.tensor import Tensor, Vector
+from foamprb.flow.base import Floats
+
+
+class PipeArrays(NamedTuple):
+    """Poiseuille flow along x in a circular pipe."""
+
+    radius: float
+    mean_velocity: float
+    length: float
+
+
+_WALL, _INLET, _OUTLET, _NOWHERE = 0, 1, 2, -1
+
+
+def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """u = 2 U (1 − r²/a²), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
+    k = 2.0 * flow.mean_velocity / (flow.radius * flow.radius)
+    r2 = x[1] * x[1] + x[2] * x[2]
+    u = (2.0 * flow.mean_velocity - k * r2, 0.0, 0.0)
+    l = (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return u, l, (0.0, 0.0, 0.0)
+
+
+class WomersleyArrays(NamedTuple):
+    """Poiseuille flow along x in a circular pipe, and an oscillation of its pressure gradient."""
+
+    radius: float
+    mean_velocity: float
+    length: float
+    amplitude: float
+    """Of −(∂p/∂x)/ρ over ω, m/s."""
+    omega: float
+    """1/s."""
+    phase: float
+    real: Floats
+    """Coefficients of the powers of r²/a² in the profile 1 − J₀(i^{3/2} α r/a)/J₀(i^{3/2} α)."""
+    imaginary: Floats
+
+
+def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
+    scale = 1.0 / (flow.radius * flow.radius)
+    s = scale * (x[1] * x[1] + x[2] * x[2])
+    f, g, df, dg = 0.0 * s, 0.0 * s, 0.0 * s, 0.0 * s
+    for k in range(flow.real.shape[0] - 1, -1, -1):
+        df, dg = df * s + f, dg * s + g
+        f, g = f * s + flow.real[k], g * s + flow.imaginary[k]
+    a = flow.omega * t + flow.phase
+    cosine, sine = math.cos(a), math.sin(a)
+    w = flow.amplitude
+    u = 2.0 * flow.mean_velocity * (1.0 - s) + w * (f * sine + g * cosine)
+    slope = 2.0 * scale * (w * (df * sine + dg * cosine) - 2.0 * flow.mean_velocity)
+    u_t = w * flow.omega * (f * cosine - g * sine)
+    return (u, 0.0, 0.0), (0.0, slope * x[1], slope * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (u_t, 0.0, 0.0)
+
+
+def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Where the segment from x0 to x1 first leaves the pipe."""
+    fraction, patch = 1.0, _NOWHERE
+    dx, dy, dz = x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]
+    if x1[0] < 0.0:
+        fraction, patch = max(-x0[0] / dx, 0.0), _INLET
+    elif x1[0] > flow.length:
+        fraction, patch = max((flow.length - x0[0]) / dx, 0.0), _OUTLET
+    if x1[1] * x1[1] + x1[2] * x1[2] > flow.radius * flow.radius:
+        a = dy * dy + dz * dz
+        b = x0[1] * dy + x0[2] * dz
+        c = min(x0[1] * x0[1] + x0[2] * x0[2] - flow.radius * flow.radius, 0.0)
+        # The root of a f² + 2 b f + c that lies ahead, without cancellation.
+        root = math.sqrt(b * b - a * c)
+        hit = -c / (b + root) if b > 0.0 else (root - b) / a
+        if hit <= fraction:
+            fraction, patch = hit, _WALL
+    return host, fraction, patch, patch
+
+
+def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+    """Clearance between the ellipsoid and the wall's tangent plane, m."""
+    n = normal_pipe(flow, _WALL, x)
+    r = math.sqrt(x[1] * x[1] + x[2] * x[2])
+    return flow.radius - r - reach(R, F, n), _WALL, _WALL
+
+
+def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
+    """Unit normal into the fluid, of the wall or of an end."""
+    if triangle == _INLET:
+        return 1.0, 0.0, 0.0
+    if triangle == _OUTLET:
+        return -1.0, 0.0, 0.0
+    r = math.sqrt(x[1] * x[1] + x[2] * x[2]) + 1e-300
+    return 0.0, -x[1] / r, -x[2] / r

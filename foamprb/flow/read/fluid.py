@@ -1,0 +1,176 @@
+"""The fluid of a case: its viscosity and density, from the dictionaries of OpenFOAM's solvers and ``rho``."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import Annotated, Any, Literal, NamedTuple
+
+from foamprb.dictionary.constraints import Positive
+from foamprb.dictionary.dimensions import DENSITY
+from foamprb.dictionary.files import existing
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.mistakes import Mistakes
+from foamprb.dictionary.schema import read_entry
+from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
+from foamprb.errors import InputError
+from foamprb.flow.read.case import available_times
+from foamprb.flow.read.field import Kind, read_field
+from foamprb.flow.read.times import pick_time
+
+FILES = ("transportProperties", "physicalProperties", "thermophysicalProperties")
+"""Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
+_RHO = Kind("volScalarField", "scalar", (DENSITY,), "a density")
+
+
+class CaseViscosity(NamedTuple):
+    """A viscosity: kinematic, m²/s, or dynamic, Pa s; the other is None."""
+
+    nu: float | None
+    mu: float | None
+    temperature: float | None = None
+    """To which it belongs, K, if it depends on one."""
+
+
+def fluid_file(case: Path, region: str) -> Path | None:
+    """The dictionary of the fluid, of the region or else of the case; None if there is none."""
+    for folder in dict.fromkeys((case / "constant" / region, case / "constant")):
+        for name in FILES:
+            if existing(folder / name) is not None:
+                return folder / name
+    return None
+
+
+def read_viscosity(file: Path, case: Path, temperature: float | None = None) -> CaseViscosity:
+    """Read the viscosity of a Newtonian fluid.
+
+    Parameters
+    ----------
+    file
+        What :func:`fluid_file` gives.
+    case
+        The case, for the messages.
+    temperature
+        Of the fluid, K, if the user states one.
+
+    Raises
+    ------
+    InputError
+        The dictionary has none, or one of another kind; or it depends on a temperature, and none is stated.
+    """
+    root = read_dictionary(file, case)
+    if "thermoType" in root.entries or "mixture" in root.entries:
+        return _of_mixture(root, temperature)
+    mistakes = Mistakes()
+    with mistakes:
+        for key, model in (("transportModel", "Newtonian"), ("viscosityModel", "constant")):
+            if key in root.entries:
+                read_entry(root, key, Literal[model])
+    with mistakes:
+        coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
+        if "nu" not in coefficients.entries:
+            raise coefficients.missing(
+                "nu", f"Allowed: {Positive.text}, m2/s; or nu or mu in constantProperties of the cloud."
+            )
+        nu = read_entry(coefficients, "nu", Annotated[Viscosity, Positive])
+    mistakes.raise_any()
+    return CaseViscosity(float(nu), None)
+
+
+def _of_mixture(root: Dictionary, temperature: float | None) -> CaseViscosity:
+    """The viscosity of a ``pureMixture``: constant, or at a temperature by Sutherland or a polynomial."""
+    law = _transport(root)
+    transport = _at(root, "mixture/transport")
+    if law in ("const", "constTransport"):
+        return CaseViscosity(None, float(read_entry(transport, "mu", Annotated[DynamicViscosity, Positive])))
+    if law not in _LAWS:
+        raise root.mistake(
+            f"thermoType: the viscosity of transport {law or '(none)'} is not read. Add nu, m2/s, or mu, "
+            "Pa s, to constantProperties of the cloud."
+        )
+    if temperature is None:
+        raise root.mistake(
+            f"thermoType: with transport {law} the viscosity depends on the temperature. Add TInf, K, to "
+            "constantProperties of the cloud; or nu, m2/s, or mu, Pa s."
+        )
+    mu = _LAWS[law](transport, temperature)
+    if not 0.0 < mu < math.inf:
+        raise transport.mistake(f"gives a viscosity of {mu:g} Pa s at {temperature:g} K.")
+    return CaseViscosity(None, mu, temperature)
+
+
+def _sutherland(transport: Dictionary, T: float) -> float:
+    """μ = A_s √T/(1 + T_s/T)."""
+    As, Ts = (float(read_entry(transport, key, Annotated[float, Positive])) for key in ("As", "Ts"))
+    return As * math.sqrt(T) / (1.0 + Ts / T)
+
+
+def _polynomial(transport: Dictionary, T: float) -> float:
+    """μ = Σ c_k T^k."""
+    entries = [entry for key, entry in transport.entries.items() if key.startswith("muCoeffs<")]
+    numbers = re.findall(r"[^\s()]+", entries[0].text) if entries and isinstance(entries[0], Stream) else []
+    try:
+        return sum(float(c) * T**k for k, c in enumerate(numbers)) if numbers else math.nan
+    except ValueError:
+        raise entries[0].mistake(f"is {entries[0]}. Allowed: a list of numbers.") from None
+
+
+_LAWS: dict[str, Any] = {"sutherland": _sutherland, "polynomial": _polynomial}
+
+
+def _transport(root: Dictionary) -> str:
+    """The word for the transport model: of ``thermoType { transport … }``, or within a name of old."""
+    kind = root.entries.get("thermoType")
+    if isinstance(kind, Dictionary):
+        model = kind.entries.get("transport")
+        return model.text if isinstance(model, Stream) else ""
+    words = re.findall(r"(\w+)Transport\b", kind.text) if isinstance(kind, Stream) else []
+    return words[0] if words else ""
+
+
+def _at(root: Dictionary, path: str) -> Dictionary:
+    for key in path.split("/"):
+        if key not in root.entries:
+            raise root.missing(key, "Allowed: a dictionary { … }, as a pureMixture has it.")
+        root = root.entries[key].dictionary()
+    return root
+
+
+def read_density(file: Path, case: Path) -> float | None:
+    """Read the density, kg/m³: ``rhoInf`` or ``rho``, or that of ``rhoConst``; None if there is none.
+
+    Raises
+    ------
+    InputError
+        The entry is no density.
+    """
+    root = read_dictionary(file, case)
+    for key in ("rhoInf", "rho"):
+        if key in root.entries:
+            return float(read_entry(root, key, Annotated[Density, Positive]))
+    try:
+        state = _at(root, "mixture/equationOfState")
+    except InputError:
+        return None
+    return float(read_entry(state, "rho", Annotated[Density, Positive])) if "rho" in state.entries else None
+
+
+def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
+    """Mean of the field ``rho`` over the cells, kg/m³, and the time's name; None if there is no such field.
+
+    Raises
+    ------
+    InputError
+        The field is broken, or there is no such time.
+    """
+    names = available_times(case) if case.is_dir() else ()
+    if not names:
+        return None
+    name = names[pick_time(case, names, time)]
+    path = case / name / region / "rho"
+    if existing(path) is None:
+        return None
+    mean = float(read_field(path, _RHO, case).cells.mean())
+    return (mean, name) if 0.0 < mean < math.inf else None

@@ -1,0 +1,183 @@
+"""Viscosity and density of the fluid, from the dictionaries of OpenFOAM's solvers and the field ``rho``."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+from foam_writer import header
+from transient_case import SETTINGS
+
+from foamprb.errors import InputError
+from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.settings.reading import read_settings
+
+AIR = """
+thermoType
+{
+    type heRhoThermo; mixture pureMixture; transport %s; thermo hConst; equationOfState %s; specie specie;
+    energy sensibleEnthalpy;
+}
+mixture { specie { molWeight 28.9; } equationOfState { %s } transport { %s } }
+"""
+SUTHERLAND = AIR % ("sutherland", "perfectGas", "", "As 1.4792e-06; Ts 116;")
+
+
+def write(case, name, text):
+    path = case / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    return path
+
+
+def viscosity(case, text, temperature=None, name="thermophysicalProperties"):
+    return read_viscosity(write(case, f"constant/{name}", text), case, temperature)
+
+
+def test_constant_viscosities(tmp_path):
+    assert viscosity(tmp_path, "transportModel Newtonian; nu 1e-6;")[:2] == (1e-6, None)
+    assert viscosity(tmp_path, "viscosityModel constant; nu [0 2 -1 0 0 0 0] 2e-6;")[:2] == (2e-6, None)
+    air = AIR % ("const", "rhoConst", "rho 1.2;", "mu 1.8e-05; Pr 0.7;")
+    assert viscosity(tmp_path, air)[:2] == (None, 1.8e-5)
+    old = "thermoType hPsiThermo<pureMixture<constTransport<specieThermo<hConstThermo<perfectGas>>>>>;"
+    assert viscosity(tmp_path, f"{old} mixture {{ transport {{ mu 3e-5; }} }}")[:2] == (None, 3e-5)
+
+
+def test_sutherlands_law_is_that_of_air(tmp_path):
+    """With OpenFOAM's coefficients air has 18.1 and 21.7 µPa s at 20 and 100 °C (CRC: 18.2 and 21.8)."""
+    found = [viscosity(tmp_path, SUTHERLAND, T) for T in (293.15, 373.15)]
+    assert [v.mu for v in found] == pytest.approx([18.2e-6, 21.8e-6], rel=0.01)
+    assert found[0].mu == pytest.approx(1.4792e-6 * math.sqrt(293.15) / (1.0 + 116.0 / 293.15), rel=1e-14)
+    assert found[0].temperature == 293.15
+
+
+def test_a_polynomial_of_the_temperature(tmp_path):
+    """That of OpenFOAM's heatExchanger for air."""
+    text = AIR % (
+        "polynomial",
+        "icoPolynomial",
+        "",
+        "muCoeffs<8> ( 1.5061e-06 6.16e-08 -1.819e-11 0 0 0 0 0 );",
+    )
+    assert viscosity(tmp_path, text, 300.0).mu == pytest.approx(1.5061e-6 + 6.16e-8 * 300 - 1.819e-11 * 9e4)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            SUTHERLAND,
+            r"transport sutherland the viscosity depends on the temperature. Add TInf, K, to constantP",
+        ),
+        (
+            AIR % ("WLF", "rhoConst", "", ""),
+            r"the viscosity of transport WLF is not read. Add nu, m2/s, or mu",
+        ),
+        (AIR % ("const", "rhoConst", "", "Pr 1;"), r"mixture/transport/mu is missing"),
+        (AIR % ("const", "rhoConst", "", "mu -1;"), r"mixture/transport/mu is '-1'"),
+        (
+            AIR % ("const", "rhoConst", "", "mu [0 2 -1 0 0 0 0] 1;"),
+            r"kinematic viscosity, not \[1 -1 -1 0 0",
+        ),
+        ("thermoType { transport const; }", r"mixture is missing"),
+        (
+            "phases (water air);",
+            r"nu is missing. Allowed: a number > 0, m2/s; or nu or mu in constantProperties",
+        ),
+    ],
+)
+def test_a_viscosity_that_cannot_be_read_says_what_to_add(text, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        viscosity(tmp_path, text)
+
+
+def test_densities(tmp_path):
+    def density(text):
+        return read_density(write(tmp_path, "constant/thermophysicalProperties", text), tmp_path)
+
+    assert density(AIR % ("const", "rhoConst", "rho 1.2;", "mu 1;")) == 1.2
+    assert density(SUTHERLAND) is None
+    assert density("rho [1 -3 0 0 0 0 0] 998;") == 998.0
+
+
+def test_the_dictionary_of_the_region_and_of_the_solver_counts_first(tmp_path):
+    assert fluid_file(tmp_path, "air") is None
+    for name in (
+        "thermophysicalProperties",
+        "physicalProperties",
+        "transportProperties",
+        "air/physicalProperties",
+    ):
+        path = write(tmp_path, f"constant/{name}", "nu 1;")
+        assert fluid_file(tmp_path, "air") == path
+    assert fluid_file(tmp_path, "") == tmp_path / "constant/transportProperties"
+
+
+RHO = header("volScalarField", "rho") + (
+    "dimensions [1 -3 0 0 0 0 0]; internalField nonuniform List<scalar> 4(1.1 1.2 1.3 1.4); boundaryField { }"
+)
+
+
+def test_the_mean_of_the_field_is_the_density_of_last_resort(tmp_path):
+    assert mean_density(tmp_path, "", "latestTime") is None
+    write(tmp_path, "1/rho", RHO)
+    write(tmp_path, "2/rho", RHO.replace("1.1 1.2", "1.5 1.6"))
+    assert mean_density(tmp_path, "", "latestTime") == (pytest.approx(1.45), "2")
+    assert mean_density(tmp_path, "", 1) == (pytest.approx(1.25), "1")
+
+
+@pytest.fixture
+def case(tmp_path):
+    write(tmp_path, "constant/softCloudProperties", header("dictionary", "softCloudProperties") + SETTINGS)
+    write(tmp_path, "constant/positions", "((0.5 0.5 0.5))")
+    return tmp_path
+
+
+def change(case, old, new):
+    path = case / "constant/softCloudProperties"
+    assert old in path.read_text()
+    path.write_text(path.read_text().replace(old, new))
+
+
+def test_the_clouds_own_entries_go_before_the_cases(case):
+    write(case, "constant/thermophysicalProperties", AIR % ("const", "rhoConst", "rho 1.2;", "mu 1.8e-05;"))
+    assert (read_settings(case).fluid.rho, read_settings(case).fluid.mu) == (1000.0, pytest.approx(1.8e-5))
+    change(case, "rhoInf 1000;", "")
+    assert (read_settings(case).fluid.rho, read_settings(case).fluid.mu) == (1.2, pytest.approx(1.8e-5))
+    change(case, "rho0 1000;", "rho0 1000; mu 2e-5;")
+    assert read_settings(case).fluid.nu == pytest.approx(2e-5 / 1.2)
+    change(case, "mu 2e-5;", "nu 3e-5;")
+    assert read_settings(case).fluid.nu == 3e-5
+    change(case, "nu 3e-5;", "nu 3e-5; mu 2e-5;")
+    with pytest.raises(
+        InputError, match=re.escape("constantProperties gives nu and mu. Allowed: one of them.")
+    ):
+        read_settings(case)
+
+
+def test_a_stated_temperature_and_the_field_of_the_density(case, caplog, monkeypatch):
+    monkeypatch.setattr("foamprb.settings.fluid.log.propagate", True)
+    write(case, "constant/thermophysicalProperties", SUTHERLAND)
+    change(case, "rhoInf 1000;", "")
+    with pytest.raises(InputError) as caught:
+        read_settings(case)
+    assert "2 mistakes" in str(caught.value)
+    assert "Add TInf, K, to constantProperties" in str(caught.value)
+    assert "rhoInf is missing. Allowed: a number > 0; also in constant/thermophysicalP" in str(caught.value)
+    change(case, "rho0 1000;", "rho0 1000; TInf 293.15;")
+    write(case, "3/rho", RHO)
+    caplog.set_level("INFO")
+    fluid = read_settings(case).fluid
+    assert (fluid.rho, fluid.mu) == (pytest.approx(1.25), pytest.approx(1.8146e-5, rel=1e-4))
+    assert "that of the field rho at time 3, its mean" in caplog.text
+    assert "at 293.15 K" in caplog.text
+
+
+def test_without_any_dictionary_the_message_says_which_entry_to_add(case):
+    with pytest.raises(
+        InputError, match=r"nu is missing. Allowed: a number > 0, m2/s; or mu, Pa s; or nu in con"
+    ):
+        read_settings(case)
+    change(case, "rho0 1000;", "rho0 1000; nu 1e-6;")
+    assert read_settings(case).fluid.nu == 1e-6
