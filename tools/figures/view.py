@@ -59,7 +59,6 @@ def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
     scale = 2 if shot.width < 500 else 1
     tab = browser.new_page(viewport=size, color_scheme=shot.scheme, device_scale_factor=scale)
     tab.goto(page.as_uri())
-    tab.wait_for_function("window.foamprb")
     tab.evaluate("() => foamprb.ready")
     tab.evaluate(f"() => {{ {shot.script} }}")
     tab.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
