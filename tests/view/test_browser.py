@@ -171,6 +171,9 @@ class TestPicture:
         body = saturation(theirs) > 0.35
         assert 0.02 < body.mean() < 0.5
         both = body & (saturation(ours) > 0.35)
+        # The same light on the same normals: bright where theirs is bright.
+        brightness = [image.mean(axis=2)[both] for image in (ours, theirs)]
+        assert np.corrcoef(*brightness)[0, 1] > 0.9
         assert both.sum() / (body | (saturation(ours) > 0.35)).sum() > 0.85
         paper = (theirs > 250).all(axis=2)
         assert ((ours > 250).all(axis=2) == paper).mean() > 0.99
