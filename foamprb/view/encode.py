@@ -132,7 +132,9 @@ def pack_field(field: Field) -> Packed:
         own = values[:, :, k][known[:, :, k]]
         least, most = (float(own.min()), float(own.max())) if own.size else (0.0, 0.0)
         size = (most - least) / (2**VALUE_BITS - 2)
-        size = size if size > 0.0 and math.isfinite(size) else 1.0
+        if not size > 0.0:
+            # One value only, which is known as it is.
+            size = abs(least) * 2.0**-POSITION_BITS or 1.0
         whole[:, :, k][known[:, :, k]] = 1 + np.rint((own - least) / size).astype(np.int64)
         low.append(least - size)
         step.append(size)

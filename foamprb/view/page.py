@@ -163,7 +163,9 @@ class Page:
 
     def _bodies(self, grid: Grid) -> dict[str, Any]:
         bodies = self._scene.bodies
-        codes = {"status": bodies.status} | bodies.codes | {"fate": self._scene.fate}
+        wanted = self._scene.colour[0]
+        told = {name: own for name, own in bodies.codes.items() if _tells(own) or name == wanted}
+        codes = {"status": bodies.status} | told | {"fate": self._scene.fate}
         return {
             "bodies": {
                 "ids": self._column(pack(bodies.ids)),
@@ -276,6 +278,11 @@ def _corners(
         return box(None, bodies)
     low, high = np.min([p.min(axis=0) for p in seen], axis=0), np.max([p.max(axis=0) for p in seen], axis=0)
     return low, high
+
+
+def _tells(codes: Codes) -> bool:
+    """Whether any body has a name, as the reason of a failure has where none failed."""
+    return any(codes.meanings[k] for k in np.unique(codes.codes).tolist() if k < len(codes.meanings))
 
 
 @cache

@@ -332,15 +332,15 @@ def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
 
     if last > 0:
         drawing.plotter.add_slider_widget(
-            on_slide, (0, last), value=scene.first, title="", fmt="%.0f", color=style.ink, style="modern",
-            pointa=(0.62, 0.07), pointb=(0.96, 0.07),
+            on_slide, (0, last), value=scene.first, title="", fmt=" ", color=style.ink, style="modern",
+            pointa=(0.62, 0.05), pointb=(0.97, 0.05), slider_width=0.025, tube_width=0.006,
         )  # fmt: skip
     drawing.plotter.show()
 
 
 def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off_screen: bool) -> Drawing:
     """The scene without its bodies."""
-    plotter = pyvista.Plotter(off_screen=off_screen, window_size=list(size), lighting=None)
+    plotter = pyvista.Plotter(off_screen=off_screen or None, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)
     plotter.enable_anti_aliasing("msaa", multi_samples=8)
     light = vtkLight()

@@ -60,9 +60,16 @@ export function number(value, digits = 4) {
   return `${String(Number(mantissa)).replace("-", "−")} × 10${power}`;
 }
 
-export function written(value, unit, most = value) {
-  const scale = readable(unit, most);
-  return `${number(value / scale.factor)}${scale.unit ? ` ${pretty(scale.unit)}` : ""}`;
+// A value with its unit, in that for numbers up to `most`, and no more exactly than in steps of `step`.
+export function written(value, unit, most = value, step = 0) {
+  const known = step > 0 && Number.isFinite(value) ? roundTo(value, step) : value;
+  const scale = readable(unit, known === 0 ? most : most === value ? known : most);
+  return `${number(known / scale.factor)}${scale.unit ? ` ${pretty(scale.unit)}` : ""}`;
+}
+
+function roundTo(value, step) {
+  const power = 10 ** Math.floor(Math.log10(step));
+  return Math.round(value / power) * power;
 }
 
 // m/s2 → m/s², N m → N m.

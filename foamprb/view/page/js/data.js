@@ -81,6 +81,11 @@ class Field {
     return code === 0 ? NaN : this.low[component] + this.step[component] * code;
   }
 
+  // How exactly a value is known.
+  stepOf(part) {
+    return part === "magnitude" ? Math.max(...this.step) : this.step[Math.max(0, this.own.indexOf(part))];
+  }
+
   value(frame, body, part) {
     if (part !== "magnitude") return this.at(frame, body, Math.max(0, this.own.indexOf(part)));
     let sum = 0;

@@ -340,9 +340,9 @@ function setColour(name, part, range = null) {
   for (const id of ["range-row", "range-buttons", "map-row"]) $(id).hidden = Boolean(codes);
   if (codes) {
     setTexture({ bytes: tableOfNames(codes.meanings.length), texture: null }, true);
-    const present = new Set();
-    for (let t = 0; t < (codes.constant ? 1 : data.m); t++) for (let i = 0; i < data.n; i++) present.add(codes.code(t, i));
-    legends[0] = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present.has(k) && word) };
+    const present = new Uint8Array(256);
+    for (const code of codes.whole) present[code] = 1;
+    legends[0] = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present[k] && word) };
     showLegends();
   } else {
     setRange(...(range ?? data.fields[name].ranges[part]), false);
@@ -551,10 +551,10 @@ function showCard() {
     const p = 3 * (data.n * t + i), { middle, size } = data.scene.frame;
     const x = [0, 1, 2].map((c) => middle[c] + size * data.x[p + c]);
     const { factor, unit } = readable("m", size);
-    rows.push([`position (${unit})`, x.map((v) => number(v / factor, 4)).join(", "), null]);
+    rows.push([`position (${unit})`, x.map((v) => number((Math.abs(v) < 1e-6 * size ? 0 : v) / factor, 4)).join(", "), null]);
     for (const f of Object.values(data.fields)) {
       if (f.name === "t0" || f.name === "t1") continue;
-      for (const part of f.parts) rows.push([nameOf(f, part), written(f.value(t, i, part), f.unit), { name: f.name, part }]);
+      for (const part of f.parts) rows.push([nameOf(f, part), written(f.value(t, i, part), f.unit, undefined, f.stepOf(part)), { name: f.name, part }]);
     }
   }
   const list = $("card-rows");

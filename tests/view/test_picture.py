@@ -1,0 +1,135 @@
+"""Pictures and films by VTK, which draws them without a display by Debian's libegl1."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import pyvista
+from PIL import Image
+from view_run import motion, write_run
+
+from foamprb.cli import main
+from foamprb.view.colours import DARK, LIGHT, rgb
+from foamprb.view.picture import draw, mark, sphere_for, window
+from foamprb.view.results import open_results
+from foamprb.view.show import Request, make_scene
+
+drawn = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("picture") / "cube"
+    few = motion(12, 5)
+    write_run(folder, few._replace(radius=4.0 * few.radius))
+    return folder
+
+
+def image(path):
+    return np.array(Image.open(path).convert("RGB"))
+
+
+class TestMeshes:
+    def test_a_body_is_the_unit_sphere_under_F(self, random):
+        """Points and normals: x = c + s F X, and n is at right angles to the images of the tangents."""
+        sphere = sphere_for(1)
+        F = np.eye(3) + 0.4 * random.standard_normal((2, 3, 3))
+        place, size = random.standard_normal((2, 3)), np.array([0.5, 2.0])
+        mesh = draw(sphere, place, F, size, np.zeros((2, 3), dtype=np.uint8))
+        v = len(sphere.points)
+        points = np.asarray(mesh.points).reshape(2, v, 3)
+        normals = np.asarray(mesh.point_data["Normals"]).reshape(2, v, 3)
+        for k in range(2):
+            expected = place[k] + size[k] * sphere.points @ F[k].T
+            np.testing.assert_allclose(points[k], expected, atol=1e-6)
+            tangents = np.cross(sphere.points, random.standard_normal(3)) @ F[k].T
+            assert np.abs(np.einsum("ij,ij->i", normals[k], tangents)).max() < 1e-9
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1.0, rtol=1e-9)
+
+    def test_the_sphere_is_round_and_coarser_for_more(self):
+        sizes = [len(sphere_for(n).points) for n in (10, 10_000, 100_000)]
+        assert sizes == sorted(sizes, reverse=True)
+        assert sizes[-1] < 100
+        np.testing.assert_allclose(np.linalg.norm(sphere_for(10).points, axis=1), 1.0, rtol=1e-12)
+
+    def test_the_mark_lies_on_the_sphere_along_three_circles_and_around_one_axis(self):
+        shape = mark()
+        np.testing.assert_allclose(np.linalg.norm(shape.points, axis=1), 1.0, rtol=1e-12)
+        near = np.abs(shape.points).min(axis=1) < 0.05
+        around = shape.points[:, 0] > 0.95
+        assert (near | around).all()
+        assert (np.abs(shape.points).min(axis=0) < 0.05).all()
+
+
+@drawn
+class TestPictures:
+    def test_a_picture(self, case, tmp_path, capfd):
+        path = tmp_path / "a.png"
+        options = ["-png", str(path), "-size", "800x500", "-slice", "x", "-colour", "U:y"]
+        assert main(["view", "-case", str(case), *options]) == 0
+        captured = capfd.readouterr()
+        assert captured.err == ""
+        assert captured.out.startswith("12 bodies")
+        found = image(path)
+        assert found.shape == (500, 800, 3)
+        assert (found[2, 400] == rgb(LIGHT.paper)).all()
+        assert len(np.unique(found.reshape(-1, 3), axis=0)) > 1000
+
+    def test_a_dark_one(self, case, tmp_path):
+        path = tmp_path / "b.png"
+        assert main(["view", "-case", str(case), "-png", str(path), "-size", "400x300", "-dark"]) == 0
+        assert (image(path)[2, 200] == rgb(DARK.paper)).all()
+
+    @pytest.mark.parametrize("colour", ["injector", "fate", "d"])
+    def test_other_colours(self, case, tmp_path, colour):
+        path = tmp_path / "c.png"
+        options = ["-png", str(path), "-size", "400x300", "-colour", colour]
+        assert main(["view", "-case", str(case), *options]) == 0
+        assert path.exists()
+
+    def test_a_gif_has_all_times(self, case, tmp_path):
+        pytest.importorskip("imageio")
+        path = tmp_path / "a.gif"
+        assert main(["view", "-case", str(case), "-film", str(path), "-size", "300x200"]) == 0
+        with Image.open(path) as film:
+            assert film.n_frames == 5
+            frames = []
+            for k in range(5):
+                film.seek(k)
+                frames.append(np.array(film.convert("RGB")).astype(int))
+        assert all(np.abs(a - b).mean() > 0.2 for a, b in pairwise(frames))
+        assert [file.name for file in tmp_path.iterdir()] == ["a.gif"]
+
+    def test_a_film_has_all_times(self, case, tmp_path):
+        ffmpeg = pytest.importorskip("imageio_ffmpeg")
+        path = tmp_path / "a.mp4"
+        assert main(["view", "-case", str(case), "-film", str(path), "-size", "321x201"]) == 0
+        frames, seconds = ffmpeg.count_frames_and_secs(str(path))
+        assert frames == 5
+        assert seconds == pytest.approx(1.25)
+
+    def test_a_time_of_ones_own(self, case, tmp_path):
+        paths = [tmp_path / f"{k}.png" for k in range(2)]
+        for path, time in zip(paths, ("0", "0.2"), strict=True):
+            assert (
+                main(["view", "-case", str(case), "-png", str(path), "-size", "300x200", "-time", time]) == 0
+            )
+        assert (image(paths[0]) != image(paths[1])).any()
+
+    def test_a_window_has_a_slider_for_the_time(self, case, monkeypatch):
+        """As far as it goes without a display: nobody looks at it."""
+        scene = make_scene(Request(case), open_results(case), range(5))
+        asked = {}
+
+        def add_slider(_, callback, limits, **more):
+            asked["limits"] = limits
+            callback(1.2)
+
+        monkeypatch.setattr(pyvista, "OFF_SCREEN", True)
+        monkeypatch.setattr(pyvista.Plotter, "add_slider_widget", add_slider)
+        monkeypatch.setattr(pyvista.Plotter, "show", lambda plotter: asked.update(names=list(plotter.actors)))
+        window(scene, (300, 200), LIGHT)
+        assert asked["limits"] == (0, 4)
+        assert {"bodies", "mark", "clock", "caption", "title", "legend"} <= set(asked["names"])

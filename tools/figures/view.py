@@ -1,0 +1,93 @@
+"""Pictures of the page that ``foamprb view`` writes: docs/view.png, view-dark.png and view-phone.png.
+
+Runs the pipe case of the tree and opens its page in Chromium, which draws by software, so that any machine
+makes the same pictures. Needs Chromium on PATH and the extra ``browser``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from foamprb.cli import main as foamprb
+
+ROOT = Path(__file__).resolve().parents[2]
+SOFTWARE = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+)
+
+
+class Shot(NamedTuple):
+    """A picture: its file, the window, and what is done on the page before it is taken."""
+
+    file: str
+    width: int
+    height: int
+    scheme: str
+    script: str
+
+
+# Chooses the body nearest to a place, given in shares of the picture.
+CHOOSE = """
+    const choose = (across, down) => {
+        const { data, eye, bodies, placeOf } = foamprb;
+        let spot = null, least = Infinity;
+        for (let i = 0; i < data.n; i++) {
+            const { x, y } = placeOf(i), off = Math.hypot(x - across * eye.width, y - down * eye.height);
+            if (bodies.shown[i] && off < least) { least = off; spot = [x, y]; }
+        }
+        foamprb.choose(foamprb.bodyAt(...spot));
+    };
+"""
+SHOTS = (
+    Shot("view.png", 1280, 760, "light", ""),
+    Shot("view-dark.png", 1280, 760, "dark", f"{CHOOSE} foamprb.eye.zoom(0.28, 520, 360); choose(0.6, 0.5);"),
+    Shot("view-phone.png", 390, 780, "light", f"{CHOOSE} choose(0.5, 0.4);"),
+)
+
+
+def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
+    """Open a page, do what the shot says, and save what is seen."""
+    size = {"width": shot.width, "height": shot.height}
+    scale = 2 if shot.width < 500 else 1
+    tab = browser.new_page(viewport=size, color_scheme=shot.scheme, device_scale_factor=scale)
+    tab.goto(page.as_uri())
+    tab.evaluate("() => foamprb.ready")
+    tab.evaluate(f"() => {{ {shot.script} }}")
+    tab.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    tab.screenshot(path=folder / shot.file)
+    tab.close()
+
+
+def main() -> None:
+    """Run the case and take the pictures."""
+    from playwright.sync_api import sync_playwright
+
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--output", type=Path, default=ROOT / "docs", metavar="DIR", help="[docs]")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        case = Path(scratch) / "pipe"
+        shutil.copytree(ROOT / "cases/pipe", case, ignore=shutil.ignore_patterns("postProcessing"))
+        page = Path(scratch) / "pipe.html"
+        for words in (["run"], ["view", "-output", str(page)]):
+            if foamprb([words[0], "-case", str(case), *words[1:]]) != 0:
+                raise SystemExit(1)
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(
+                executable_path=shutil.which("chromium"), args=list(SOFTWARE)
+            )
+            for shot in SHOTS:
+                take(browser, page, shot, options.output)
+            browser.close()
+
+
+if __name__ == "__main__":
+    main()
