@@ -83,8 +83,8 @@ def lift_coefficient(capillary_number: float) -> float:
 def estimate(sphere: Sphere, around: Surroundings, residence_time: float) -> Estimate:
     """Dimensionless numbers, speeds and distances of a soft sphere.
 
-    All are those of a round body, alone, and the lift is a point stresslet's, about 5/3 (R/h)² too large: they
-    tell which models to use, not what comes out.
+    All are those of a round body, alone, and the lift is a point stresslet's, too large by some 5/3 (R/h)² of
+    itself: they tell which models to use, not what comes out.
 
     Parameters
     ----------
