@@ -159,8 +159,8 @@ def hindrance(k: Vector, n: Vector, h: Scalar, gap: Scalar) -> Tensor:
     the more it is held back if flat towards it, and the less if pointed. The tensors of several walls are
     added up (Oseen), for :func:`hindered_resistance`.
 
-    Of ellipsoids with axes in the ratios 1.3 : 1 : 0.77, 2 : 1 : 1 and 1.7 : 1.7 : 1 it is within 3 % of the
-    Stokes flow around the body, in any orientation, if the gap is above 2R, and within 8 % at R.
+    Of ellipsoids with axes in the ratios 1.3 : 1 : 0.77, 2 : 1 : 1 and 1.7 : 1.7 : 1, however they lie, it is
+    within 2 % of the Stokes flow around the body at gaps of 2R, 5 % at R and 25 % at 0.3R.
 
     Parameters
     ----------

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.validation import references_soft as soft
 from foamprb.validation.references import Floats
 
 IDENTITY = np.eye(3)
@@ -39,6 +40,25 @@ def brenner_drag(h: float, terms: int = 200) -> float:
     below = (1.0 - scale) ** 2 - m**2 * np.sinh(alpha) ** 2 * scale
     series = n * (n + 1.0) / ((2.0 * n - 1.0) * (2.0 * n + 3.0)) * (above / below - 1.0)
     return float(4.0 / 3.0 * np.sinh(alpha) * series.sum())
+
+
+# --- Lift ---------------------------------------------------------------------------------------------------
+
+
+def lift_coefficient(Ca: float) -> float:
+    """k = v₃ h²/(γ̇ R³) of a neo-Hooke body in steady shear, far above the wall.
+
+    −9 S₃₃/(64π μ γ̇ R³) (Smart & Leighton 1991) with the stresslet of the solid's side
+    (:func:`foamprb.validation.references_soft.particle_stress`).
+    """
+    body = soft.Body(Ca)
+    F = soft.steady(SHEAR_OVER_WALL, body)
+    return float(-3.0 / 16.0 * soft.particle_stress(F, SHEAR_OVER_WALL, body)[2, 2])
+
+
+def lifted_height(start: float, k: float, t: float) -> float:
+    """Distance from the wall after γ̇t, (h₀³ + 3 k γ̇t)^{1/3}, of a body that the point stresslet lifts."""
+    return float(np.cbrt(start**3 + 3.0 * k * t))
 
 
 # --- Stokes flow above the wall -----------------------------------------------------------------------------
