@@ -32,6 +32,12 @@ FLUID_SHARE = 1.0 / 32.0
 """Share of δ_f that counts: what is not linear in time of the fluid's gradient is not sampled for order 2."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
+LONGEST = 0.5
+"""Longest step times the largest component of the fluid's velocity gradient.
+
+Beyond, the exponential and the series of the rate of Ω end too early, which no estimate sees, and three
+samples say little of a gradient that may turn with the body.
+"""
 
 
 def largest(T: Tensor) -> Scalar:
@@ -65,6 +71,11 @@ def relative_size(Omega: Tensor, b_e: Tensor, strain: Scalar) -> Scalar:
         :func:`strain_scale` of the step.
     """
     return np.maximum(largest(Omega), largest(strain_by(Omega, b_e)) / strain)
+
+
+def longest_step(l_f: Tensor) -> Scalar:
+    """The step, s, that no estimate may exceed, for a velocity gradient of the fluid at its start, 1/s."""
+    return LONGEST / (largest(l_f) + 1e-300)
 
 
 def path_error(h: Scalar, R: Scalar, v: Vector, a0: Vector, a1: Vector) -> Scalar:

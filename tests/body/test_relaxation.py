@@ -79,7 +79,9 @@ def test_a_body_with_two_equal_rates_is_no_exception():
     """A sphere, whose normal rates are equal, and one that nearly is."""
     for stretch in ((1.0, 1.0, 1.0), (1.0 + 1e-9, 1.0, 1.0 - 1e-9)):
         *_, n = assemble(stretch)
-        found = respond(n, responses(n, 0.3)[1], 0.3, (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0), AT_REST, AT_REST)
+        found = respond(
+            n, responses(n, 0.3)[1], 0.3, (1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0), AT_REST, AT_REST
+        )
         # A sphere relaxes as d_s = −σ'/(3 μ_f), σ' = 2 μ ε: at the rate 2μ/(3μ_f).
         rate = 2.0 * MU / (3.0 * MU_F)
         expected = (1.0 - np.exp(-rate * 0.3)) / rate

@@ -41,6 +41,7 @@ from foamprb.body.tensor import (
     principal_frame,
     refined_frame,
     scale,
+    skew,
     stretches_in_frame,
     to_frame,
     transpose,
@@ -436,10 +437,11 @@ def present_step(
 
 
 def distance(bodies: Bodies, F: tuple, exact: tuple) -> Array:
-    """Error of F in the sense of :mod:`foamprb.body.error_control`."""
+    """Error of F as :mod:`foamprb.body.error_control` has it: of the strain over it, or of the attitude."""
     b_e = finger(exact, bodies.M)
-    Omega = add(dot(F, inverse(exact)), spread(-np.eye(3), len(bodies.mu)))
-    return control.relative_size(Omega, b_e, control.strain_scale(b_e, scale(0.0, Omega)))
+    strain = control.strain_scale(b_e, scale(0.0, b_e))
+    change = control.largest(add(finger(F, bodies.M), scale(-1.0, b_e)))
+    return np.maximum(change / strain, control.largest(skew(dot(F, inverse(exact)))))
 
 
 def local_errors(h: float, times: tuple[float, ...]) -> list[tuple]:
@@ -502,8 +504,10 @@ def advance(
     rounds = 0
     while (rows := np.flatnonzero(current < last)).size:
         rest = (current[rows] + 1) * dt - t[rows]
-        h = np.where(size[rows] >= rest - 1e-6 * dt, rest, np.minimum(size[rows], 0.5 * rest))
         some, here, shape = take(bodies, rows), pick(x, rows), pick(F, rows)
+        if step is pair_step:
+            size[rows] = np.minimum(size[rows], control.longest_step(flow(t[rows], here)[1]))
+        h = np.where(size[rows] >= rest - 1e-6 * dt, rest, np.minimum(size[rows], 0.5 * rest))
         s = step(some, fluid, flow, t[rows], here, shape, h, tolerance)
         good = s.error <= tolerance
         evaluations[rows] += s.evaluations
