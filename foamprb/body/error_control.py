@@ -1,0 +1,121 @@
+"""What the error of a step is measured by, and the size of the next step.
+
+An error of the deformation gradient is F = exp(Ω) F_exact. Its elastic strain is then off by Ω b_e + b_e
+Ωᵀ, its attitude by Ω itself. The measure is the larger of |Ω| and of that change over |b_e − I|: a body
+of Ca = 10⁻⁵ whose strain is 10⁻⁵ has it right to the tolerance as a soft one has, and so its stress. The
+attitude is held to the same number in radians.
+
+The pair of order 3(2) of :mod:`foamprb.body.exponential_runge_kutta` has two estimates. With δ₁ the part that
+the slope of N has of the solution of order 2, and δ_f that of the fluid's gradient,
+
+    δ₁ + δ_f/32 ≤ tolerance
+
+says that the solution of order 2 will do, and two evaluations are enough; its error is smaller by one
+order in h. Else the third is made, and δ₂, the difference of the two solutions, is the error of order 2.
+That of the solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), so that a step is
+accepted for
+
+    δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, dot, transpose
+
+LEAST_STRAIN = 1e-6
+"""Smaller elastic strains count as this."""
+FLUID_SHARE = 1.0 / 32.0
+"""Share of δ_f that counts: what is not linear in time of the fluid's gradient is not sampled for order 2."""
+SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
+"""Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
+LONGEST = 0.5
+"""Longest step times the largest component of the fluid's velocity gradient.
+
+Beyond, the exponential and the series of the rate of Ω end too early, which no estimate sees, and three
+samples say little of a gradient that may turn with the body.
+"""
+
+
+def largest(T: Tensor) -> Scalar:
+    """Largest magnitude among the components."""
+    p = np.maximum(np.maximum(abs(T[0]), abs(T[1])), np.maximum(abs(T[2]), abs(T[3])))
+    q = np.maximum(np.maximum(abs(T[4]), abs(T[5])), np.maximum(abs(T[6]), abs(T[7])))
+    return np.maximum(np.maximum(p, q), abs(T[8]))
+
+
+def strain_by(Omega: Tensor, b_e: Tensor) -> Tensor:
+    """Ω b_e + b_e Ωᵀ, the change of b_e along Ω."""
+    T = dot(Omega, b_e)
+    return add(T, transpose(T))
+
+
+def strain_scale(b_e: Tensor, Omega: Tensor) -> Scalar:
+    """Largest |b_e − I| at the two ends of a step Ω, and at least :data:`LEAST_STRAIN`."""
+    start = add_identity(b_e, -1.0)
+    end = add(start, strain_by(Omega, b_e))
+    return np.maximum(np.maximum(largest(start), largest(end)), LEAST_STRAIN)
+
+
+def relative_size(Omega: Tensor, b_e: Tensor, strain: Scalar) -> Scalar:
+    """Size of a small difference Ω of two deformation gradients.
+
+    Parameters
+    ----------
+    b_e
+        Elastic b_e, in the frame of Ω.
+    strain
+        :func:`strain_scale` of the step.
+    """
+    return np.maximum(largest(Omega), largest(strain_by(Omega, b_e)) / strain)
+
+
+def longest_step(l_f: Tensor) -> Scalar:
+    """The step, s, that no estimate may exceed, for a velocity gradient of the fluid at its start, 1/s."""
+    return LONGEST / (largest(l_f) + 1e-300)
+
+
+def path_error(h: Scalar, R: Scalar, v: Vector, a0: Vector, a1: Vector) -> Scalar:
+    """What h²/12 (a₀ − a₁), the error of the trapezoidal rule, is of the way h |v| and the radius.
+
+    The position is advanced by x' = x + h/2 (v₀ + v₁) + h²/12 (a₀ − a₁), which has that part already: its
+    error is of a higher order yet where the flow is smooth.
+
+    Parameters
+    ----------
+    h, R
+        Step, s, and radius, m.
+    v
+        Velocity, m/s.
+    a0, a1
+        Accelerations ∂u/∂t + ∇u·v at the ends of the step, m/s².
+    """
+    x, y, z = a0[0] - a1[0], a0[1] - a1[1], a0[2] - a1[2]
+    way = h * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + R
+    return h * h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / way
+
+
+def step_factor(third: bool, difference: float, path: float, tolerance: float) -> float:
+    """Length of the next step over that of this one.
+
+    Parameters
+    ----------
+    third
+        Whether the step has gone to order 3.
+    difference
+        δ₂ if so.
+    path
+        :func:`path_error`.
+    tolerance
+        Largest error of a step.
+    """
+    if not math.isfinite(difference + path):
+        return LEAST
+    factor = MOST
+    if third:
+        factor = SAFETY * (tolerance**0.75 / (difference + 1e-300)) ** (1.0 / 3.0)
+    factor = min(factor, SAFETY * math.sqrt(tolerance / (path + 1e-300)))
+    return min(MOST, max(LEAST, factor))

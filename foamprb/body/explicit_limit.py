@@ -1,0 +1,128 @@
+"""For how long a step the paper's scheme is stable, whatever shape the body has.
+
+The scheme takes the traction σ̃ at the old deformation gradient and its old rate A (46), and the elastic
+stress at the new one. A disturbance Y = δA F⁻¹ of the rate that changes its sign with every step neither
+grows nor decays where
+
+    2 Y b + ½ Δt² c E(Y) − Δt c J μ_f D(Y) = 0,   b = F Fᵀ,   c = 5/(ρ_s R²).
+
+Here −μ_f D is the change of the traction, and of the stress of the solid's own viscosity, by the body's
+velocity gradient (`traction_slopes` and `shear_coefficients` of :mod:`foamprb.body.rosenbrock`). E(Y) =
+δτ − tr(Y) τ is the tangent of the elastic stress less that of the traction's Piola stress, the two in
+balance. In the particle frame the components ij and ji decouple from the rest, and so do the three ii.
+There remain three 2×2 matrices and one of 3×3; the step is stable as long as all their eigenvalues have
+positive real parts.
+
+A sphere without elasticity has D = 3, and 4 in dilation: Δt < 2 τ_s and 3/2 τ_s with τ_s = ρ_s R²/(15
+μ_f). A thin axis has little inertia, so that the limit shrinks as the square of the shortest axis;
+elasticity moves it up. Beyond the limit the scheme does not blow up: the oscillation saturates, and the
+body stays shorter than it should be.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from foamprb.body.ellipsoid import Integrals
+from foamprb.body.rosenbrock import Elasticity, shear_coefficients, traction_slopes
+from foamprb.body.tensor import Scalar, Tensor, Vector, det
+
+_TRACTION = 4.0
+"""No eigenvalue of D b⁻¹ exceeds this times 1/λ², λ the smallest stretch."""
+
+
+def safe_step(stretches: Vector, c: Scalar, mu_f: Scalar, eta: Scalar) -> Scalar:
+    """A step, s, that is stable whatever the elasticity: 3/2 τ_s λ²/J for η_s = 0, λ the smallest stretch.
+
+    Parameters
+    ----------
+    stretches
+        λ_a.
+    c
+        5/(ρ_s R²), m/kg.
+    mu_f, eta
+        Viscosities of the fluid and of the solid, Pa s.
+    """
+    x, y, z = stretches
+    least = np.minimum(x, np.minimum(y, z))
+    return 2.0 * least * least / (c * x * y * z * (_TRACTION * mu_f + 2.0 * eta))
+
+
+def _pair_is_stable(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> Any:
+    return (a + d > 0.0) & (a * d - b * c > 0.0)
+
+
+def _is_stable(M: Tensor) -> Any:
+    """Whether the eigenvalues of M have positive real parts (Routh and Hurwitz)."""
+    t = M[0] + M[4] + M[8]
+    minors = M[0] * M[4] - M[1] * M[3] + M[0] * M[8] - M[2] * M[6] + M[4] * M[8] - M[5] * M[7]
+    d = det(M)
+    return (t > 0.0) & (d > 0.0) & (t * minors > d)
+
+
+def is_stable(
+    dt: Scalar,
+    stretches: Vector,
+    g: Integrals,
+    e: Elasticity,
+    tau: Vector,
+    c: Scalar,
+    mu_f: Scalar,
+    eta: Scalar,
+) -> Any:
+    """Whether the paper's step dt is stable for a shape.
+
+    Parameters
+    ----------
+    dt
+        The step, s.
+    stretches, g
+        λ_a and the integrals of them.
+    e, tau
+        Elasticity, with the resistance to dilation, and normal Kirchhoff stresses there, Pa.
+    c
+        5/(ρ_s R²), m/kg.
+    mu_f, eta
+        Viscosities of the fluid and of the solid, Pa s.
+    """
+    x, y, z = stretches
+    bx, by, bz = x * x, y * y, z * z
+    rx, ry, rz = 1.0 / bx, 1.0 / by, 1.0 / bz
+    J = x * y * z
+    ratio, k = eta / mu_f, 8.0 / J
+    f, h = dt * c * J * mu_f, 0.5 * dt * dt * c
+    t, s = traction_slopes(stretches, g, ratio), e.slopes
+    normal = _is_stable(
+        (
+            2.0 + (f * t[0] + h * (s[0] - tau[0])) * rx,
+            (f * t[1] + h * (s[1] - tau[0])) * ry,
+            (f * t[2] + h * (s[2] - tau[0])) * rz,
+            (f * t[3] + h * (s[3] - tau[1])) * rx,
+            2.0 + (f * t[4] + h * (s[4] - tau[1])) * ry,
+            (f * t[5] + h * (s[5] - tau[1])) * rz,
+            (f * t[6] + h * (s[6] - tau[2])) * rx,
+            (f * t[7] + h * (s[7] - tau[2])) * ry,
+            2.0 + (f * t[8] + h * (s[8] - tau[2])) * rz,
+        )
+    )
+    (e1, e2, e3), (s23, s13, s12) = e.squares, e.shear
+    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k, ratio)
+    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k, ratio)
+    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k, ratio)
+    return (
+        normal
+        & _pair_is_stable(
+            2.0 + (f * p[0] + h * s23 * e3) * rz, (f * p[1] + h * s23 * e2) * ry,
+            (f * p[2] + h * s23 * e3) * rz, 2.0 + (f * p[3] + h * s23 * e2) * ry,
+        )
+        & _pair_is_stable(
+            2.0 + (f * q[0] + h * s13 * e3) * rz, (f * q[1] + h * s13 * e1) * rx,
+            (f * q[2] + h * s13 * e3) * rz, 2.0 + (f * q[3] + h * s13 * e1) * rx,
+        )
+        & _pair_is_stable(
+            2.0 + (f * r[0] + h * s12 * e2) * ry, (f * r[1] + h * s12 * e1) * rx,
+            (f * r[2] + h * s12 * e2) * ry, 2.0 + (f * r[3] + h * s12 * e1) * rx,
+        )
+    )  # fmt: skip

@@ -1,0 +1,124 @@
+"""The barycentre of a body with inertia over a step, in the stages that its shape has.
+
+    dx/dt = v,   dv/dt = a + k (u(x, t) − v),   k_a = μ_f K_a/m along the axes of the particle frame.
+
+The method is that of :mod:`foamprb.body.inertial_runge_kutta`, with J: (x, v) ↦ (v, −k v) and the drag at
+the start of the step. The fluid's velocity is known beforehand at both ends of the step, and how it
+begins to change: u₀ + s h a_u + s² (u₁ − u₀ − h a_u) with a_u = ∂u/∂t + ∇u·v. All vectors are components
+in the particle frame of the step's start.
+"""
+
+from __future__ import annotations
+
+from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
+from foamprb.body.inertial_runge_kutta import GAMMA, R1, R2, R3
+from foamprb.body.tensor import Scalar, Vector, reciprocals
+
+Motion = tuple[Vector, Vector]
+"""A change of x and one of v, or rates of both."""
+
+
+def combine(a: Scalar, u: Vector, b: Scalar, v: Vector) -> Vector:
+    """A u + b v."""
+    return a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]
+
+
+def _both(a: Scalar, u: Motion, b: Scalar, v: Motion) -> Motion:
+    return combine(a, u[0], b, v[0]), combine(a, u[1], b, v[1])
+
+
+def _times(u: Vector, v: Vector) -> Vector:
+    return u[0] * v[0], u[1] * v[1], u[2] * v[2]
+
+
+def _mix(k: int, u: Motion, v: Motion, w: Motion) -> Motion:
+    return _both(1.0, _both(R1[k], u, R2[k], v), R3[k], w)
+
+
+def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
+    """H (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w), as :func:`foamprb.body.inertial_runge_kutta.respond`.
+
+    Parameters
+    ----------
+    rate
+        k, 1/s.
+    h
+        The step, or a part of it, s.
+    u, v, w
+        Rates of x, m/s, and of v, m/s².
+    """
+    gh = GAMMA * h
+    d = reciprocals((1.0 + gh * rate[0], 1.0 + gh * rate[1], 1.0 + gh * rate[2]))
+    x, y = _mix(2, u, v, w)
+    for k in (1, 0):
+        y = _times(d, y)
+        x = combine(1.0, x, gh, y)
+        x, y = _both(1.0, _mix(k, u, v, w), 1.0, (x, y))
+    y = _times(d, y)
+    x = combine(1.0, x, gh, y)
+    return combine(h, x, 0.0, x), combine(h, y, 0.0, y)
+
+
+def fluid_changes(rate: Vector, h: Scalar, du: Vector, a_u: Vector) -> tuple[Vector, Vector]:
+    """What the fluid's velocity changes of dv/dt over the step, m/s², and the part of it quadratic in time.
+
+    Parameters
+    ----------
+    du
+        u₁ − u₀, m/s.
+    a_u
+        ∂u/∂t + ∇u·v at the start, m/s².
+    """
+    return _times(rate, du), _times(rate, combine(1.0, du, -h, a_u))
+
+
+def first_motion(rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector) -> Motion:
+    """Change of x and v within a quarter of the step; ``start`` are v, m/s, and dv/dt, m/s², at its start."""
+    nothing = combine(0.0, change, 0.0, change)
+    linear = (nothing, combine(NODE, change, -NODE, bend))
+    return respond(rate, NODE * h, start, linear, (nothing, combine(2.0 * NODE * NODE, bend, 0.0, bend)))
+
+
+def slope(rate: Vector, moved: Motion, at: Motion, start: Motion, change: Vector, per_step: Scalar) -> Motion:
+    """What of the rates has changed beside J and the fluid, times ``per_step``.
+
+    Parameters
+    ----------
+    moved, at
+        Changes of x and v, and v and dv/dt there.
+    start
+        The same at the start.
+    change
+        What the fluid's velocity has changed of dv/dt by then.
+    """
+    stiff = (moved[1], _times(rate, moved[1]))
+    x = combine(1.0, combine(1.0, at[0], -1.0, start[0]), -1.0, stiff[0])
+    v = combine(1.0, combine(1.0, at[1], -1.0, start[1]), 1.0, stiff[1])
+    return combine(per_step, x, 0.0, x), combine(per_step, combine(1.0, v, -1.0, change), 0.0, v)
+
+
+def second_order(
+    rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
+) -> Motion:
+    """Change of x and v over the step, of order 2."""
+    nothing = combine(0.0, change, 0.0, change)
+    linear = _both(1.0, slope, 1.0, (nothing, combine(1.0, change, -1.0, bend)))
+    return respond(rate, h, start, linear, (nothing, combine(2.0, bend, 0.0, bend)))
+
+
+def last_motion(
+    rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
+) -> Motion:
+    """Change of x and v at the end of the step, for the last evaluation."""
+    return second_order(rate, h, start, change, bend, _both(OVERSHOOT, slope, 0.0, slope))
+
+
+def third_order(
+    rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion, last: Motion
+) -> Motion:
+    """Change of x and v over the step, of order 3."""
+    nothing = combine(0.0, change, 0.0, change)
+    f = 1.0 / (1.0 - NODE)
+    curve = _both(f, last, -f, slope)
+    linear = _both(1.0, _both(1.0, last, -1.0, curve), 1.0, (nothing, combine(1.0, change, -1.0, bend)))
+    return respond(rate, h, start, linear, _both(2.0, curve, 2.0, (nothing, bend)))

@@ -1,0 +1,310 @@
+"""A step of the body with inertia: the pair of order 3(2) of :mod:`foamprb.body.exponential_runge_kutta`.
+
+The unknowns are Ω, with F = exp(Ω) F₀, and the body's velocity gradient l_s:
+
+    dΩ/dt = l_s − ½[Ω, l_s] + …,   dl_s/dt = Ȧ F⁻¹ − l_s l_s.
+
+The linear part J, the stiffness of :mod:`foamprb.body.rosenbrock`, couples in the particle frame the
+components ij and ji of both, and the three ii of both. The φ_k of blocks so large have no short closed
+form. In their place are the rational
+
+    r₁(z) = (R(z) − 1)/z,   r_{k+1}(z) = (r_k(z) − 1/k!)/z,   R(z) = eᶻ + O(z⁴) with the threefold pole 1/γ,
+
+of which γ = 0.4359 is A-stable and has R(∞) = 0 (Nørsett 1974; Hairer & Wanner, Solving Ordinary
+Differential Equations II, Table IV.6.4). This is a W-method (Steihaug & Wolfbrandt, Mathematics of
+Computation 33, 1979): it is of order 3 whatever J is. Since the r_k follow from R as the φ_k do from the
+exponential, rates that are linear or quadratic in time are met exactly, however stiff J is: the order is
+not reduced where the flow is unsteady. All tensors are components in the particle frame of the step's
+start.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from foamprb.body.ellipsoid import Integrals
+from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
+from foamprb.body.rosenbrock import Stiffness, elastic_response
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot_vector, inverse, reciprocals, scale, skew
+from foamprb.body.traction import roscoe
+from foamprb.body.turning import commutator, shape_spin
+
+GAMMA = 0.435866521508458999416
+"""The root of γ³ − 3γ² + 3/2 γ = 1/6 between 1/3 and 1.07."""
+
+
+def _partial_fractions(c0: float, c1: float, c2: float) -> tuple[float, float, float]:
+    """Weights of P, P² and P³ in (c₀ + c₁z + c₂z²) P³ with P = 1/(1 − γz)."""
+    u, v = c1 / GAMMA, c2 / GAMMA**2
+    return v, -u - 2.0 * v, c0 + u + v
+
+
+R1 = _partial_fractions(1.0, 0.5 - 3.0 * GAMMA, GAMMA**3)
+R2 = _partial_fractions(0.5, GAMMA**3 - 3.0 * GAMMA**2, GAMMA**3)
+R3 = _partial_fractions(1.0 / 6.0, GAMMA**3 - 1.5 * GAMMA**2, 0.5 * GAMMA**3)
+"""R₁, r₂ and r₃ as polynomials in P."""
+
+Pair = tuple[Tensor, Tensor]
+"""A change of Ω and one of l_s, or rates of both."""
+
+
+class Resolvent(NamedTuple):
+    """P = (1 − γh J)⁻¹ for one h."""
+
+    gh: Scalar
+    """γh, s."""
+    normal: Tensor
+    """Inverse matrix of the normal components of l_s."""
+    pairs: tuple[Tensor, Tensor]
+    """Those of the pairs 23, 13 and 12, four each; what is left at the ends is not used."""
+
+
+def _inverse_pair(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    f = 1.0 / (a * d - b * c)
+    return f * d, -f * b, -f * c, f * a
+
+
+def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
+    """Factorise 1 − γh J.
+
+    Parameters
+    ----------
+    n
+        :func:`foamprb.body.rosenbrock.inertial_stiffness` at the start of the step.
+    h
+        The step, or a part of it, s.
+    """
+    gh = GAMMA * h
+    gh2 = gh * gh
+    (x, y, z), t, e = n.b, n.traction, n.elastic
+    M = (
+        x - gh * t[0] + gh2 * e[0], gh2 * e[1] - gh * t[1], gh2 * e[2] - gh * t[2],
+        gh2 * e[3] - gh * t[3], y - gh * t[4] + gh2 * e[4], gh2 * e[5] - gh * t[5],
+        gh2 * e[6] - gh * t[6], gh2 * e[7] - gh * t[7], z - gh * t[8] + gh2 * e[8],
+    )  # fmt: skip
+    (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
+    p23 = _inverse_pair(
+        z - gh * p[0] + gh2 * f[0], gh2 * f[1] - gh * p[1],
+        gh2 * f[2] - gh * p[2], y - gh * p[3] + gh2 * f[3],
+    )  # fmt: skip
+    p13 = _inverse_pair(
+        z - gh * p[4] + gh2 * f[4], gh2 * f[5] - gh * p[5],
+        gh2 * f[6] - gh * p[6], x - gh * p[7] + gh2 * f[7],
+    )  # fmt: skip
+    p12 = _inverse_pair(
+        y - gh * q[0] + gh2 * k[0], gh2 * k[1] - gh * q[1],
+        gh2 * k[2] - gh * q[2], x - gh * q[3] + gh2 * k[3],
+    )  # fmt: skip
+    zero = 0.0 * gh
+    first = (p23[0], p23[1], p23[2], p23[3], p13[0], p13[1], p13[2], p13[3], zero)
+    second = (p12[0], p12[1], p12[2], p12[3], zero, zero, zero, zero, zero)
+    return Resolvent(gh, inverse(M), (first, second))
+
+
+def _resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
+    """P v."""
+    X, Y = v
+    E, (x, y, z), gh = elastic_response(n, X), n.b, r.gh
+    s = (
+        Y[0] * x - gh * E[0], Y[1] * y - gh * E[1], Y[2] * z - gh * E[2],
+        Y[3] * x - gh * E[3], Y[4] * y - gh * E[4], Y[5] * z - gh * E[5],
+        Y[6] * x - gh * E[6], Y[7] * y - gh * E[7], Y[8] * z - gh * E[8],
+    )  # fmt: skip
+    d = dot_vector(r.normal, (s[0], s[4], s[8]))
+    p, q = r.pairs
+    L = (
+        d[0], q[0] * s[1] + q[1] * s[3], p[4] * s[2] + p[5] * s[6],
+        q[2] * s[1] + q[3] * s[3], d[1], p[0] * s[5] + p[1] * s[7],
+        p[6] * s[2] + p[7] * s[6], p[2] * s[5] + p[3] * s[7], d[2],
+    )  # fmt: skip
+    return add(X, scale(gh, L)), L
+
+
+def _traction_response(n: Stiffness, Y: Tensor) -> Tensor:
+    """Change of the traction's part of Ȧ Fᵀ by that of l_s, 1/s²."""
+    p, q = n.traction_pairs
+    d = dot_vector(n.traction, (Y[0], Y[4], Y[8]))
+    return (
+        d[0], q[0] * Y[1] + q[1] * Y[3], p[4] * Y[2] + p[5] * Y[6],
+        q[2] * Y[1] + q[3] * Y[3], d[1], p[0] * Y[5] + p[1] * Y[7],
+        p[6] * Y[2] + p[7] * Y[6], p[2] * Y[5] + p[3] * Y[7], d[2],
+    )  # fmt: skip
+
+
+def _over_b(b: Vector, T: Tensor) -> Tensor:
+    """T b⁻¹ for the diagonal b."""
+    x, y, z = reciprocals(b)
+    return (T[0] * x, T[1] * y, T[2] * z, T[3] * x, T[4] * y, T[5] * z, T[6] * x, T[7] * y, T[8] * z)
+
+
+def stiff_rate(n: Stiffness, v: Pair) -> Pair:
+    """J v."""
+    X, Y = v
+    return Y, _over_b(n.b, add(_traction_response(n, Y), scale(-1.0, elastic_response(n, X))))
+
+
+def combine(a: Scalar, u: Pair, b: Scalar, v: Pair) -> Pair:
+    """A u + b v."""
+    return add(scale(a, u[0]), scale(b, v[0])), add(scale(a, u[1]), scale(b, v[1]))
+
+
+def _mix(k: int, u: Pair, v: Pair, w: Pair) -> Pair:
+    return combine(1.0, combine(R1[k], u, R2[k], v), R3[k], w)
+
+
+def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) -> Pair:
+    """H (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w): what rates u + v t/h + ½ w (t/h)² and J add up to.
+
+    Parameters
+    ----------
+    n, r, h
+        Stiffness, and its :func:`resolvent` for the step h, s.
+    u, v, w
+        Rates of Ω, 1/s, and of l_s, 1/s².
+    """
+    s = _resolve(n, r, _mix(2, u, v, w))
+    s = _resolve(n, r, combine(1.0, _mix(1, u, v, w), 1.0, s))
+    s = _resolve(n, r, combine(1.0, _mix(0, u, v, w), 1.0, s))
+    return scale(h, s[0]), scale(h, s[1])
+
+
+def fluid_change(stretches: Vector, g: Integrals, c: Scalar, mu_f: Scalar, dl_f: Tensor) -> Tensor:
+    """Change of dl_s/dt, 1/s², by a change of the fluid's velocity gradient: c J μ_f σ̃(0; δl_f) b⁻¹.
+
+    Parameters
+    ----------
+    c
+        5/(ρ_s R²), m/kg.
+    mu_f
+        Viscosity of the fluid, Pa s.
+    dl_f
+        Change of l_f, 1/s.
+    """
+    x, y, z = stretches
+    rest = scale(0.0, dl_f)
+    stress = scale(c * x * y * z * mu_f, roscoe(stretches, g, dl_f, rest))
+    return _over_b((x * x, y * y, z * z), stress)
+
+
+def turning_acceleration(
+    stretches: Vector,
+    g: Integrals,
+    n: Stiffness,
+    c: Scalar,
+    mu_f: Scalar,
+    l_s: Tensor,
+    rate: Tensor,
+    l_f: Tensor,
+    tau: Tensor,
+) -> Tensor:
+    """Rate of change of dl_s/dt less its stiff part, 1/s³, along the solution, as far as the body turns.
+
+    The counterpart of :func:`foamprb.body.turning.turning_gradient`. The shape turns with the W of
+    :func:`foamprb.body.turning.shape_spin`, and l_s and the traction with it; the stress turns with the
+    body's own spin.
+
+    Parameters
+    ----------
+    stretches, g, n
+        Shape, its integrals and stiffness.
+    c, mu_f
+        As :func:`fluid_change`.
+    l_s, rate
+        Velocity gradient of the body, 1/s, and its rate, 1/s².
+    l_f
+        Velocity gradient of the fluid, 1/s.
+    tau
+        Kirchhoff stress, Pa.
+    """
+    W, own = shape_spin(stretches, l_s), skew(l_s)
+    turned = commutator(W, l_s)
+    seen = fluid_change(stretches, g, c, mu_f, commutator(W, l_f))
+    stress = scale(-c, commutator(add(own, scale(-1.0, W)), tau))
+    stress = add(stress, add(elastic_response(n, own), scale(-1.0, _traction_response(n, turned))))
+    return add(add(commutator(W, rate), scale(-1.0, seen)), _over_b(n.b, stress))
+
+
+def first_argument(
+    n: Stiffness, quarter: Resolvent, h: Scalar, rate: Pair, change: Tensor, turning: Tensor
+) -> Pair:
+    """Ω and the change of l_s at a quarter of the step.
+
+    Parameters
+    ----------
+    n, quarter
+        Stiffness and its resolvent for a quarter of the step h, s.
+    rate
+        l_s, 1/s, and dl_s/dt, 1/s², at the start.
+    change
+        :func:`fluid_change` over the step.
+    turning
+        :func:`turning_acceleration`.
+    """
+    nothing = scale(0.0, change)
+    bent = (nothing, scale(NODE, add(change, scale(h, turning))))
+    return respond(n, quarter, NODE * h, rate, bent, (nothing, nothing))
+
+
+def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step: Scalar) -> Pair:
+    """Change of what is not stiff since the start of the step, beside that by the fluid, times ``per_step``.
+
+    Parameters
+    ----------
+    v, at
+        An argument, and the rates of Ω (:func:`foamprb.body.exponential_runge_kutta.algebra_rate`) and
+        l_s there.
+    change
+        What the fluid's gradient has changed by then.
+    per_step
+        4 for the second evaluation, 1 for the last.
+    """
+    J = stiff_rate(n, v)
+    X = add(at[0], scale(-1.0, add(J[0], rate[0])))
+    Y = add(at[1], scale(-1.0, add(add(J[1], rate[1]), change)))
+    return scale(per_step, X), scale(per_step, Y)
+
+
+def second_order(
+    n: Stiffness, whole: Resolvent, h: Scalar, rate: Pair, change: Tensor, slope: Pair
+) -> tuple[Pair, Pair, Pair]:
+    """Ω and change of l_s of order 2, and the parts of them that the fluid's gradient and the slope have."""
+    zero = scale(0.0, change)
+    nothing = (zero, zero)
+    first = respond(n, whole, h, rate, nothing, nothing)
+    fluid = respond(n, whole, h, nothing, (zero, change), nothing)
+    own = respond(n, whole, h, nothing, slope, nothing)
+    return combine(1.0, first, 1.0, combine(1.0, fluid, 1.0, own)), fluid, own
+
+
+def last_argument(
+    n: Stiffness,
+    whole: Resolvent,
+    h: Scalar,
+    rate: Pair,
+    change: Tensor,
+    bend: Tensor,
+    slope: Pair,
+    turning: Tensor,
+) -> Pair:
+    """Ω and change of l_s at the end of the step, for the last evaluation; ``bend`` is quadratic in time."""
+    zero = scale(0.0, change)
+    known = add(add(change, scale(-1.0, bend)), scale((1.0 - OVERSHOOT) * h, turning))
+    return respond(n, whole, h, rate, combine(OVERSHOOT, slope, 1.0, (zero, known)), (zero, scale(2.0, bend)))
+
+
+def third_order(
+    n: Stiffness,
+    whole: Resolvent,
+    h: Scalar,
+    rate: Pair,
+    change: Tensor,
+    bend: Tensor,
+    slope: Pair,
+    last: Pair,
+) -> Pair:
+    """Ω and change of l_s of order 3, from the slopes of the second and the last evaluation."""
+    zero = scale(0.0, change)
+    f = 1.0 / (1.0 - NODE)
+    curve = combine(f, last, -f, slope)
+    linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (zero, add(change, scale(-1.0, bend))))
+    return respond(n, whole, h, rate, linear, combine(2.0, curve, 2.0, (zero, bend)))

@@ -1,0 +1,248 @@
+"""The exact relaxation of the elastic stress over a step, for the body without inertia.
+
+What is stiff in dF/dt = l_s F is the solid's elasticity. With the off-diagonal components of the elastic
+stretch left out, its linear part Y ↦ J Y, the change of l_s along H = Y F, couples in the particle frame only
+the components ij and ji, and the three ii (:mod:`foamprb.body.stokes`). The first are of rank one, the others
+of rank two, so that the functions
+
+    φ₁(z) = (eᶻ − 1)/z,   φ_{k+1}(z) = (φ_k(z) − 1/k!)/z
+
+of h J, by which an exponential integrator advances (Hochbruck & Ostermann, Acta Numerica 19, 2010), have
+closed forms in five rates: φ_k(hJ) Y = Y/k! + h φ_{k+1}(hJ) J Y, where φ_{k+1} is needed on the range of
+J only. All tensors are components in the particle frame of the step's start.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from foamprb.body.rosenbrock import Elasticity
+from foamprb.body.stokes import Mobility
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, dot_vector, scale, select, trace
+
+Phi = tuple[Scalar, Scalar, Scalar, Scalar, Scalar]
+"""eᶻ, φ₁(z), φ₂(z), φ₃(z) and φ₄(z)."""
+
+_TINY = 1e-300
+# Beyond, eᶻ is nothing beside 1, or the step has long been refused.
+_LARGEST = 40.0
+
+
+def _power_64(x: Scalar) -> Scalar:
+    x = x * x
+    x = x * x
+    x = x * x
+    x = x * x
+    x = x * x
+    return x * x
+
+
+def phi_functions(z: Scalar) -> Phi:
+    """The functions to 1e-13, for z ≤ 40, without a branch or a library call.
+
+    Below |z| = 1 they follow from the series of φ₄ by φ_k = 1/k! + z φ_{k+1}, beyond it from
+    eᶻ = (e^(z/64))⁶⁴ by φ_{k+1} = (φ_k − 1/k!)/z.
+    """
+    w = np.maximum(np.minimum(z, _LARGEST), -_LARGEST) * (1.0 / 64.0)
+    s = 1.0 + w * (1.0 / 13.0)
+    s = 1.0 + w * (1.0 / 12.0) * s
+    s = 1.0 + w * (1.0 / 11.0) * s
+    s = 1.0 + w * (1.0 / 10.0) * s
+    s = 1.0 + w * (1.0 / 9.0) * s
+    s = 1.0 + w * (1.0 / 8.0) * s
+    s = 1.0 + w * (1.0 / 7.0) * s
+    s = 1.0 + w * (1.0 / 6.0) * s
+    s = 1.0 + w * (1.0 / 5.0) * s
+    s = 1.0 + w * (1.0 / 4.0) * s
+    s = 1.0 + w * (1.0 / 3.0) * s
+    s = 1.0 + w * (1.0 / 2.0) * s
+    e = _power_64(1.0 + w * s)
+
+    small = abs(z) < 1.0
+    y = select(small, z, 0.0)
+    q = 1.0 + y * (1.0 / 17.0)
+    q = 1.0 + y * (1.0 / 16.0) * q
+    q = 1.0 + y * (1.0 / 15.0) * q
+    q = 1.0 + y * (1.0 / 14.0) * q
+    q = 1.0 + y * (1.0 / 13.0) * q
+    q = 1.0 + y * (1.0 / 12.0) * q
+    q = 1.0 + y * (1.0 / 11.0) * q
+    q = 1.0 + y * (1.0 / 10.0) * q
+    q = 1.0 + y * (1.0 / 9.0) * q
+    q = 1.0 + y * (1.0 / 8.0) * q
+    q = 1.0 + y * (1.0 / 7.0) * q
+    q = 1.0 + y * (1.0 / 6.0) * q
+    q = 1.0 + y * (1.0 / 5.0) * q
+    near4 = q * (1.0 / 24.0)
+    near3 = 1.0 / 6.0 + y * near4
+    near2 = 0.5 + y * near3
+    near1 = 1.0 + y * near2
+
+    r = 1.0 / select(small, 1.0, z)
+    far1 = (e - 1.0) * r
+    far2 = (far1 - 1.0) * r
+    far3 = (far2 - 0.5) * r
+    far4 = (far3 - 1.0 / 6.0) * r
+    return (
+        select(small, 1.0 + y * near1, e),
+        select(small, near1, far1),
+        select(small, near2, far2),
+        select(small, near3, far3),
+        select(small, near4, far4),
+    )
+
+
+def phi_of_twice(p: Phi) -> Phi:
+    """The functions of 2z from those of z: φ_k(2z) = 2⁻ᵏ (eᶻ φ_k(z) + Σ_{j=1}^{k} φ_j(z)/(k − j)!)."""
+    e, p1, p2, p3, p4 = p
+    return (
+        e * e,
+        0.5 * (e * p1 + p1),
+        0.25 * (e * p2 + p1 + p2),
+        0.125 * (e * p3 + 0.5 * p1 + p2 + p3),
+        0.0625 * (e * p4 + p1 * (1.0 / 6.0) + 0.5 * p2 + p3 + p4),
+    )
+
+
+class Relaxation(NamedTuple):
+    """The linear part J of the elastic relaxation, 1/s."""
+
+    squares: Vector
+    """e_a², the squared elastic stretches."""
+    upper: Vector
+    """Y_23, Y_13, Y_12 of J Y for unit Y_ij e_j² + Y_ji e_i²."""
+    lower: Vector
+    """Y_32, Y_31, Y_21 of the same."""
+    normal: Tensor
+    """(J Y)_aa for unit Y_cc; its columns sum to zero."""
+
+
+def relaxation(m: Mobility, e: Elasticity, mu_f: Scalar) -> Relaxation:
+    """Assemble J.
+
+    Parameters
+    ----------
+    m, e
+        Mobility and elasticity at the start of the step, the latter without the resistance to dilation.
+    mu_f
+        Viscosity of the fluid, Pa s.
+    """
+    h = 1.0 / mu_f
+    s, k = e.shear, m.compliance
+    c1, c2, c3 = -0.5 * h * s[0] * k[0], -0.5 * h * s[1] * k[1], -0.5 * h * s[2] * k[2]
+    p, q, r = m.slip
+    return Relaxation(
+        e.squares,
+        (c1 * (1.0 + p), c2 * (1.0 + q), c3 * (1.0 + r)),
+        (c1 * (1.0 - p), c2 * (1.0 - q), c3 * (1.0 - r)),
+        scale(h, dot(m.normal, e.slopes)),
+    )
+
+
+def _stretchings(n: Relaxation, Y: Tensor) -> Vector:
+    """Y_ij e_j² + Y_ji e_i² of the pairs 23, 13 and 12."""
+    x, y, z = n.squares
+    return Y[5] * z + Y[7] * y, Y[2] * z + Y[6] * x, Y[1] * y + Y[3] * x
+
+
+def _tensor(n: Relaxation, d: Vector, s: Vector) -> Tensor:
+    """The tensor with the diagonal d whose off-diagonal components follow the stretchings s."""
+    u, l = n.upper, n.lower
+    return (
+        d[0], u[2] * s[2], u[1] * s[1],
+        l[2] * s[2], d[1], u[0] * s[0],
+        l[1] * s[1], l[0] * s[0], d[2],
+    )  # fmt: skip
+
+
+def relaxing(n: Relaxation, Y: Tensor) -> Tensor:
+    """J Y, the change of l_s by the elastic stress along H = Y F."""
+    return _tensor(n, dot_vector(n.normal, (Y[0], Y[4], Y[8])), _stretchings(n, Y))
+
+
+def _rates(n: Relaxation) -> tuple[Vector, Scalar, Scalar]:
+    """Eigenvalues of J: of the three pairs, and the two of the normal components."""
+    x, y, z = n.squares
+    u, l = n.upper, n.lower
+    pairs = (u[0] * z + l[0] * y, u[1] * z + l[1] * x, u[2] * y + l[2] * x)
+    A = n.normal
+    mean = 0.5 * trace(A)
+    minors = A[0] * A[4] - A[1] * A[3] + A[0] * A[8] - A[2] * A[6] + A[4] * A[8] - A[5] * A[7]
+    half = np.sqrt(np.maximum(mean * mean - minors, 0.0))
+    return pairs, mean - half, mean + half
+
+
+class Response(NamedTuple):
+    """φ₂, φ₃ and φ₄ of h J on its range, for one h."""
+
+    pairs: Tensor
+    """Of the pairs 23, 13, 12, in a row each."""
+    mean: Vector
+    """Means of those of the two normal rates."""
+    slope: Vector
+    """Their differences over that of the rates times h."""
+    centre: Scalar
+    """Mean of the two normal rates, times h."""
+
+
+def _response(p: Phi, q: Phi, r: Phi, s: Phi, t: Phi, z1: Scalar, z2: Scalar) -> Response:
+    d = 1.0 / (z2 - z1 + _TINY)
+    return Response(
+        (p[2], p[3], p[4], q[2], q[3], q[4], r[2], r[3], r[4]),
+        (0.5 * (s[2] + t[2]), 0.5 * (s[3] + t[3]), 0.5 * (s[4] + t[4])),
+        ((t[2] - s[2]) * d, (t[3] - s[3]) * d, (t[4] - s[4]) * d),
+        0.5 * (z1 + z2),
+    )
+
+
+def responses(n: Relaxation, h: Scalar) -> tuple[Response, Response]:
+    """The functions for a quarter of the step h, s, and for the whole of it."""
+    (a, b, c), d, e = _rates(n)
+    f = 0.25 * h
+    p, q, r = phi_functions(f * a), phi_functions(f * b), phi_functions(f * c)
+    s, t = phi_functions(f * d), phi_functions(f * e)
+    quarter = _response(p, q, r, s, t, f * d, f * e)
+    p, q, r = phi_of_twice(phi_of_twice(p)), phi_of_twice(phi_of_twice(q)), phi_of_twice(phi_of_twice(r))
+    s, t = phi_of_twice(phi_of_twice(s)), phi_of_twice(phi_of_twice(t))
+    return quarter, _response(p, q, r, s, t, h * d, h * e)
+
+
+def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: Tensor) -> Tensor:
+    """H (φ₁(hJ) Y₁ + φ₂(hJ) Y₂ + φ₃(hJ) Y₃): what rates Y₁ + Y₂ t/h + ½ Y₃ (t/h)² and relaxation add up to.
+
+    Parameters
+    ----------
+    n, r, h
+        The relaxation, and its functions for the step h, s.
+    Y1, Y2, Y3
+        Rates, 1/s.
+    """
+    p1, p2, p3 = _stretchings(n, Y1), _stretchings(n, Y2), _stretchings(n, Y3)
+    f, h2 = r.pairs, h * h
+    s = (
+        h2 * (f[0] * p1[0] + f[1] * p2[0] + f[2] * p3[0]),
+        h2 * (f[3] * p1[1] + f[4] * p2[1] + f[5] * p3[1]),
+        h2 * (f[6] * p1[2] + f[7] * p2[2] + f[8] * p3[2]),
+    )
+    d1, d2, d3 = (Y1[0], Y1[4], Y1[8]), (Y2[0], Y2[4], Y2[8]), (Y3[0], Y3[4], Y3[8])
+    a, b = r.mean, r.slope
+    mean = dot_vector(n.normal, _sum(a, d1, d2, d3))
+    bend = dot_vector(n.normal, _sum(b, d1, d2, d3))
+    more = dot_vector(n.normal, bend)
+    d = (
+        h2 * (mean[0] + h * more[0] - r.centre * bend[0]),
+        h2 * (mean[1] + h * more[1] - r.centre * bend[1]),
+        h2 * (mean[2] + h * more[2] - r.centre * bend[2]),
+    )
+    free = add(add(Y1, scale(0.5, Y2)), scale(1.0 / 6.0, Y3))
+    return add(scale(h, free), _tensor(n, d, s))
+
+
+def _sum(w: Vector, a: Vector, b: Vector, c: Vector) -> Vector:
+    return (
+        w[0] * a[0] + w[1] * b[0] + w[2] * c[0],
+        w[0] * a[1] + w[1] * b[1] + w[2] * c[1],
+        w[0] * a[2] + w[1] * b[2] + w[2] * c[2],
+    )

@@ -1,0 +1,90 @@
+"""How fast the velocity gradient of a body changes because the body turns.
+
+A body that is turned responds to a turned flow as before: l_s(R F; l_f) = R l_s(F; Rᵀ l_f R) Rᵀ. So the
+change of l_s by a turning is known in closed form, with the mobility of the present shape. In a nearly
+rigid body nothing else changes l_s beside the flow, and a step that knows this change has the body's
+strain to the order that it has its attitude. All tensors are components in the particle frame.
+"""
+
+from __future__ import annotations
+
+from foamprb.body.ellipsoid import Integrals
+from foamprb.body.rosenbrock import Elasticity
+from foamprb.body.stokes import Mobility, velocity_gradient
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, scale, skew
+
+_ROUND = 0.01
+"""Square of the relative difference of two λ_a² below which a section counts as round."""
+
+
+def commutator(S: Tensor, T: Tensor) -> Tensor:
+    """S T − T S."""
+    return add(dot(S, T), scale(-1.0, dot(T, S)))
+
+
+def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
+    """The spin W, 1/s, that accounts best for the change of b = F Fᵀ, in a section that is not round.
+
+    W minimises |l_s b + b l_sᵀ − (W b − b W)|² + ε² |W|² for each component, with ε = 0.1 (b_i + b_j). It
+    is the spin of a rigid ellipsoid across its axes; a body that tank-treads, or is nearly a sphere, has
+    none.
+
+    Parameters
+    ----------
+    stretches
+        λ_a.
+    l_s
+        Velocity gradient of the body, 1/s.
+    """
+    x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
+    w12 = _spin(x, y, l_s[1], l_s[3])
+    w13 = _spin(x, z, l_s[2], l_s[6])
+    w23 = _spin(y, z, l_s[5], l_s[7])
+    zero = 0.0 * w12
+    return (zero, w12, w13, -w12, zero, w23, -w13, -w23, zero)
+
+
+def _spin(bi: Scalar, bj: Scalar, lij: Scalar, lji: Scalar) -> Scalar:
+    d, s = bj - bi, bi + bj
+    return (lij * bj + lji * bi) * d / (d * d + _ROUND * s * s)
+
+
+def _stress_of_spin(e: Elasticity, W: Tensor) -> Tensor:
+    """Change of τ by a spin, Pa/s, as the Jacobian has it, the off-diagonal elastic stretch left out."""
+    x, y, z = e.squares
+    p, q, r = e.shear[0] * W[5] * (z - y), e.shear[1] * W[2] * (z - x), e.shear[2] * W[1] * (y - x)
+    zero = 0.0 * p
+    return (zero, r, q, r, zero, p, q, p, zero)
+
+
+def turning_gradient(
+    stretches: Vector,
+    g: Integrals,
+    m: Mobility,
+    e: Elasticity,
+    mu_f: Scalar,
+    l_s: Tensor,
+    l_f: Tensor,
+    sigma: Tensor,
+) -> Tensor:
+    """Rate of change of l_s − J Ω, 1/s², along Ω = l_s t, as far as it is due to turning.
+
+    W of :func:`shape_spin` turns the shape, the body's own spin the stress. J is that of
+    :func:`foamprb.body.relaxation.relaxing`.
+
+    Parameters
+    ----------
+    stretches, g, m, e
+        Shape, its integrals, mobility and elasticity.
+    mu_f
+        Viscosity of the fluid, Pa s.
+    l_s, l_f
+        Velocity gradients of body and fluid, 1/s.
+    sigma
+        Elastic stress over μ_f, 1/s.
+    """
+    W, own = shape_spin(stretches, l_s), skew(l_s)
+    stress = commutator(add(W, scale(-1.0, own)), sigma)
+    stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, own)))
+    seen = velocity_gradient(stretches, g, m, stress, commutator(W, l_f))
+    return add(commutator(W, l_s), scale(-1.0, seen))

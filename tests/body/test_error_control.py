@@ -1,0 +1,110 @@
+from __future__ import annotations
+
+import integrator_study as study
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import flat, mild_stretches, rotations, square, tensors
+
+from foamprb.body import error_control as control
+from foamprb.body.material import finger, finger_of_sphere
+from foamprb.body.tensor import dot, inverse
+
+UNSTRAINED = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+
+
+@given(rotations, mild_stretches, tensors)
+def test_strain_by_is_the_change_of_b(R, stretch, Omega):
+    F = R @ np.diag(stretch)
+    h = 1e-6
+    ends = [finger_of_sphere(flat((np.eye(3) + k * h * square(Omega)) @ F), UNSTRAINED) for k in (-1, 1)]
+    expected = (np.array(ends[1]) - np.array(ends[0])) / (2 * h)
+    np.testing.assert_allclose(control.strain_by(Omega, flat(F @ F.T)), expected, atol=1e-8)
+
+
+@given(st.floats(1e-5, 0.3), st.floats(1e-8, 1e-4))
+def test_an_error_counts_by_the_share_of_the_strain_that_it_is(strain, error):
+    """b_e = diag(1 + s, 1, 1): an error ε of ln λ₁ is one of 2ε of b_e, over s; a turn by ε counts as ε."""
+    b_e = (1.0 + strain, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+    scale = control.strain_scale(b_e, (0.0,) * 9)
+    np.testing.assert_allclose(scale, strain, rtol=1e-9)
+    stretch = (error, *(0.0,) * 8)
+    np.testing.assert_allclose(
+        control.relative_size(stretch, b_e, scale), 2 * error * (1 + strain) / strain, rtol=1e-6
+    )
+    turn = (0.0, error, 0.0, -error, 0.0, 0.0, 0.0, 0.0, 0.0)
+    np.testing.assert_allclose(control.relative_size(turn, b_e, scale), error, rtol=1e-6)
+
+
+def test_a_body_that_starts_from_rest_is_measured_by_the_strain_at_the_end():
+    shear = (0.0, 0.02, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    np.testing.assert_allclose(control.strain_scale(UNSTRAINED, shear), 0.02)
+    np.testing.assert_allclose(control.strain_scale(UNSTRAINED, (0.0,) * 9), control.LEAST_STRAIN)
+
+
+def test_path_error_is_that_of_the_trapezoidal_rule():
+    """x = t³: v = 3t², a = 6t; the trapezoidal rule is off by h³/2 from 0 to h."""
+    h, R = 0.1, 0.02
+    found = control.path_error(h, R, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (6 * h, 0.0, 0.0))
+    np.testing.assert_allclose(found, 0.5 * h**3 / (h + R), rtol=1e-12)
+    trapezoidal = 0.5 * h * 3 * h**2 - h**3
+    np.testing.assert_allclose(found * (h + R), trapezoidal, rtol=1e-12)
+
+
+def test_step_factor():
+    tolerance = 1e-4
+    assert control.step_factor(False, 1.0, 0.0, tolerance) == control.MOST
+    assert control.step_factor(True, np.nan, 0.0, tolerance) == control.LEAST
+    assert control.step_factor(True, 1e9, 0.0, tolerance) == control.LEAST
+    # δ₂ of tolerance^(3/4) is just accepted; it is of third order.
+    just = tolerance**0.75
+    assert control.step_factor(True, just, 0.0, tolerance) == pytest.approx(control.SAFETY)
+    assert control.step_factor(True, just / 8, 0.0, tolerance) == pytest.approx(2 * control.SAFETY)
+    assert control.step_factor(False, 0.0, 4 * tolerance, tolerance) == pytest.approx(control.SAFETY / 2)
+
+
+def distance(bodies, F, exact):
+    """Size of Ω in F = (1 + Ω) F_exact."""
+    b_e = finger(exact, bodies.M)
+    Omega = np.array(dot(F, inverse(exact))) - np.eye(3).reshape(9, 1)
+    return control.relative_size(tuple(Omega), b_e, control.strain_scale(b_e, (0.0,) * 9))
+
+
+def one_step(h, tolerance):
+    """Errors of one step against the solution, for bodies of all stiffnesses in a flow that turns."""
+    n = len(study.CA)
+    flow = study.uniform(study.GRADIENTS["turning"])
+    x, step, found = study.spread(np.zeros(3), n), np.full(n, h), []
+    for kind in study.REST:
+        bodies, F = study.unit_bodies(study.CA, kind)
+        for i in range(20):
+            F = study.pair_step(
+                bodies, study.PLAIN, flow, np.full(n, 0.05 * i), x, F, np.full(n, 0.05), 0.0
+            ).F
+        args = (bodies, study.PLAIN, flow, np.ones(n), x, F, step)
+        exact = study.exact_step(*args)
+        two, three = (study.pair_step(*args, t) for t in (np.inf, tolerance))
+        found.append((distance(bodies, two.F, exact), distance(bodies, three.F, exact), three.error))
+    return np.concatenate(found, axis=1)
+
+
+def test_the_difference_of_the_two_solutions_is_the_error_of_the_first():
+    for h, off in ((0.1, 0.2), (0.025, 0.05)):
+        second, third, estimate = one_step(h, 0.0)
+        # The largest component depends on the frame, by up to a third.
+        np.testing.assert_allclose(estimate**0.75, second, rtol=0.35)
+        assert (third < off * second).all()
+
+
+def test_what_is_accepted_has_an_error_below_the_tolerance():
+    """Steps from far too short to far too long; those that are accepted, with two evaluations or three."""
+    shares = []
+    for h in (0.02, 0.1, 0.2, 0.4):
+        _, error, estimate = one_step(h, 1e-4)
+        accepted = estimate <= 1e-4
+        assert (error[accepted] < 1e-4).all()
+        shares.append(accepted.mean())
+    assert shares[0] == 1.0
+    assert shares[1] > 0.3
+    assert shares[3] < 0.2
