@@ -34,7 +34,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import roscoe
 from foamprb.body.wall import hindered_resistance, hindrance
-from foamprb.validation import references_wall as ref
+from foamprb.validation.references import wall as ref
 
 VOLUME = 4.0 / 3.0 * np.pi
 ZERO = (0.0,) * 9

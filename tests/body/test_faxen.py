@@ -6,7 +6,7 @@ from hypothesis import given
 from strategies import flat, mild_stretches, rotations
 
 from foamprb.body.faxen import faxen_velocity
-from foamprb.validation import references_wall as ref
+from foamprb.validation.references import wall as ref
 
 RADIUS, SPEED = 10.0, 1.0
 

@@ -23,7 +23,7 @@ from foamprb.body.wall import (
     stresslet_gradient,
     stresslet_velocity,
 )
-from foamprb.validation import references_wall as ref
+from foamprb.validation.references import wall as ref
 
 UP = (0.0, 0.0, 1.0)
 POINT = (0.0,) * 9

@@ -10,7 +10,6 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, stored_energy
 from foamprb.cloud.block import ROWS, Medium, new_scratch
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces import total
 from foamprb.cloud.integrators.paper import track_block
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
@@ -159,9 +158,6 @@ class TestBookkeeping:
 
     def test_compiled_and_plain_text_agree(self, monkeypatch):
         """The same text as plain Python, on one block in a shear flow."""
-        for name, function in total.compose(Models.forces).items():
-            monkeypatch.setattr(total, name, function)
-        medium = AIR._replace(coefficients=total.coefficients(Models.forces))
         clouds = []
         for _ in range(2):
             p = spheres(np.zeros((2, 3)), d=D, rho=2560.0, mu=modulus([0.1, 0.7]))

@@ -10,8 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.validation import references_soft as soft
-from foamprb.validation.references import Floats
+from foamprb.validation.references import Floats, soft
 
 IDENTITY = np.eye(3)
 NORMAL = np.array([0.0, 0.0, 1.0])
@@ -49,7 +48,7 @@ def lift_coefficient(Ca: float) -> float:
     """k = v₃ h²/(γ̇ R³) of a neo-Hooke body in steady shear, far above the wall.
 
     −9 S₃₃/(64π μ γ̇ R³) (Smart & Leighton 1991) with the stresslet of the solid's side
-    (:func:`foamprb.validation.references_soft.particle_stress`).
+    (:func:`foamprb.validation.references.soft.particle_stress`).
     """
     body = soft.Body(Ca)
     F = soft.steady(SHEAR_OVER_WALL, body)
