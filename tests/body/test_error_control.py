@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-import integrator_study as study
 import numpy as np
 import pytest
+from figures import integrator_study as study
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import flat, mild_stretches, rotations, square, tensors

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import integrator_study as study
 import numpy as np
 import pytest
+from figures import integrator_study as study
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp

@@ -156,7 +156,7 @@ class TestBookkeeping:
         other.advance(400)
         assert_same(cloud.particles.take(order), other.particles)
 
-    def test_compiled_and_plain_text_agree(self, monkeypatch):
+    def test_compiled_and_plain_text_agree(self):
         """The same text as plain Python, on one block in a shear flow."""
         clouds = []
         for _ in range(2):

@@ -6,7 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
-import t_junction
+from figures import t_junction
 from paths import ROOT
 
 import foamprb

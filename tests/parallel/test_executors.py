@@ -14,7 +14,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Threads, available_threads
 from foamprb.cloud.state import Particles, Status
 from foamprb.errors import InputError, RunStopped
-from foamprb.output.vtk import Series, read_pvd
+from foamprb.output.pvd import Series, read_pvd
 from foamprb.parallel import launch
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
