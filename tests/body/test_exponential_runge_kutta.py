@@ -15,7 +15,7 @@ from strategies import flat, square, tensors
 
 from foamprb.body import exponential_runge_kutta as pair
 from foamprb.body.turning import commutator
-from foamprb.validation.references import inertialess_rate
+from foamprb.validation.references.shear import inertialess_rate
 
 
 def test_its_nodes_are_those_of_a_method_of_order_three():
