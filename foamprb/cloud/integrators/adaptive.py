@@ -121,6 +121,13 @@ def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
 
 
+def end_acceleration(block: Any, i: int) -> Vector:
+    """Du/Dt of the fluid at the end of the step, m/s²."""
+    a, u = load3(block, during.end_ut, i), load3(block, during.end_u, i)
+    w = dot_vector(load9(block, during.end_l, i), u)
+    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
+
+
 def finish_path(block: Any, i: int, v: Vector) -> None:
     """Store the velocity v at the end of the step, m/s, the place that it leads to, and the path's error.
 

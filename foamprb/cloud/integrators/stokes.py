@@ -42,6 +42,7 @@ from foamprb.cloud.integrators.adaptive import (
     conservative_stress,
     drag_rate,
     during,
+    end_acceleration,
     finish_path,
     fluid_acceleration,
     judge_difference,
@@ -57,6 +58,7 @@ class RelaxationRows(NamedTuple):
     """What a stage needs of those before it: the state at the start in its frame, and how it relaxes."""
 
     start_slip: Annotated[int, Row(3, "m/s", "velocity relative to the fluid at the start")]
+    end_slip: Annotated[int, Row(3, "m/s", "the same in the fluid at the end, of the shape at the start")]
     l_s: Annotated[int, Row(9, "1/s", "the body's velocity gradient")]
     b_e: Annotated[int, Row(9, "1", "elastic b_e")]
     normal: Annotated[int, Row(9, "1", "d_s,aa for unit changes of the normal stresses over μ_f")]
@@ -83,7 +85,7 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
     """Velocity and acceleration at the start, and where they lead."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        w = _slip(block, i, medium, load9(block, at.l, i))
+        w = _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i))
         u, x = load3(block, at.u, i), load3(block, at.x, i)
         v = (u[0] + w[0], u[1] + w[1], u[2] + w[2])
         a = fluid_acceleration(block, i, v)
@@ -116,6 +118,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         Omega = quarter_argument(n, quarter, h, l_s, change, turning)
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
         store9(block, during.start_l, i, l)
+        store3(block, own.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
         # That of the body's place and time, as long as the flow is smooth.
         store9(block, at.l, i, add(l, scale(NODE, dl)))
         store9(block, during.start_Q, i, Q)
@@ -154,13 +157,19 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, own.second, i, two)
         store9(block, during.second_Q, i, load9(block, at.Q, i))
 
-        w0, w = load3(block, own.start_slip, i), _slip(block, i, medium, load9(block, during.start_l, i))
+        # The slip changes with the fluid and with the shape.
+        l, a = load9(block, during.start_l, i), load3(block, at.DuDt, i)
+        w0, w1, w = (
+            load3(block, own.start_slip, i),
+            load3(block, own.end_slip, i),
+            _slip(block, i, medium, l, a),
+        )
         u = load3(block, during.end_u, i)
         f = 1.0 / NODE
         v = (
-            u[0] + w0[0] + f * (w[0] - w0[0]),
-            u[1] + w0[1] + f * (w[1] - w0[1]),
-            u[2] + w0[2] + f * (w[2] - w0[2]),
+            u[0] + w1[0] + f * (w[0] - w0[0]),
+            u[1] + w1[1] + f * (w[1] - w0[1]),
+            u[2] + w1[2] + f * (w[2] - w0[2]),
         )
         finish_path(block, i, v)
         F = _finish_shape(block, i, Q0, two)
@@ -219,7 +228,11 @@ def end_inertialess(block: Any, medium: Medium) -> None:
         l_s = _gradient(block, i, medium)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         store9(block, at.A, i, choose(moving, dot(l_s, F), A))
-        u, w, v = load3(block, at.u, i), _slip(block, i, medium, load9(block, at.l, i)), load3(block, at.v, i)
+        u, w, v = (
+            load3(block, at.u, i),
+            _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i)),
+            load3(block, at.v, i),
+        )
         v = (
             select(moving, u[0] + w[0], v[0]),
             select(moving, u[1] + w[1], v[1]),
@@ -263,12 +276,11 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
     return _seen(m, to_frame(Q, bend))
 
 
-def _slip(block: Any, i: int, medium: Medium, l_f: Tensor) -> Vector:
-    """Velocity relative to the fluid of the shape that is in the block, m/s."""
+def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+    """Velocity relative to a fluid of the shape that is in the block, m/s."""
     rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
-    steady, push, inertia = pushes_on(block, i, medium, 1.0)
-    a = load3(block, at.DuDt, i)
-    return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, a, l_f)
+    steady, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 
 
 def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
