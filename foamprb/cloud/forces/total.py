@@ -14,7 +14,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.forces.base import Force, Inputs, displaced, inputs_of
 from foamprb.cloud.forces.gravity import Gravity
 
-__all__ = ["DEFAULT", "acceleration", "coefficients", "compose", "pushes_on"]
+__all__ = ["DEFAULT", "acceleration", "bound", "coefficients", "compose", "pushes_on"]
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on what it loads: without
@@ -52,7 +52,7 @@ def compose(forces: Sequence[Force]) -> dict[str, Callable[..., Any]]:
     """The function of these forces together, by the name to which it is bound."""
     push: Callable[..., Any] = no_push
     for force in forces:
-        push = _bound(_and_push, others=push, force=type(force).push)
+        push = bound(_and_push, others=push, force=type(force).push)
     return {"pushes": push}
 
 
@@ -74,7 +74,7 @@ others: Any = no_push
 force: Any = no_push
 
 
-def _bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
+def bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
     """The same function with other functions behind some of the names that it calls."""
     return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 

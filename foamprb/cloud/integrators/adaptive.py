@@ -55,6 +55,7 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
@@ -64,7 +65,8 @@ class StepRows(NamedTuple):
 
     start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
     second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
-    start_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the start")]
+    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, as the flow has it")]
+    start_l: Annotated[int, Row(9, "1/s", "its gradient there")]
     start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
     start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
     middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
@@ -115,9 +117,9 @@ def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilatio
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², seen by what moves with v through the fluid that is in the block."""
-    a, u = load3(block, at.DuDt, i), load3(block, at.u, i)
-    c = dot_vector(load9(block, at.l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    """∂u/∂t + l·v, m/s², of the flow at the start, seen by what moves with v through it."""
+    a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
+    c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
 
 
@@ -179,10 +181,7 @@ second_slope = third_slope = no_choice
 
 
 def evaluate_shape(block: Any) -> None:
-    """Frame, stretches and integrals of the shape that is in the block: once before each slope.
-
-    What else surrounds a body in that place belongs after it.
-    """
+    """Frame, stretches and integrals of the shape that is in the block: once before each slope."""
     new_frames(block)
     integrals_stage(block)
 
@@ -273,6 +272,9 @@ def track_adaptive(
             t = block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
+            store3(block, during.start_u, i, u)
+            store9(block, during.start_l, i, l_f)
+            look_around(flow, scratch, i, current[i], dt, medium)
             store9(block, at.new_F, i, load9(block, at.F, i))
             size = min(block[at.h * LANES + i], longest_step(l_f))
             rest = start + (current[i] + 1) * dt - t
@@ -282,12 +284,14 @@ def track_adaptive(
             break
 
         evaluate_shape(block)
+        surround(block, medium, False)
         predict(block, medium)
         for i in range(len(members)):
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch.host[i], block, i)
         first_slope(block, medium)
         evaluate_shape(block)
+        surround(block, medium, True)
         second_slope(block, medium, enough)
         thirds = 0
         for i in range(len(members)):
@@ -297,6 +301,7 @@ def track_adaptive(
         if thirds:
             last_argument(block, medium)
             evaluate_shape(block)
+            surround(block, medium, True)
             third_slope(block, medium, enough)
         accept_stage(block, tolerance)
 
@@ -335,7 +340,9 @@ def track_adaptive(
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
+            look_around(flow, scratch, i, last - 1, dt, medium)
     evaluate_shape(block)
+    surround(block, medium, False)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)

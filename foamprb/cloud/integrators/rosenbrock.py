@@ -98,7 +98,6 @@ class StiffnessRows(NamedTuple):
     rate: Annotated[int, Row(3, "1/s", "rates of drag")]
     first_v: Annotated[int, Row(3, "m/s", "velocity")]
     first_vt: Annotated[int, Row(3, "m/s2", "its rate")]
-    first_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, in the frame of the flow")]
     drag_change: Annotated[int, Row(3, "m/s2", "change of the drag by that of the fluid's velocity")]
     drag_bend: Annotated[int, Row(3, "m/s2", "the part of it quadratic in time")]
     dx: Annotated[int, Row(3, "m", "way to the place that is evaluated")]
@@ -144,7 +143,8 @@ def first_inertial(block: Any, medium: Medium) -> None:
         h, c = block[at.dt * LANES + i], _inertia(block, i)
         Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
-        l, l_end = load9(block, at.l, i), load9(block, during.end_l, i)
+        # The flow's, and with what the surroundings do to it.
+        l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         G, L = dot(Q, F), to_frame(Q, dot(A, inverse(F)))
         b_e = finger(G, load9(block, at.M, i))
         l_t, tau = _shape_rate(block, i, medium.mu, L, G, b_e)
@@ -152,11 +152,10 @@ def first_inertial(block: Any, medium: Medium) -> None:
         n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
         dl = add(l_end, scale(-1.0, l))
         change = fluid_change(stretches, g, c, medium.mu, to_frame(Q, dl))
-        turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, l), tau)
+        turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
         store9(block, during.start_Q, i, Q)
-        store9(block, during.start_l, i, l)
         store3(block, own.first_stretch, i, stretches)
         store3(block, own.first_alpha, i, g.alpha)
         store3(block, own.first_ring, i, g.ring)
@@ -169,13 +168,15 @@ def first_inertial(block: Any, medium: Medium) -> None:
         store9(block, own.change, i, change)
         store9(block, own.turning, i, turning)
 
-        v, u, u_end = load3(block, at.v, i), load3(block, at.u, i), load3(block, during.end_u, i)
+        v, u, u_end = load3(block, at.v, i), load3(block, during.start_u, i), load3(block, during.end_u, i)
         a_u = fluid_acceleration(block, i, v)
         rate, start = load3(block, own.rate, i), (load3(block, own.first_v, i), load3(block, own.first_vt, i))
         du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
         changes = fluid_changes(rate, h, dot_vector(Q, du), dot_vector(Q, a_u))
-        _set_motion(block, i, Q, first_motion(rate, h, start, *changes))
-        store3(block, own.first_u, i, u)
+        moved = first_motion(rate, h, start, *changes)
+        _set_motion(block, i, Q, moved)
+        x, way = load3(block, at.x, i), vector_dot(moved[0], Q)
+        store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
         store3(block, own.drag_change, i, changes[0])
         store3(block, own.drag_bend, i, changes[1])
 
