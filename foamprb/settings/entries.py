@@ -108,6 +108,7 @@ class Solid:
 
     type: Annotated[str, Choice(MATERIALS)] | None = None
     poissonsRatio: Annotated[float, PoissonsRatio] | None = None
+    bulkModulus: Annotated[float, Positive] | None = None
     shearModulus: Annotated[float, Positive] | Dictionary | None = None
     youngsModulus: Annotated[float, Positive] | Dictionary | None = None
     Ca: Annotated[float, Positive] | Dictionary | None = None
@@ -118,6 +119,9 @@ class Solid:
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 """The entries of a solid of which one gives its stiffness."""
+
+COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
+"""The entries of a solid of which one at most says how it yields to pressure."""
 
 
 def parameters() -> dict[str, Any]:
