@@ -95,7 +95,11 @@ class AnalyticFlow:
         Boundaries, if any.
     inside
         Tells for points of shape (n, 3) which lie in the flow.
+    width
+        The shortest way between walls, m.
     """
+
+    lists_walls = False
 
     def __init__(
         self,
@@ -103,11 +107,13 @@ class AnalyticFlow:
         kernels: dict[str, Callable[..., Any]],
         patches: Sequence[Patch] = (),
         inside: Callable[[Floats], NDArray[np.bool_]] = everywhere,
+        width: float = math.inf,
     ) -> None:
         self._parameters = parameters
         self._inside = inside
         self.kernels = kernels
         self.patches = tuple(patches)
+        self.width = width
         self.notes: tuple[str, ...] = ()
         self.span = (-math.inf, math.inf)
 
@@ -439,4 +445,5 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
         },
         (Patch("wall", "wall"), Patch("inlet", "patch"), Patch("outlet", "patch")),
         inside,
+        2.0 * parameters.radius,
     )

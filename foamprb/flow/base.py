@@ -87,6 +87,10 @@ class Flow(Sampled, Protocol):
     """First and last time of the flow, s; from −∞ to ∞ when it is steady or in closed form."""
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
+    width: float
+    """The shortest way between walls and openings along an axis of the coordinates, m; infinite without."""
+    lists_walls: bool
+    """Whether ``gap`` sees only the walls within the reach for which :meth:`arrays` has listed them."""
     notes: tuple[str, ...]
     """What the user should know about the flow; a :class:`Caveat` is a warning."""
 

@@ -44,6 +44,24 @@ def _motions(mesh: Mesh) -> Floats:
     return motions
 
 
+_NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
+"""The types of patches beyond which a flow goes on, as do coupled ones."""
+_FACING = 0.01
+"""Share of the boundary that must face along an axis for the flow to end there."""
+
+
+def _width(mesh: Mesh) -> float:
+    """The shortest extent of the mesh along an axis along which it ends at walls or openings, m."""
+    ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
+    rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
+    if len(rows) == 0:
+        return float(np.inf)
+    corners = mesh.points[mesh.triangles[rows]]
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
+    extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
+    return float(extents[areas > _FACING * areas.sum()].min())
+
+
 _AT_ONCE = 1 << 20
 """Tetrahedra of which the volumes are computed at once."""
 
@@ -72,6 +90,7 @@ class MeshFlow:
         "recover": recover,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
+    lists_walls = True
 
     def __init__(
         self,
@@ -91,6 +110,7 @@ class MeshFlow:
                 "far from convex there, and paths through them are less certain.",
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        self.width = _width(mesh)
         nodes = np.zeros((len(u), 16))
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u

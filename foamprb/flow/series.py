@@ -150,6 +150,7 @@ class SeriesFlow:
         nodes = mesh.n_points + mesh.n_cells
         self._steady = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
         self.patches, self.notes, self.bounds = self._steady.patches, self._steady.notes, self._steady.bounds
+        self.width, self.lists_walls = self._steady.width, self._steady.lists_walls
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())

@@ -215,6 +215,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
             models,
             threads or available_threads(),
             start=start,
+            limits=solution.limits,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error

@@ -20,7 +20,6 @@ from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector, add, dot, exponential, scale
 from foamprb.cloud.block import (
-    NOT_CONVERGED,
     ROWS,
     Medium,
     Scratch,
@@ -44,8 +43,11 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
-    fail,
+    end_tracking_step,
+    fail_small_step,
+    interrupted,
     is_sound,
+    overspent,
     reach_end,
     release,
 )
@@ -214,6 +216,8 @@ def track_adaptive(
             _begin(block, i, h)
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
+        if interrupted(scratch):
+            return 0
         if moving == 0:
             break
 
@@ -234,6 +238,8 @@ def track_adaptive(
         for i in range(len(members)):
             if status[i] != ACTIVE or current[i] >= last:
                 continue
+            if overspent(scratch, i):
+                continue
             h = block[at.dt * LANES + i]
             t_end = start + (current[i] + 1) * dt
             error = block[at.error * LANES + i]
@@ -241,7 +247,7 @@ def track_adaptive(
             if not error <= tolerance:
                 block[at.h * LANES + i] = size
                 if size < _SMALLEST * dt:
-                    fail(scratch, i, NOT_CONVERGED)
+                    fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
@@ -255,7 +261,7 @@ def track_adaptive(
             goal = load3(block, at.new_x, i)
             recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
-                current[i] += 1
+                end_tracking_step(scratch, i)
     for i in range(len(members)):
         block[at.moving * LANES + i] = 0.0
         if status[i] == ACTIVE:
