@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,13 +14,16 @@ from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.executor import Executor, Threads, available_threads
+from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.limits import Bounds, Limits
+from foamprb.cloud.measures import shape_stokes_number
 from foamprb.cloud.motion import SEEN
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
+from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Models, Tracker, check, never
 from foamprb.compile.link import link
-from foamprb.errors import InputError
+from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
@@ -99,9 +103,14 @@ class Cloud:
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
-        check(self.models, tense)
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
+        if self.models.integrator == "auto":
+            number = shape_stokes_number(
+                p.take(p.status <= Status.ACTIVE), self.flow, self.medium.mu, self.time
+            )
+            self.models = replace(self.models, integrator=automatic(number))
+        check(self.models, tense)
         self._reach_grows = True
         self._refuse_large()
         self.tracker = Tracker(
@@ -127,8 +136,34 @@ class Cloud:
         """Time to which the cloud has come, s."""
         return self.start + self.step * self.dt
 
-    def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
+    def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, whatever becomes of single particles.
+
+        A :class:`~foamprb.errors.FailedParticlesWarning` tells of those that fail. Ctrl-C leaves the cloud so
+        that it can go on. Where another executor than this process' threads carries the particles,
+        :meth:`gather` brings the result.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
+        """
+        before = self.counts()[Status.FAILED]
+        self.carry(steps)
+        failed = self.counts()[Status.FAILED] - before
+        if failed:
+            self.gather()
+            p = self.particles
+            k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
+            warnings.warn(
+                f"{failed} of {p.size} particles failed until t = {self.time:g} s; particle {k}, at "
+                f"t = {p.t[k]:g} s: {explain(p.reason[k], self.models, self.limits)}.",
+                FailedParticlesWarning,
+                stacklevel=2,
+            )
+
+    def carry(self, steps: int, stop: Callable[[], bool] = never) -> None:
+        """Take ``steps`` time steps, of which nobody is warned.
 
         Where another executor than this process' threads carries the particles, :meth:`gather` brings the
         result.
@@ -139,7 +174,7 @@ class Cloud:
             Their number.
         stop
             Asked some times a second: true to end at once. Then :attr:`step` is that to which all particles
-            have come; some may be ahead, and wait for the others when the cloud goes on. The same holds after
+            have come; some may be ahead, and wait for the others when the cloud goes on. So it is after
             Ctrl-C.
 
         Raises
@@ -239,10 +274,10 @@ class Cloud:
             return []
         return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
 
-    def make_ready(self) -> None:
-        """Do what the first step wants done of the flow, and would do."""
+    def make_ready(self) -> Any:
+        """Do what the first step wants done of the flow, and would do; return what the kernels read."""
         self._grow_reach()
-        self.flow_arrays()
+        return self.flow_arrays()
 
     def _grow_reach(self) -> None:
         """Let the reach at the start be beyond what the longest particle sees."""

@@ -24,7 +24,7 @@ from foamprb.cloud.layout import LANES
 from foamprb.cloud.limits import Bounds
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import Particles, Status, empty
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
@@ -67,7 +67,8 @@ class Models:
     drag: str = "oberbeck"
     material: str = "neoHooke"
     touching: Literal["ellipsoid", "centre"] = "ellipsoid"
-    integrator: str = "paper"
+    integrator: str = "auto"
+    """``auto`` is chosen by a cloud, by its particles' largest shape Stokes number where they start."""
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
@@ -135,6 +136,15 @@ class Tracker:
     def compiled(self) -> bool:
         """Whether the loop is compiled already."""
         return is_compiled(self._track)
+
+    def compile(self, flow: Any) -> None:
+        """Compile the loop in this thread, with what the flow's kernels read."""
+        nothing = np.empty(0, dtype=np.int64)
+        scratch = new_scratch(self.integrator.layout.rows)
+        self._track(
+            flow, self.table, self.medium, empty(0), nothing, 0, 1, 0, 0, self.dt, self.start, scratch,
+            self.options,
+        )  # fmt: skip
 
     def compile_moves(self, flow: Any) -> None:
         """Compile what comes after the stages in each step, with what the flow's kernels read."""

@@ -128,6 +128,10 @@ class AnalyticFlow:
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """There is nothing large."""
 
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """Nothing: there are no nodes."""
+        return "", np.empty((0, 3)), np.empty((0, 9))
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """The parameters, by name."""
         names: Mapping[str, ArrayLike] = self._parameters._asdict()

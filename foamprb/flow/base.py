@@ -128,5 +128,8 @@ class Flow(Sampled, Protocol):
     def cell_zone(self, name: str | None) -> Tetrahedra:
         """Tetrahedra of a zone of cells, or of all cells; InputError when there is no such zone."""
 
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The name of the time that was read, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """What tells the flow from another, by name: to know it again when a run is taken up."""

@@ -79,6 +79,8 @@ class MeshFlow:
         What the user should know about the flow, sentence by sentence.
     zones
         Reads the cells of each zone of cells, by name, when somebody asks for one.
+    time
+        Name of the time that was read, if there are times.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -99,7 +101,9 @@ class MeshFlow:
         l: Floats,
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+        time: str = "",
     ) -> None:
+        self._time = time
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -194,6 +198,10 @@ class MeshFlow:
         self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
         held = {field.name for field in fields(self.mesh)}
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""

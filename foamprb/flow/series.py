@@ -216,6 +216,12 @@ class SeriesFlow:
         self._steady.move(place)
         self.mesh = self._steady.mesh
 
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The first time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        self.load(self.times[0], self.times[0])
+        first = self._fields[self._in_memory[0]]
+        return f"{self.times[0]:g}", first[:, :3], first[:, 3:]
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, times, and velocities at the first of them, by name."""
         self.load(self.times[0], self.times[0])

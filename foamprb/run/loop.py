@@ -14,7 +14,7 @@ from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.parallel.signals import caught_signals
 from foamprb.run.job import Job
-from foamprb.run.log import RunLog, progress_bar
+from foamprb.run.log import RunLog, log_compiling, progress_bar
 from foamprb.run.results import FAILURES, HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.settings import StartFrom
 
@@ -87,6 +87,7 @@ def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | N
     InputError, RunStopped
         As of :func:`execute`.
     """
+    _compile(job, executor)
     with caught_signals() as caught:
         try:
             execute(job, start_from, lambda: bool(caught or executor.signals), executor)
@@ -95,6 +96,19 @@ def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | N
             if not signals:
                 raise
             raise RunInterrupted(str(stopped), signals[0]) from stopped
+
+
+def _compile(job: Job, executor: Executor) -> None:
+    """Compile the loop, if this process needs it; a signal acts at once until then."""
+    cloud = job.cloud
+    if not executor.precompiles:
+        return
+    if job.precompiler:
+        cloud.make_ready()
+        job.precompiler.wait()
+    if not cloud.compiled:
+        log_compiling()
+    cloud.tracker.compile(cloud.make_ready())
 
 
 def _make_ready(job: Job, executor: Executor | None) -> None:
@@ -176,7 +190,7 @@ class _Pace:
         self._begun = 0
         # What is compiled at the first call says nothing of the next.
         compiled, started = cloud.compiled, clock.perf_counter()
-        cloud.advance(steps, stop)
+        cloud.carry(steps, stop)
         if compiled:
             seconds = clock.perf_counter() - started
             self._steps = steps * min(_FASTER, max(_SLOWER, _CALL / (seconds + 1e-9)))
