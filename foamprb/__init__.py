@@ -29,6 +29,7 @@ Particles in a flow:
     Status              what a particle is doing: pending, active, stuck, escaped or failed
     Cloud               particles, the flow that carries them, and the models that act on them
     Medium              viscosity and density of the fluid, and gravity
+    read_medium         the medium of an OpenFOAM case
     Models              names of traction, drag, solid, wall test and integrator, and the forces
     Limits              how far a particle may be stretched, how large and how costly it may become
     FailedParticlesWarning  particles of a cloud failed: how many, and why
@@ -78,6 +79,7 @@ if TYPE_CHECKING:
     from foamprb.flow.series import SeriesFlow
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
+    from foamprb.settings.fluid import read_medium
 
 __version__ = version("foamprb")
 
@@ -110,6 +112,7 @@ _HOMES = {
     "measure": "foamprb.cloud.measures",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
+    "read_medium": "foamprb.settings.fluid",
     "read_mesh_file": "foamprb.flow.read.meshfile",
     "read_mesh_series": "foamprb.flow.read.meshfile",
     "read_series": "foamprb.flow.read.series",
@@ -147,6 +150,7 @@ __all__ = [
     "measure",
     "prepare",
     "read_case",
+    "read_medium",
     "read_mesh_file",
     "read_mesh_series",
     "read_series",

@@ -86,7 +86,7 @@ class Rows(NamedTuple):
 at = offsets(Rows)
 """The number of the first row of each quantity."""
 ROWS = end(at)
-idle, load_rows, save_rows = layout(at)[1:]
+idle, load_rows, save_rows = layout(at)[1:4]
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -105,6 +105,8 @@ class Medium(NamedTuple):
     """m/s²."""
     coefficients: Any = ()
     """Of the forces on the barycentre: the loop's, which a cloud fills in from its models."""
+    surroundings: Any = ()
+    """Coefficients of the models of the surroundings, likewise."""
 
 
 class Scratch(NamedTuple):

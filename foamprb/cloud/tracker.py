@@ -25,6 +25,8 @@ from foamprb.cloud.limits import Bounds
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
+from foamprb.cloud.surroundings import total as surroundings
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
@@ -73,6 +75,8 @@ class Models:
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
     """What acts on the barycentre beside drag."""
+    surroundings: tuple[Surrounding, ...] = ()
+    """What changes the fluid that a particle feels, in this order."""
 
 
 class Tracker:
@@ -116,14 +120,23 @@ class Tracker:
         if tense:
             bindings["interface"] = laplace_stress
         self.integrator = integrator = INTEGRATORS[models.integrator]
-        layout = integrator.layout
+        self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         bindings |= integrator.bindings
         bindings |= compose(models.forces)
+        bindings |= surroundings.compose(integrator.layout, models.surroundings)
         self.kernels, self.bindings = kernels, bindings
-        self.separate: tuple[Callable[..., Any], ...] = (*integrator.stages, *RARE, *LONG)
+        self.separate: tuple[Callable[..., Any], ...] = (
+            *integrator.stages,
+            *(type(model).disturb for model in models.surroundings),
+            *RARE,
+            *LONG,
+        )
         self.table = _patch_table(interactions)
-        self.medium = medium._replace(coefficients=coefficients(models.forces))
+        self.medium = medium._replace(
+            coefficients=coefficients(models.forces),
+            surroundings=surroundings.coefficients(models.surroundings),
+        )
         self.dt, self.start = dt, start
         self.options = (models.tolerance,) if integrator.adaptive else ()
         self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
@@ -140,7 +153,7 @@ class Tracker:
     def compile(self, flow: Any) -> None:
         """Compile the loop in this thread, with what the flow's kernels read."""
         nothing = np.empty(0, dtype=np.int64)
-        scratch = new_scratch(self.integrator.layout.rows)
+        scratch = new_scratch(self.layout.rows)
         self._track(
             flow, self.table, self.medium, empty(0), nothing, 0, 1, 0, 0, self.dt, self.start, scratch,
             self.options,
@@ -159,7 +172,7 @@ class Tracker:
         self._compile(stages[len(stages) // 2 :], {})
 
     def _compile(self, functions: Iterable[Callable[..., Any]], arguments: dict[str, Any]) -> None:
-        scratch, vector = new_scratch(self.integrator.layout.rows), (0.0, 0.0, 0.0)
+        scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
@@ -220,7 +233,7 @@ class Tracker:
         halt = np.zeros(1, dtype=np.int64)
 
         def work(first: int) -> Outcome:
-            scratch = new_scratch(self.integrator.layout.rows, halt, bounds)
+            scratch = new_scratch(self.layout.rows, halt, bounds)
             mended: int = self._track(
                 flow, self.table, self.medium, p, rows, first, shares,
                 *steps, self.dt, self.start, scratch, self.options,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.interfaces import overlaps
 from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.sampling import sample_with
@@ -22,17 +23,26 @@ LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, locate)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
-def _across(mesh: Mesh) -> Ints:
-    """See :class:`MeshArrays`."""
+def _across(mesh: Mesh) -> tuple[Ints, Ints]:
+    """``across`` and ``partners`` of :class:`MeshArrays`."""
     count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
     start = np.concatenate([[0], np.cumsum(count)])
     partner = np.full(len(mesh.boundary_centres), -1)
     for coupling in mesh.couplings:
         partner[coupling.faces] = coupling.partners
     other = partner[mesh.triangle_face]
+    # The triangles of a face follow each other.
     across = np.stack([start[other], start[other + 1]], axis=1)
     across[other < 0] = 0
-    return across.astype(np.int32)
+    partners = [np.arange(len(mesh.triangle_face))]
+    first = len(partners[0])
+    for coupling in mesh.couplings:
+        if not coupling.matching:
+            own, begin, lists = overlaps(mesh, coupling)
+            across[own] = first + np.stack([begin[:-1], begin[1:]], axis=1)
+            partners.append(lists)
+            first += len(lists)
+    return across.astype(np.int32), np.concatenate(partners).astype(np.int32)
 
 
 def _motions(mesh: Mesh) -> Floats:
@@ -122,6 +132,7 @@ class MeshFlow:
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         self._tree = build_tree(cell_boxes(mesh))
+        across, partners = _across(mesh)
         self._arrays = MeshArrays(
             nodes=nodes,
             n_points=mesh.n_points,
@@ -134,7 +145,8 @@ class MeshFlow:
             triangle_patch=mesh.triangle_patch,
             triangle_normals=mesh.triangle_normals,
             triangle_tet=mesh.triangle_tet,
-            across=_across(mesh),
+            across=across,
+            partners=partners,
             motions=_motions(mesh),
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),

@@ -305,7 +305,7 @@ class Device(Executor):
 def kernels(tracker: Tracker) -> tuple[Any, Any]:
     """Compile :func:`track_each` for the loop of a tracker, and :func:`find_longest`."""
     integrator = tracker.integrator
-    own = {"track": integrator.track, "ROWS": integrator.layout.rows, "LANES": 1}
+    own = {"track": integrator.track, "ROWS": tracker.layout.rows, "LANES": 1}
     bindings = tracker.bindings | own
     return link(track_each, bindings, tracker.separate, target="cuda"), link(find_longest, target="cuda")
 

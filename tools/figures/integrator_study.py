@@ -654,7 +654,8 @@ def table(names: tuple[str, ...], rows: list[tuple]) -> dict[str, list]:
 
 def main() -> None:
     """Compute, write, print a summary and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     parser.add_argument("--end", type=float, default=10.0, help="shear times of the adaptive runs")
     arguments = parser.parse_args()

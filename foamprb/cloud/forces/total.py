@@ -14,7 +14,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.forces.base import Force, Inputs, displaced, inputs_of
 from foamprb.cloud.forces.gravity import Gravity
 
-__all__ = ["DEFAULT", "acceleration", "coefficients", "compose", "slip_acceleration"]
+__all__ = ["DEFAULT", "acceleration", "bound", "coefficients", "compose", "slip_acceleration"]
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on what it loads: without
@@ -54,11 +54,11 @@ def compose(forces: Sequence[Force]) -> dict[str, Callable[..., Any]]:
     slip: Callable[..., Any] = no_slip
     for force in forces:
         kind = type(force)
-        push = _bound(_and_push, others=push, force=kind.push)
+        push = bound(_and_push, others=push, force=kind.push)
         if kind.slip is None:
-            slip = _bound(_and_push_as_slip, others=slip, force=kind.push)
+            slip = bound(_and_push_as_slip, others=slip, force=kind.push)
         else:
-            slip = _bound(_and_slip, others=slip, force=kind.slip)
+            slip = bound(_and_slip, others=slip, force=kind.slip)
     return {"pushes": push, "slips": slip}
 
 
@@ -92,7 +92,7 @@ others: Any = no_push
 force: Any = no_push
 
 
-def _bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
+def bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
     """The same function with other functions behind some of the names that it calls."""
     return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 

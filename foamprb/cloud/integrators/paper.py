@@ -52,6 +52,7 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
@@ -222,12 +223,14 @@ def track_block(
                 block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
                 u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
+                look_around(flow, scratch, i, n, dt, medium)
             elif status[i] == PENDING:
                 moving += 1
         if moving == 0 or interrupted(scratch):
             break
 
         renew_frames(block)
+        surround(block, medium, False)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):

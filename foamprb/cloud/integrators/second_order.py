@@ -52,6 +52,7 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
@@ -216,6 +217,7 @@ def track_adaptive(
             _begin(block, i, h)
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
+            look_around(flow, scratch, i, current[i], dt, medium)
         if interrupted(scratch):
             return 0
         if moving == 0:
@@ -223,6 +225,7 @@ def track_adaptive(
 
         new_frames(block)
         integrals_stage(block)
+        surround(block, medium, False)
         first_slope(block, medium)
         for i in range(len(members)):
             if status[i] == ACTIVE and current[i] < last:
@@ -232,6 +235,7 @@ def track_adaptive(
                 store_fluid(block, i, u, l_f, u_t)
         new_frames(block)
         integrals_stage(block)
+        surround(block, medium, True)
         second_slope(block, medium)
         accept_stage(block, tolerance)
 
@@ -270,8 +274,10 @@ def track_adaptive(
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
+            look_around(flow, scratch, i, last - 1, dt, medium)
     new_frames(block)
     integrals_stage(block)
+    surround(block, medium, False)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)

@@ -163,7 +163,7 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
                 f"{shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
                 f"{0 if block is None else block.n_cells} could be read."
             )
-        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
+        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour, patch.transform))
     require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
