@@ -54,6 +54,24 @@ def _motions(mesh: Mesh) -> Floats:
     return motions
 
 
+_NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
+"""The types of patches beyond which a flow goes on, as do coupled ones."""
+_FACING = 0.01
+"""Share of the boundary that must face along an axis for the flow to end there."""
+
+
+def _width(mesh: Mesh) -> float:
+    """The shortest extent of the mesh along an axis along which it ends at walls or openings, m."""
+    ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
+    rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
+    if len(rows) == 0:
+        return float(np.inf)
+    corners = mesh.points[mesh.triangles[rows]]
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
+    extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
+    return float(extents[areas > _FACING * areas.sum()].min())
+
+
 _AT_ONCE = 1 << 20
 """Tetrahedra of which the volumes are computed at once."""
 
@@ -71,6 +89,8 @@ class MeshFlow:
         What the user should know about the flow, sentence by sentence.
     zones
         Reads the cells of each zone of cells, by name, when somebody asks for one.
+    time
+        Name of the time that was read, if there are times.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -82,6 +102,7 @@ class MeshFlow:
         "recover": recover,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
+    lists_walls = True
 
     def __init__(
         self,
@@ -90,7 +111,9 @@ class MeshFlow:
         l: Floats,
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+        time: str = "",
     ) -> None:
+        self._time = time
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -101,6 +124,7 @@ class MeshFlow:
                 "far from convex there, and paths through them are less certain.",
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        self.width = _width(mesh)
         nodes = np.zeros((len(u), 16))
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
@@ -186,6 +210,10 @@ class MeshFlow:
         self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
         held = {field.name for field in fields(self.mesh)}
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""

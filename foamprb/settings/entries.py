@@ -16,6 +16,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.limits import Limits
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -71,6 +72,8 @@ class IntegrationSchemes:
     tolerance: Annotated[float, Positive] = 1e-4
 
 
+_ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
+_FROM_ONE = Bounds(1.0, math.inf, False, True, "a number >= 1")
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
 _NO_SOURCES = NoEffect("the particles do not act on the flow")
 
@@ -85,6 +88,9 @@ class Solution:
     startFrom: StartFrom | None = None
     startTime: Annotated[float, Only(0.0, "a cloud begins at time 0")] = 0.0
     maxFailedFraction: Annotated[float, Fraction] = 1.0
+    maxStretch: Annotated[float, _ABOVE_ONE] = Limits.max_stretch
+    maxSize: Annotated[float, Positive] = Limits.max_size
+    maxSubSteps: Annotated[float, _FROM_ONE] = Limits.max_sub_steps
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, _NOT_COUPLED] = False
     transient: bool = False

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector, add, dot, exponential, scale
 from foamprb.cloud.block import (
-    NOT_CONVERGED,
     ROWS,
     Medium,
     Scratch,
@@ -42,8 +41,11 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
-    fail,
+    end_tracking_step,
+    fail_small_step,
+    interrupted,
     is_sound,
+    overspent,
     reach_end,
     release,
 )
@@ -183,6 +185,8 @@ def track_adaptive(
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
             look_around(flow, scratch, i, current[i], dt, medium)
+        if interrupted(scratch):
+            return 0
         if moving == 0:
             break
 
@@ -205,6 +209,8 @@ def track_adaptive(
         for i in range(len(members)):
             if status[i] != ACTIVE or current[i] >= last:
                 continue
+            if overspent(scratch, i):
+                continue
             h = block[at.dt * LANES + i]
             t_end = start + (current[i] + 1) * dt
             error = block[at.error * LANES + i]
@@ -212,7 +218,7 @@ def track_adaptive(
             if not error <= tolerance:
                 block[at.h * LANES + i] = size
                 if size < _SMALLEST * dt:
-                    fail(scratch, i, NOT_CONVERGED)
+                    fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
@@ -226,7 +232,7 @@ def track_adaptive(
             goal = load3(block, at.new_x, i)
             recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
-                current[i] += 1
+                end_tracking_step(scratch, i)
     for i in range(len(members)):
         block[at.moving * LANES + i] = 0.0
         if status[i] == ACTIVE:
