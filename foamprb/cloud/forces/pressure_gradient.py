@@ -21,7 +21,7 @@ def pressure_gradient_slip(inputs: Inputs) -> Vector:
 
 @dataclass(frozen=True, kw_only=True)
 class PressureGradient(Force):
-    """``pressureGradient;`` or, as OpenFOAM has it, ``pressureGradient { U U; }``."""
+    """Force of the undisturbed flow's acceleration: ``pressureGradient;`` or ``{ U U; }``."""
 
     U: Annotated[str, FLUID_VELOCITY] = "U"
 
