@@ -7,6 +7,7 @@ From a case to its results, as ``foamprb run`` goes:
     prepare             read a case and place its particles
     Job                 what ``prepare`` returns: the settings and the cloud of a run
     execute             advance a job's cloud to its end time and write the results
+    open_run            the results of a run: tables, snapshots, paths
     InputError          a mistake in the input; its message says where, and what is allowed
     RunStopped          a run that ended early; its message says why, and how to go on
 
@@ -75,6 +76,7 @@ if TYPE_CHECKING:
     from foamprb.flow.series import SeriesFlow
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
+    from foamprb.view.opened import open_run
 
 __version__ = version("foamprb")
 
@@ -103,6 +105,7 @@ _HOMES = {
     "execute": "foamprb.run.loop",
     "log_ratio": "foamprb.body.tensor",
     "measure": "foamprb.cloud.measures",
+    "open_run": "foamprb.view.opened",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_mesh_file": "foamprb.flow.read.meshfile",
@@ -138,6 +141,7 @@ __all__ = [
     "execute",
     "log_ratio",
     "measure",
+    "open_run",
     "prepare",
     "read_case",
     "read_mesh_file",
