@@ -16,6 +16,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.limits import Limits
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -82,6 +83,8 @@ class IntegrationSchemes:
     ] = 1e-4
 
 
+_ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
+_FROM_ONE = Bounds(1.0, math.inf, False, True, "a number >= 1")
 _OF_CONTROL = "that of `system/controlDict`"
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
 _NO_SOURCES = NoEffect("the particles do not act on the flow")
@@ -129,6 +132,23 @@ class Solution:
         Fraction,
         Meaning("the run ends when a larger share of the injected particles has failed", "1"),
     ] = 1.0
+    maxStretch: Annotated[
+        float,
+        _ABOVE_ONE,
+        Meaning("a particle that is stretched more, from its shape at rest, fails", "1"),
+    ] = Limits.max_stretch
+    maxSize: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "one whose longest semi-axis is a larger share of the flow's width fails; one that would start "
+            "so is an error",
+            "1",
+        ),
+    ] = Limits.max_size
+    maxSubSteps: Annotated[
+        float, _FROM_ONE, Meaning("one that needs more time steps in one `deltaT` fails", "1")
+    ] = Limits.max_sub_steps
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, _NOT_COUPLED] = False
     transient: Annotated[

@@ -195,7 +195,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
-    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a cyclic
+    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a coupled
     patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
 
     Parameters
@@ -241,7 +241,7 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
-    if patch.neighbour and patch.type in ("cyclic", "wedge"):
+    if patch.neighbour and patch.type in ("cyclic", "cyclicAMI", "wedge"):
         return Cyclic()
     if patch.type in _MIRRORS:
         return Mirror()
@@ -250,8 +250,8 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     if patch.type.startswith(_COUPLED):
         raise InputError(
             f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
-            "coupled patches only cyclic ones, whose faces fit one to one, let them through. Give it an "
-            f"entry of its own ({', '.join(INTERACTIONS)})."
+            "coupled patches only cyclic and cyclicAMI ones that lie on their neighbours let them through. "
+            f"Give it an entry of its own ({', '.join(INTERACTIONS)})."
         )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 

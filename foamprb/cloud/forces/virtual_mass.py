@@ -16,11 +16,6 @@ def virtual_mass(inputs: Inputs, Cvm: Scalar) -> tuple[Vector, Scalar]:
     return scale_vector(c, inputs.Du_Dt), c
 
 
-def virtual_mass_slip(_inputs: Inputs, _Cvm: Scalar) -> Vector:
-    """Nothing: C s (Du/Dt − dv/dt) vanishes where the particle's acceleration is the fluid's."""
-    return (0.0, 0.0, 0.0)
-
-
 @dataclass(frozen=True, kw_only=True)
 class VirtualMass(Force):
     """Fluid that an accelerating particle accelerates with it: ``virtualMass { Cvm 0.5; }``."""
@@ -29,4 +24,3 @@ class VirtualMass(Force):
     U: Annotated[str, FLUID_VELOCITY] = "U"
 
     push: ClassVar = staticmethod(virtual_mass)
-    slip: ClassVar = staticmethod(virtual_mass_slip)
