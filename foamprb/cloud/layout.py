@@ -47,6 +47,8 @@ class Layout(NamedTuple):
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
     """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
+    parts: tuple[tuple[int, ...], ...]
+    """:func:`offsets` of the declarations of which the block consists, in order."""
 
 
 Declared = TypeVar("Declared", bound=tuple[int, ...])
@@ -102,7 +104,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
             rows[name] = first, row
     scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
     exec("\n".join([*_idle(rows), *_load(rows), *_save(rows)]), scope)
-    return Layout(end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"])
+    return Layout(end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"], parts)
 
 
 Placed = dict[str, tuple[int, Row]]

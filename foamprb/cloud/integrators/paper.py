@@ -46,11 +46,13 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
+    interrupted,
     is_sound,
     reach_end,
     release,
 )
 from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
@@ -221,12 +223,14 @@ def track_block(
                 block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
                 u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
+                look_around(flow, scratch, i, n, dt, medium)
             elif status[i] == PENDING:
                 moving += 1
-        if moving == 0:
+        if moving == 0 or interrupted(scratch):
             break
 
         renew_frames(block)
+        surround(block, medium, False)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):
@@ -244,6 +248,8 @@ def track_block(
             x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
             recovered += reach_end(flow, patches, scratch, i, goal, t_end, h)
+    if interrupted(scratch):
+        return 0
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
     return recovered

@@ -1,0 +1,111 @@
+"""The surroundings that a cloud has chosen, one after the other, as the loop of every integrator calls them.
+
+The names ``looks`` and ``disturbs`` are bound to these (:func:`compose`) when the loop is compiled. Without
+any model both do nothing, and cost nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from foamprb.cloud.block import Medium, Scratch
+from foamprb.cloud.forces.total import bound
+from foamprb.cloud.layout import Layout, end, layout, offsets
+from foamprb.cloud.surroundings.base import Surrounding
+
+__all__ = ["coefficients", "compose", "look_around", "surround", "with_rows"]
+
+
+def look_around(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium) -> None:
+    """Let each model store what it needs to know around the particle in lane i.
+
+    Parameters
+    ----------
+    step, dt
+        Number and size, s, of the tracking step.
+    """
+    looks(flow, s, i, step, dt, medium, medium.surroundings)
+
+
+def surround(block: Any, medium: Medium, predicted: bool) -> None:
+    """Change the fluid's u and l as the particles feel them, of all lanes.
+
+    Parameters
+    ----------
+    predicted
+        Whether they are those at new_x, not at x.
+    """
+    disturbs(block, medium, predicted, medium.surroundings)
+
+
+def no_look(
+    _flow: Any, _s: Scratch, _i: int, _step: int, _dt: float, _medium: Medium, _coefficients: Any
+) -> None:
+    """Nothing is looked for."""
+
+
+def no_disturbance(_block: Any, _medium: Medium, _predicted: bool, _coefficients: Any) -> None:
+    """The fluid is felt as the flow has it."""
+
+
+def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
+    """The layout of an integrator's block with the rows of these models behind its own."""
+    if not surroundings:
+        return own
+    return layout(*own.parts, *_places(own, surroundings).values())
+
+
+def compose(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, Any]:
+    """The functions of these models together, by the names to which they are bound, and where their rows are.
+
+    Parameters
+    ----------
+    own
+        Layout of the integrator's block without them.
+    """
+    if not surroundings:
+        return {}
+    look: Callable[..., None] = no_look
+    disturb: Callable[..., None] = no_disturbance
+    found: dict[str, Any] = dict(_places(own, surroundings))
+    for model in surroundings:
+        look = bound(_look_and, others=look, model=type(model).look)
+        disturb = bound(_disturb_and, others=disturb, model=type(model).disturb)
+        found |= model.bindings
+    return {**found, "looks": look, "disturbs": disturb}
+
+
+def coefficients(surroundings: Sequence[Surrounding]) -> tuple[Any, ...]:
+    """The coefficients of these models as the functions of :func:`compose` read them: ((…, 1st), 2nd)."""
+    nested: tuple[Any, ...] = ()
+    for model in surroundings:
+        nested = nested, model.coefficients
+    return nested
+
+
+def _places(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
+    places: dict[str, tuple[int, ...]] = {}
+    first = own.rows
+    for model in surroundings:
+        at = offsets(type(model).rows, first)
+        places[type(model).place] = at
+        first = end(at)
+    return places
+
+
+def _look_and(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium, coefficients: Any) -> None:
+    others(flow, s, i, step, dt, medium, coefficients[0])
+    model(flow, s, i, step, dt, medium, coefficients[1])
+
+
+def _disturb_and(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None:
+    others(block, medium, predicted, coefficients[0])
+    model(block, medium, predicted, coefficients[1])
+
+
+others: Any = no_look
+model: Any = no_look
+
+looks: Any = no_look
+disturbs: Any = no_disturbance

@@ -1,0 +1,109 @@
+"""How models of the surroundings are bound into the loop of every integrator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+import pytest
+
+from foamprb.cloud.block import Medium, Scratch, at, load3, store3
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES, Row, end, offsets
+from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.total import compose, with_rows
+from foamprb.cloud.tracker import Models
+from foamprb.flow import analytic
+
+WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+DT = 1e-3
+
+
+class WindRows(NamedTuple):
+    speed: Annotated[int, Row(1, "m/s", "what the wind adds")]
+    seen: Annotated[int, Row(3, "m", "where it was looked for")]
+
+
+wind = offsets(WindRows)
+
+
+def look(_flow: Any, s: Scratch, i: int, step: int, _dt: float, _medium: Medium, coefficients: Any) -> None:
+    s.block[wind.speed * LANES + i] = coefficients[0] * (step + 1)
+    store3(s.block, wind.seen, i, load3(s.block, at.x, i))
+
+
+def blow(block: Any, _medium: Medium, _predicted: bool, _coefficients: Any) -> None:
+    for i in range(LANES):
+        u, x = load3(block, at.u, i), load3(block, wind.seen, i)
+        store3(block, at.u, i, (u[0] + block[wind.speed * LANES + i], u[1], u[2] + 0.0 * x[0]))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wind(Surrounding):
+    speed: float
+    rows: ClassVar = WindRows
+    place: ClassVar = "wind"
+    look: ClassVar = staticmethod(look)
+    disturb: ClassVar = staticmethod(blow)
+
+    @property
+    def coefficients(self) -> Any:
+        return (self.speed,)
+
+
+class CalmRows(NamedTuple):
+    nothing: Annotated[int, Row(9, "", "nothing")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Calm(Surrounding):
+    rows: ClassVar = CalmRows
+    place: ClassVar = "calm"
+    look: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _dt, _medium, _coefficients: None)
+    disturb: ClassVar = staticmethod(lambda _block, _medium, _predicted, _coefficients: None)
+
+
+def carried(integrator, surroundings, steps=3):
+    p = spheres(np.zeros((3, 3)), d=2e-6, rho=1000.0, mu=10.0)
+    models = Models(integrator=integrator, surroundings=surroundings, tolerance=np.inf)
+    cloud = Cloud(p, analytic.shear(10.0), WATER, (), DT, models, threads=1)
+    cloud.advance(steps)
+    return p
+
+
+@pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
+def test_a_model_changes_the_fluid_that_a_particle_feels(integrator):
+    p = carried(integrator, (Wind(speed=1e-3),))
+    assert p.x[:, 0] == pytest.approx(DT * 1e-3 * (1 + 2 + 3), rel=2e-3)
+    assert p.v[:, 0] == pytest.approx(3e-3, rel=2e-3)
+
+
+def test_a_model_acts_with_the_papers_integrator():
+    p = spheres(np.zeros((3, 3)), d=2e-4, rho=1000.0, mu=1e-3)
+    models = Models(surroundings=(Wind(speed=1e-3),))
+    cloud = Cloud(p, analytic.shear(1.0), WATER, (), 1e-2, models, threads=1)
+    cloud.advance(1)
+    assert p.v[:, 0] == pytest.approx(
+        1e-3 * (1.0 - 1.0 / (1.0 + 18.0 * 1e-3 * 1e-2 / (1e3 * 4e-8))), rel=0.02
+    )
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_a_model_that_does_nothing_changes_no_bit(integrator):
+    p, q = (carried(integrator, models, steps=1) for models in ((), (Calm(), Wind(speed=0.0))))
+    for one, other in zip(p, q, strict=True):
+        assert np.array_equal(one, other, equal_nan=True)
+
+
+def test_models_have_their_rows_one_after_the_other_behind_the_integrators():
+    own = INTEGRATORS["stokes"].layout
+    models = (Calm(), Wind(speed=0.0))
+    assert with_rows(own, ()) is own
+    assert compose(own, ()) == {}
+    assert with_rows(own, models).rows == own.rows + 9 + 1 + 3
+    found = compose(own, models)
+    assert found["calm"] == (own.rows,)
+    assert end(found["calm"]) == found["wind"].speed
