@@ -7,6 +7,7 @@ From a case to its results, as ``foamprb run`` goes:
     prepare             read a case and place its particles
     Job                 what ``prepare`` returns: the settings and the cloud of a run
     execute             advance a job's cloud to its end time and write the results
+    open_run            the results of a run: tables, snapshots, paths
     InputError          a mistake in the input; its message says where, and what is allowed
     RunStopped          a run that ended early; its message says why, and how to go on
 
@@ -31,6 +32,8 @@ Particles in a flow:
     Medium              viscosity and density of the fluid, and gravity
     read_medium         the medium of an OpenFOAM case
     Models              names of traction, drag, solid, wall test and integrator, and the forces
+    Limits              how far a particle may be stretched, how large and how costly it may become
+    FailedParticlesWarning  particles of a cloud failed: how many, and why
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
@@ -62,11 +65,12 @@ if TYPE_CHECKING:
     from foamprb.cloud.forces.gravity import Gravity
     from foamprb.cloud.forces.pressure_gradient import PressureGradient
     from foamprb.cloud.forces.virtual_mass import VirtualMass
+    from foamprb.cloud.limits import Limits
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.tracker import Models
-    from foamprb.errors import InputError, RunStopped
+    from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
     from foamprb.flow import analytic
     from foamprb.flow.read.case import select_times
     from foamprb.flow.read.division import Division
@@ -77,6 +81,7 @@ if TYPE_CHECKING:
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
     from foamprb.settings.fluid import read_medium
+    from foamprb.view.opened import open_run
 
 __version__ = version("foamprb")
 
@@ -84,9 +89,11 @@ _HOMES = {
     "Cloud": "foamprb.cloud.cloud",
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
+    "FailedParticlesWarning": "foamprb.errors",
     "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
     "Job": "foamprb.run.job",
+    "Limits": "foamprb.cloud.limits",
     "Material": "foamprb.body.material",
     "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.tracker",
@@ -105,6 +112,7 @@ _HOMES = {
     "execute": "foamprb.run.loop",
     "log_ratio": "foamprb.body.tensor",
     "measure": "foamprb.cloud.measures",
+    "open_run": "foamprb.view.opened",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_medium": "foamprb.settings.fluid",
@@ -120,9 +128,11 @@ __all__ = [
     "Cloud",
     "Division",
     "Escape",
+    "FailedParticlesWarning",
     "Gravity",
     "InputError",
     "Job",
+    "Limits",
     "Material",
     "Medium",
     "Models",
@@ -141,6 +151,7 @@ __all__ = [
     "execute",
     "log_ratio",
     "measure",
+    "open_run",
     "prepare",
     "read_case",
     "read_medium",

@@ -12,14 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.mesh.folds import FOLDED, grade, is_there, trace
 from foamprb.flow.mesh.interfaces import overlaps
-from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
+from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
-from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall
+from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
 
-LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, locate)
+LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, seek)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
@@ -54,6 +56,43 @@ def _motions(mesh: Mesh) -> Floats:
     return motions
 
 
+_NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
+"""The types of patches beyond which a flow goes on, as do coupled ones."""
+_FACING = 0.01
+"""Share of the boundary that must face along an axis for the flow to end there."""
+
+
+def _width(mesh: Mesh) -> float:
+    """The shortest extent of the mesh along an axis along which it ends at walls or openings, m."""
+    ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
+    rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
+    if len(rows) == 0:
+        return float(np.inf)
+    corners = mesh.points[mesh.triangles[rows]]
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
+    extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
+    return float(extents[areas > _FACING * areas.sum()].min())
+
+
+def _folds(
+    mesh: Mesh, nodes: Floats, boxes: Floats, tree: tuple[Floats, Ints]
+) -> tuple[NDArray[np.uint8], Ints, Ints]:
+    """``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
+    folds = np.zeros(mesh.n_cells, dtype=np.uint8)
+    folded = np.empty((mesh.inverted, 6))
+    n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
+    start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
+    if n > 0:
+        folds[np.diff(pairs_near(boxes, tree, folded[:n])[0]) > 0] = FOLDED
+        corners = mesh.points[mesh.triangles]
+        targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+        where, triangles = pairs_near(boxes, tree, targets)
+        counts = np.diff(where)
+        rim = triangles[np.repeat(folds == FOLDED, counts)]
+        np.cumsum(np.where(folds == FOLDED, counts, 0), out=start[1:])
+    return folds, start, rim
+
+
 _AT_ONCE = 1 << 20
 """Tetrahedra of which the volumes are computed at once."""
 
@@ -71,6 +110,8 @@ class MeshFlow:
         What the user should know about the flow, sentence by sentence.
     zones
         Reads the cells of each zone of cells, by name, when somebody asks for one.
+    time
+        Name of the time that was read, if there are times.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -82,6 +123,7 @@ class MeshFlow:
         "recover": recover,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
+    lists_walls = True
 
     def __init__(
         self,
@@ -90,7 +132,9 @@ class MeshFlow:
         l: Floats,
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+        time: str = "",
     ) -> None:
+        self._time = time
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -98,16 +142,19 @@ class MeshFlow:
         if mesh.inverted:
             self.notes += (
                 f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
-                "far from convex there, and paths through them are less certain.",
+                "far from convex there, and paths through them take longer.",
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        self.width = _width(mesh)
         nodes = np.zeros((len(u), 16))
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        self._tree = build_tree(cell_boxes(mesh))
+        boxes = cell_boxes(mesh)
+        self._tree = build_tree(boxes)
+        folds, rim_start, rim = _folds(mesh, nodes, boxes, self._tree)
         across, partners = _across(mesh)
         self._arrays = MeshArrays(
             nodes=nodes,
@@ -124,6 +171,9 @@ class MeshFlow:
             across=across,
             partners=partners,
             motions=_motions(mesh),
+            folds=folds,
+            rim_start=rim_start,
+            rim=rim,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
         )
@@ -186,6 +236,10 @@ class MeshFlow:
         self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
         held = {field.name for field in fields(self.mesh)}
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""

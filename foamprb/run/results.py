@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
@@ -23,6 +24,7 @@ from foamprb.output.manifest import Manifest
 from foamprb.output.pvd import Series, files_of, read_pvd
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
+from foamprb.run.record import RECORD, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
@@ -226,6 +228,8 @@ class Results:
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [self._series.pvd, self._fates, self._failures]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
+        self._manifest.expect([folder / RECORD])
+        write_record(folder / RECORD, self._job)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Take up what a checkpoint holds, and remove the files of later times."""
@@ -249,7 +253,13 @@ class Results:
         snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
-        kept = {self._series.pvd, *snapshots, *tables, *self._checkpoints.files().values()}
+        kept = {
+            job.folder / RECORD,
+            self._series.pvd,
+            *snapshots,
+            *tables,
+            *self._checkpoints.files().values(),
+        }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder, (file for file in kept if file.exists()))
 
@@ -299,6 +309,6 @@ def _write_failures(path: Path, job: Job, failed: NDArray[np.int64]) -> None:
         "x": x[:, 0],
         "y": x[:, 1],
         "z": x[:, 2],
-        "reason": [REASONS[Reason(r)] for r in p.reason[failed]],
+        "reason": [explain(r, job.cloud.models, job.cloud.limits) for r in p.reason[failed]],
     }
     write_table(path, columns)

@@ -75,6 +75,7 @@ def test_rows_are_declared_as_the_arrays_of_the_cloud_are():
 @pytest.mark.parametrize("end_of_run", [True, False])
 def test_what_changes_in_the_loop_is_saved_and_nothing_else(end_of_run):
     p, scratch = particles(), new_scratch(ROWS)
+    scratch.block[:] = 0.0
     load_particle(p, 1, scratch, 5)
     scratch.block[:] += 1.0
     for numbers in (scratch.host, scratch.reason, scratch.patch):

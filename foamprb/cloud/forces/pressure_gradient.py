@@ -16,7 +16,7 @@ def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
 
 @dataclass(frozen=True, kw_only=True)
 class PressureGradient(Force):
-    """``pressureGradient;`` or, as OpenFOAM has it, ``pressureGradient { U U; }``."""
+    """Force of the undisturbed flow's acceleration: ``pressureGradient;`` or ``{ U U; }``."""
 
     U: Annotated[str, FLUID_VELOCITY] = "U"
 

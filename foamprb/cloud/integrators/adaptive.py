@@ -24,7 +24,6 @@ from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector, dot_vector
 from foamprb.cloud.block import (
-    NOT_CONVERGED,
     ROWS,
     Medium,
     Scratch,
@@ -49,8 +48,11 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
-    fail,
+    end_tracking_step,
+    fail_small_step,
+    interrupted,
     is_sound,
+    overspent,
     reach_end,
     release,
 )
@@ -280,6 +282,8 @@ def track_adaptive(
             rest = start + (current[i] + 1) * dt - t
             # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
             block[at.dt * LANES + i] = rest if size >= rest - SHORTEST_STEP * dt else min(size, 0.5 * rest)
+        if interrupted(scratch):
+            return 0
         if moving == 0:
             break
 
@@ -308,6 +312,8 @@ def track_adaptive(
         for i in range(len(members)):
             if not block[at.moving * LANES + i] > 0.0:
                 continue
+            if overspent(scratch, i):
+                continue
             h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
             t_end = start + (current[i] + 1) * dt
             error = block[at.error * LANES + i]
@@ -317,7 +323,7 @@ def track_adaptive(
             if not error <= tolerance:
                 block[at.h * LANES + i] = allowed
                 if allowed < _SMALLEST * dt:
-                    fail(scratch, i, NOT_CONVERGED)
+                    fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
@@ -331,7 +337,7 @@ def track_adaptive(
             goal = load3(block, at.new_x, i)
             recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
-                current[i] += 1
+                end_tracking_step(scratch, i)
     for i in range(len(members)):
         block[at.moving * LANES + i] = 0.0
         if status[i] == ACTIVE:

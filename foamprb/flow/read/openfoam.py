@@ -98,7 +98,9 @@ def read_case(
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += caveats_of_case(case, folder, region)
     notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, folder, velocity)
-    return MeshFlow(whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)))
+    return MeshFlow(
+        whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)), time=name
+    )
 
 
 def fields_of_case(case: Path, region: str) -> ReadField:
