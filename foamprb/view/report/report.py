@@ -233,7 +233,7 @@ def _deposition(given: _Given) -> Section | None:
         "Particles per area on the walls, in bins of about eight particles; edges of the geometry are lines.",
     )
     for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:6]:
-        how = "unrolled about its long axis" if own.across[1] == "around" else "in its plane"
+        how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
         drawn += given.figure(
             f"deposits-{name}", plots.unrolled(own), f"{name}, {how}: particles per area; dots are particles."
         )
