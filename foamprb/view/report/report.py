@@ -381,7 +381,10 @@ def _what(given: _Given) -> Section:
             own["name"],
             own["type"],
             own["particles"],
-            *("–".join(f"{value:.3g}" for value in own[key]) if key in own else "" for key in names),
+            *(
+                "–".join("?" if end is None else f"{end:.3g}" for end in own[key]) if key in own else ""
+                for key in names
+            ),
         )
         for own in record["injections"]
     ]
