@@ -94,6 +94,8 @@ class Cloud:
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
         check(self.models, tense)
+        for model in self.models.surroundings:
+            model.check(self.flow.patches)
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
         self.tracker = Tracker(
@@ -105,6 +107,7 @@ class Cloud:
             self.start,
             shaped=bool((np.eye(3).ravel() != p.F0).any()),
             tense=tense,
+            patches=self.flow.patches,
         )
         self.executor: Executor = Threads()
         self.executor.take(self)
@@ -199,7 +202,8 @@ class Cloud:
     def flow_arrays(self) -> Any:
         """What the flow's kernels read, with walls listed to :attr:`reach`."""
         touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
-        return self.flow.arrays(self.reach, [] if self.models.touching == "centre" else touchable)
+        unseen = self.models.touching == "centre" and self._wanted_reach == 0.0
+        return self.flow.arrays(self.reach, [] if unseen else touchable)
 
     def make_ready(self) -> None:
         """Do what the first step wants done of the flow, and would do."""
@@ -209,8 +213,13 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Let the reach be well beyond the longest particle."""
         longest = self.executor.longest()
-        if longest * _REACH_MARGIN > self.reach:
-            self.reach = 2.0 * _REACH_MARGIN * longest
+        if longest * max(_REACH_MARGIN, self._wanted_reach) > self.reach:
+            self.reach = max(2.0 * _REACH_MARGIN, 1.25 * self._wanted_reach) * longest
+
+    @property
+    def _wanted_reach(self) -> float:
+        """Distance to which models want walls to be listed, in radii."""
+        return max((model.reach for model in self.models.surroundings), default=0.0)
 
 
 def _refuse_early(p: Particles, start: float) -> None:

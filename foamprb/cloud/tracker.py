@@ -28,6 +28,7 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
+from foamprb.flow.base import Patch
 from foamprb.flow.meshflow import LONG
 
 __all__ = ["Models", "Tracker"]
@@ -63,6 +64,8 @@ class Tracker:
         As of a :class:`Cloud`.
     shaped, tense
         Whether some particle is no sphere at rest; whether some has surface tension.
+    patches
+        The flow's.
     """
 
     def __init__(
@@ -75,8 +78,9 @@ class Tracker:
         start: float,
         shaped: bool,
         tense: bool,
+        patches: Sequence[Patch] = (),
     ) -> None:
-        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches
         bindings = dict(kernels)
         if models.touching == "centre":
             bindings["gap"] = gap_free
@@ -95,7 +99,7 @@ class Tracker:
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         bindings |= integrator.bindings
         bindings |= compose(models.forces)
-        bindings |= surroundings.compose(integrator.layout, models.surroundings)
+        bindings |= surroundings.compose(integrator.layout, models.surroundings, integrator.inertia)
         self.kernels, self.bindings = kernels, bindings
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
@@ -106,7 +110,7 @@ class Tracker:
         self.table = _patch_table(interactions)
         self.medium = medium._replace(
             coefficients=coefficients(models.forces),
-            surroundings=surroundings.coefficients(models.surroundings),
+            surroundings=surroundings.coefficients(models.surroundings, patches),
         )
         self.dt, self.start = dt, start
         self.options = (models.tolerance,) if integrator.adaptive else ()
@@ -185,6 +189,10 @@ def check(models: Models, tense: bool) -> None:
     reason = integrator.refuses(models.traction, models.material, tense)
     if reason:
         raise InputError(f"the integrator {integrator.name} {reason}")
+    for model in models.surroundings:
+        reason = model.refuses(integrator.inertia, integrator.name)
+        if reason:
+            raise InputError(reason)
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

@@ -28,7 +28,9 @@ from foamprb.flow.pipes import (
     sample_womersley,
     walk_pipe,
 )
+from foamprb.flow.planes import planes_of_pipe
 from foamprb.flow.sampling import sample_with
+from foamprb.flow.slits import SlitArrays, gap_slit, normal_slit, planes_of_slit, sample_slit, walk_slit
 
 _FREE = -1
 
@@ -352,6 +354,43 @@ def extension(rate: float) -> AnalyticFlow:
     return linear(np.diag([rate, -rate / 2, -rate / 2]))
 
 
+def shear_over_wall(rate: float) -> AnalyticFlow:
+    """Simple shear u₁ = γ̇ x₃, 1/s, over the wall x₃ = 0, the patch ``wall``."""
+    return _between(SlitArrays(math.inf, float(rate)), (Patch("wall", "wall"),))
+
+
+def slit(height: float, mean_velocity: float) -> AnalyticFlow:
+    """Poiseuille flow along x between walls at z = 0, the patch ``lower``, and z = height, ``upper``.
+
+    Parameters
+    ----------
+    height, mean_velocity
+        m and m/s; the shear rate at a wall is 6 U/height.
+    """
+    arrays = SlitArrays(float(height), 6.0 * mean_velocity / height)
+    return _between(arrays, (Patch("lower", "wall"), Patch("upper", "wall")))
+
+
+def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow:
+    def inside(points: Floats) -> NDArray[np.bool_]:
+        within: NDArray[np.bool_] = (points[:, 2] >= 0.0) & (points[:, 2] <= parameters.height)
+        return within
+
+    return AnalyticFlow(
+        parameters,
+        {
+            "sample": sample_slit,
+            "walk": walk_slit,
+            "gap": gap_slit,
+            "walls": planes_of_slit,
+            "normal": normal_slit,
+            "recover": recover_free,
+        },
+        patches,
+        inside,
+    )
+
+
 def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> AnalyticFlow:
     """Poiseuille flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
 
@@ -434,6 +473,7 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
             "sample": sample,
             "walk": walk_pipe,
             "gap": gap_pipe,
+            "walls": planes_of_pipe,
             "normal": normal_pipe,
             "recover": recover_free,
         },

@@ -77,6 +77,8 @@ class Flow(Sampled, Protocol):
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall, infinite when none is near;
+    * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as
+      :func:`foamprb.flow.planes.walls` has them; a flow without walls need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;

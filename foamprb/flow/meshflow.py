@@ -14,11 +14,12 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
 from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall
 
-LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, locate)
+LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, planes_among, locate)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
@@ -67,6 +68,7 @@ class MeshFlow:
         "sample": sample,
         "walk": walk,
         "gap": gap,
+        "walls": walls,
         "normal": normal,
         "cross": cross,
         "recover": recover,

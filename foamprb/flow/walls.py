@@ -68,7 +68,13 @@ def nearest_wall(
 
 
 def _distance(a: Vector, b: Vector, c: Vector) -> float:
-    """Distance of the triangle a, b, c from the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
+    """Distance of the triangle a, b, c from the origin."""
+    p = closest(a, b, c)
+    return float(np.sqrt(_dot(p, p)))
+
+
+def closest(a: Vector, b: Vector, c: Vector) -> Vector:
+    """Point of the triangle a, b, c nearest the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
     ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
     ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
     d1, d2 = -_dot(ab, a), -_dot(ac, a)
@@ -92,8 +98,7 @@ def _distance(a: Vector, b: Vector, c: Vector) -> float:
     else:
         s = 1.0 / (va + vb + vc)
         v, w = vb * s, vc * s
-    p = (a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2])
-    return float(np.sqrt(_dot(p, p)))
+    return a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2]
 
 
 def _dot(p: Vector, q: Vector) -> Any:

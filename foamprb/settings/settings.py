@@ -11,6 +11,7 @@ from foamprb.cloud.forces.base import Force
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import Injection
 from foamprb.cloud.injection.shapes import Shape
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.dictionary.constraints import Vector3
 from foamprb.settings.patches import Rule, Touching
@@ -98,4 +99,5 @@ class Settings:
     patches: tuple[Rule, ...]
     functions: Mapping[str, CloudFunction]
     forces: Mapping[str, Force]
+    surroundings: Mapping[str, Surrounding]
     region: str = ""

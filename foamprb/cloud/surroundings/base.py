@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from typing import Any, ClassVar
+
+from foamprb.cloud.state import Particles
+from foamprb.flow.base import Flow, Patch
 
 __all__ = ["Surrounding"]
 
@@ -31,11 +34,37 @@ class Surrounding:
     those of new_F in both."""
 
     @property
-    def coefficients(self) -> Any:
-        """What its functions read of the entries, a tuple of numbers."""
+    def reach(self) -> float:
+        """Distance to which it wants walls to be listed, in radii of a particle."""
+        return 0.0
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """What its functions read: a tuple of numbers and arrays, of the same types for any patches."""
         return ()
 
-    @property
-    def bindings(self) -> Mapping[str, Callable[..., Any]]:
-        """Functions of its own, by the names by which others call them."""
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """Functions by the names by which they are called, for an integrator with or without inertia."""
         return {}
+
+    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
+        """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
+        return ""
+
+    def check(self, patches: Sequence[Patch]) -> None:  # noqa: ARG002
+        """Raise InputError if its entries name what is not among the flow's patches."""
+        return
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
+        """What a user should read before a run, line by line; ``arrays`` are what the flow's kernels read."""
+        return ()
+
+    def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
+        """What a user should read after a run with steps Δt (s), line by line."""
+        return ()
+
+    def __str__(self) -> str:
+        """The entries, for the log: ``(cutOff 10, strain yes)``."""
+        words = {True: "yes", False: "no"}
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        named = [f"{name} {words[v] if isinstance(v, bool) else v}" for name, v in values if v is not None]
+        return f"({', '.join(named)})" if named else ""

@@ -13,6 +13,7 @@ from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces.total import bound
 from foamprb.cloud.layout import Layout, end, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.flow.base import Patch
 
 __all__ = ["coefficients", "compose", "look_around", "surround", "with_rows"]
 
@@ -56,13 +57,15 @@ def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
     return layout(*own.parts, *_places(own, surroundings).values())
 
 
-def compose(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, Any]:
+def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
     """The functions of these models together, by the names to which they are bound, and where their rows are.
 
     Parameters
     ----------
     own
         Layout of the integrator's block without them.
+    inertia
+        Whether the integrator's solid has inertia.
     """
     if not surroundings:
         return {}
@@ -72,15 +75,15 @@ def compose(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, Any]:
     for model in surroundings:
         look = bound(_look_and, others=look, model=type(model).look)
         disturb = bound(_disturb_and, others=disturb, model=type(model).disturb)
-        found |= model.bindings
+        found |= model.bindings(inertia)
     return {**found, "looks": look, "disturbs": disturb}
 
 
-def coefficients(surroundings: Sequence[Surrounding]) -> tuple[Any, ...]:
+def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
     """The coefficients of these models as the functions of :func:`compose` read them: ((…, 1st), 2nd)."""
     nested: tuple[Any, ...] = ()
     for model in surroundings:
-        nested = nested, model.coefficients
+        nested = nested, model.coefficients(patches)
     return nested
 
 
