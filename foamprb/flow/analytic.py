@@ -18,17 +18,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, Patch, PatchFaces, Tetrahedra
+from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra
 from foamprb.flow.pipes import (
     PipeArrays,
     WomersleyArrays,
     gap_pipe,
     normal_pipe,
+    planes_of_pipe,
     sample_pipe,
     sample_womersley,
     walk_pipe,
 )
-from foamprb.flow.planes import planes_of_pipe
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.slits import SlitArrays, gap_slit, normal_slit, planes_of_slit, sample_slit, walk_slit
 
@@ -62,6 +62,11 @@ def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float,
 def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """No wall is near."""
     return math.inf, _FREE, -1
+
+
+def walls_free(flow: Any, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """No wall is near."""
+    return NO_PLANES
 
 
 def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:

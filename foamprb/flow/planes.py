@@ -3,33 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
+from foamprb.flow.base import NO_PLANES, Planes
 from foamprb.flow.mesh.locator import MeshArrays
-from foamprb.flow.pipes import PipeArrays, normal_pipe
 from foamprb.flow.walk import inward
 from foamprb.flow.walls import closest
 
 _SAME_WALL = math.sqrt(0.5)
 _ON_EDGE = 1e-9
-
-
-class Planes(NamedTuple):
-    """Up to three walls: their distances, m, infinite if there is none, and unit normals into the fluid."""
-
-    h1: float
-    n1: Vector
-    h2: float
-    n2: Vector
-    h3: float
-    n3: Vector
-
-
-_NONE = (0.0, 0.0, 0.0)
 
 
 def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
@@ -44,11 +30,10 @@ def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np
     chosen
         1 for each patch that counts, else 0.
     """
-    planes = no_planes(flow, host, x, cut, chosen)
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
     if begin == end:
-        return planes
+        return NO_PLANES
     return planes_among(flow, begin, end, x, cut, chosen)
 
 
@@ -56,7 +41,7 @@ def planes_among(
     flow: MeshArrays, begin: int, end: int, x: Vector, cut: float, chosen: NDArray[np.int8]
 ) -> Planes:
     """Those among the wall triangles that are listed from ``begin`` to ``end``, as :func:`walls`."""
-    planes = Planes(math.inf, _NONE, math.inf, _NONE, math.inf, _NONE)
+    planes = NO_PLANES
     nearest, towards = cut, (0.0, 0.0, 0.0)
     nodes = flow.nodes
     for k in range(begin, end):
@@ -119,22 +104,3 @@ def _with(planes: Planes, h: float, n: Vector) -> Planes:
 
 def _dot(p: Vector, q: Vector) -> Any:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-
-
-def no_planes(_flow: Any, _host: int, _x: Vector, _cut: float, _chosen: NDArray[np.int8]) -> Planes:
-    """There are no walls."""
-    return Planes(math.inf, _NONE, math.inf, _NONE, math.inf, _NONE)
-
-
-def planes_of_pipe(flow: PipeArrays, _host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """The wall of a pipe where it is nearest, and opposite."""
-    if chosen[0] == 0:
-        return Planes(math.inf, _NONE, math.inf, _NONE, math.inf, _NONE)
-    n = normal_pipe(flow, 0, x)
-    r = math.sqrt(x[1] * x[1] + x[2] * x[2])
-    near, far = flow.radius - r, flow.radius + r
-    return Planes(
-        near if near < cut else math.inf, n,
-        far if far < cut else math.inf, (-n[0], -n[1], -n[2]),
-        math.inf, _NONE,
-    )  # fmt: skip

@@ -17,11 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra
 from foamprb.flow.mesh.locator import MeshArrays, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.planes import Planes
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import corners, interpolate, inward, shape

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.flow.planes import Planes
+from foamprb.flow.base import Planes
 
 
 class SlitArrays(NamedTuple):

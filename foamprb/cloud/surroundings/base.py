@@ -64,7 +64,13 @@ class Surrounding:
 
     def __str__(self) -> str:
         """The entries, for the log: ``(cutOff 10, strain yes)``."""
-        words = {True: "yes", False: "no"}
         values = ((field.name, getattr(self, field.name)) for field in fields(self))
-        named = [f"{name} {words[v] if isinstance(v, bool) else v}" for name, v in values if v is not None]
+        named = [f"{name} {_written(value)}" for name, value in values if value is not None]
         return f"({', '.join(named)})" if named else ""
+
+
+def _written(value: Any) -> str:
+    """An entry's value as a dictionary has it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"

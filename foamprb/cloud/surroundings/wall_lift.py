@@ -52,9 +52,8 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import link
 from foamprb.dictionary.constraints import Bounds, Positive, Words
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.analytic import walls_free as walls
 from foamprb.flow.base import WALLS, Floats, Flow, Patch
-from foamprb.flow.planes import no_planes
-from foamprb.flow.planes import no_planes as walls
 
 __all__ = ["CLOSE", "WallLift"]
 
@@ -258,13 +257,11 @@ def _nearest_walls(
     flow: Any, p: Particles, cut_off: float, chosen: NDArray[np.int8], nearest: Floats
 ) -> None:
     for k in range(len(nearest)):
-        x, R = (p.x[k, 0], p.x[k, 1], p.x[k, 2]), p.R[k]
-        found = (
-            walls(flow, p.host[k], x, cut_off * R, chosen)
-            if p.host[k] >= 0
-            else no_planes(flow, 0, x, 0.0, chosen)
-        )
-        nearest[k] = min(found.h1, found.h2, found.h3) / R
+        nearest[k] = math.inf
+        if p.host[k] >= 0:
+            x, R = (p.x[k, 0], p.x[k, 1], p.x[k, 2]), p.R[k]
+            found = walls(flow, p.host[k], x, cut_off * R, chosen)
+            nearest[k] = min(found.h1, found.h2, found.h3) / R
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
