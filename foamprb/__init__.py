@@ -29,7 +29,10 @@ Particles in a flow:
     Status              what a particle is doing: pending, active, stuck, escaped or failed
     Cloud               particles, the flow that carries them, and the models that act on them
     Medium              viscosity and density of the fluid, and gravity
+    read_medium         the medium of an OpenFOAM case
     Models              names of traction, drag, solid, wall test and integrator, and the forces
+    Limits              how far a particle may be stretched, how large and how costly it may become
+    FailedParticlesWarning  particles of a cloud failed: how many, and why
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
@@ -62,12 +65,13 @@ if TYPE_CHECKING:
     from foamprb.cloud.forces.gravity import Gravity
     from foamprb.cloud.forces.pressure_gradient import PressureGradient
     from foamprb.cloud.forces.virtual_mass import VirtualMass
+    from foamprb.cloud.limits import Limits
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
-    from foamprb.errors import InputError, RunStopped
+    from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
     from foamprb.flow import analytic
     from foamprb.flow.read.case import select_times
     from foamprb.flow.read.division import Division
@@ -77,6 +81,7 @@ if TYPE_CHECKING:
     from foamprb.flow.series import SeriesFlow
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
+    from foamprb.settings.fluid import read_medium
 
 __version__ = version("foamprb")
 
@@ -84,9 +89,11 @@ _HOMES = {
     "Cloud": "foamprb.cloud.cloud",
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
+    "FailedParticlesWarning": "foamprb.errors",
     "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
     "Job": "foamprb.run.job",
+    "Limits": "foamprb.cloud.limits",
     "Material": "foamprb.body.material",
     "Medium": "foamprb.cloud.block",
     "Models": "foamprb.cloud.tracker",
@@ -108,6 +115,7 @@ _HOMES = {
     "measure": "foamprb.cloud.measures",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
+    "read_medium": "foamprb.settings.fluid",
     "read_mesh_file": "foamprb.flow.read.meshfile",
     "read_mesh_series": "foamprb.flow.read.meshfile",
     "read_series": "foamprb.flow.read.series",
@@ -120,9 +128,11 @@ __all__ = [
     "Cloud",
     "Division",
     "Escape",
+    "FailedParticlesWarning",
     "Gravity",
     "InputError",
     "Job",
+    "Limits",
     "Material",
     "Medium",
     "Models",
@@ -144,6 +154,7 @@ __all__ = [
     "measure",
     "prepare",
     "read_case",
+    "read_medium",
     "read_mesh_file",
     "read_mesh_series",
     "read_series",

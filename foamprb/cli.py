@@ -49,12 +49,15 @@ def _parser() -> argparse.ArgumentParser:
         added.add_argument("--debug", action="store_true", help="show where in the code an error arose")
         return added
 
+    init = command("init", "write constant/softCloudProperties, to begin with, from what the case says")
     run = command("run", "track the particles of constant/softCloudProperties")
     info = command("info", "say what a case holds")
     viewing = command("view", "show the bodies of a run: a page for any browser")
     validate = command("validate", "compare with independent solutions")
+    helping = command("help", "say what an entry, a dictionary or a type of the settings is")
     command("compile", "compile the particle loops, so that no run has to")
-    for reading in (run, info, viewing):
+    helping.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
+    for reading in (init, run, info, viewing):
         reading.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         reading.add_argument("--decomposed", action="store_true", help="read the processor folders")
         reading.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
@@ -149,6 +152,21 @@ def _source(arguments: argparse.Namespace) -> Source:
     )
 
 
+def _init(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.run.template import write_template
+
+    file = write_template(arguments.case, _source(arguments))
+    print(f"{file} is written. Look through it, then: foamprb run -dry-run, foamprb run, foamprb view.")
+    return 0
+
+
+def _help(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.settings.reference import explain
+
+    print("\n".join(explain(arguments.entry)))
+    return 0
+
+
 def _info(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.flow.read.source import describe_source
 
@@ -180,10 +198,12 @@ def _compile(_: argparse.Namespace, __: Ranks | None) -> int:
 
 
 _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
+    "init": _init,
     "run": _run,
     "info": _info,
     "view": _view,
     "validate": _validate,
+    "help": _help,
     "compile": _compile,
 }
 

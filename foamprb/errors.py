@@ -10,6 +10,13 @@ class InputError(Exception):
     """A mistake in what the user gave: its message is all that the user needs to see."""
 
 
+class FailedParticlesWarning(UserWarning):
+    """Particles of a cloud failed: its message says how many, and why the last of them.
+
+    ``warnings.simplefilter("error", FailedParticlesWarning)`` makes an exception of it.
+    """
+
+
 class RunStopped(Exception):  # noqa: N818
     """A run that ended before its end time: its message says why, and how to go on."""
 

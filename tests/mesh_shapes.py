@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyvista
 
-from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.mesh import build_mesh
 
 HEXAHEDRON_FACES = ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7))
@@ -183,6 +183,88 @@ def cyclic_row(angle, n, cells=4, perturbation=0.2):
     patches[0] = patches[0]._replace(neighbour="right")
     patches[1] = matching(patches[0], patches[1], turn, shift, n)._replace(neighbour="left")
     return build_mesh(row, patches)
+
+
+def beside(grids):
+    """Grids of hexahedra in one mesh, each with points of its own."""
+    first = np.concatenate([[0], np.cumsum([g.n_points for g in grids])[:-1]])
+    cells = [g.cells.reshape(-1, 9)[:, 1:] + start for g, start in zip(grids, first, strict=True)]
+    return grid(np.concatenate([np.asarray(g.points) for g in grids]), [(12, np.concatenate(cells))])
+
+
+def interfaces(angle, cuts=(4, 5, 7), perturbation=0.2):
+    """Unit cubes in a row, straight or bent, each cut differently, between cyclicAMI patches all round.
+
+    ``angle`` is that of one cube; the first and the last are neighbours by a translation or a rotation.
+    """
+    n, parts = len(cuts), []
+    for i, cut in enumerate(cuts):
+        part = block(cut, perturbation, seed=i)
+        part.points = np.asarray(part.points) + np.array([float(i), 0.0, 0.0])
+        if angle:
+            x, y, z = np.array(part.points).T
+            part.points = np.column_stack(
+                [(1.0 + y) * np.cos(np.radians(angle) * x), (1.0 + y) * np.sin(np.radians(angle) * x), z]
+            )
+        parts.append(part)
+    turn, shift = period(n * angle)
+    around = (
+        Transform("rotational", axis=(0.0, 0.0, -2.0))
+        if angle
+        else Transform("translational", separation=(-float(n), 0.0, 0.0))
+    )
+
+    def along(x):
+        return x[0] if angle == 0.0 else np.arctan2(x[1], x[0]) / np.radians(angle)
+
+    patches = []
+    for i, part in enumerate(parts):
+        before, after = f"before{i}", f"after{i}"
+
+        def name(x, i=i, before=before, after=after):
+            at = along(x)
+            return before if at < i + 1e-9 else after if at > i + 1.0 - 1e-9 else "sides"
+
+        types = {before: "cyclicAMI", after: "cyclicAMI", "sides": "wall"}
+        first, last, sides = boundary(part, name, types)
+        patches += [
+            first._replace(neighbour=f"after{(i - 1) % n}", transform=around if i == 0 else Transform()),
+            last._replace(neighbour=f"before{(i + 1) % n}", transform=around if i == n - 1 else Transform()),
+            sides._replace(name=f"sides{i}"),
+        ]
+    return build_mesh(beside(parts), patches), turn, shift * n
+
+
+def ring(inner, outer, around, layers=3):
+    """A ring about the z axis, one cell high, cut into straight segments."""
+    r = np.linspace(inner, outer, layers + 1)
+    a = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
+    z, phi, radius = np.meshgrid([0.0, 1.0], a, r, indexing="ij")
+    points = np.column_stack([(radius * np.cos(phi)).ravel(), (radius * np.sin(phi)).ravel(), z.ravel()])
+    m, top = layers + 1, (layers + 1) * around
+    j, i = (index.ravel() for index in np.meshgrid(np.arange(around), np.arange(layers), indexing="ij"))
+    k = (j + 1) % around
+    low = np.stack([j * m + i, j * m + i + 1, k * m + i + 1, k * m + i], axis=1)
+    return grid(points, [(12, np.hstack([low, low + top]))])
+
+
+def rings(around=(24, 36)):
+    """Two rings, from r = 0.5 to 1 and from 1 to 1.5, that slide on each other."""
+    parts = [ring(0.5, 1.0, around[0]), ring(1.0, 1.5, around[1])]
+    patches = []
+    for part, own, other, edges in zip(
+        parts, ("in", "out"), ("out", "in"), ((0.5, 1.0), (1.5, 1.0)), strict=True
+    ):
+
+        def name(x, own=own, edges=edges):
+            if min(x[2], 1.0 - x[2]) < 1e-9:
+                return f"{own}Ends"
+            return own if abs(np.hypot(x[0], x[1]) - edges[1]) < 0.02 else f"{own}Wall"
+
+        types = {own: "cyclicAMI", f"{own}Ends": "wall", f"{own}Wall": "wall"}
+        first, *others = boundary(part, name, types)
+        patches += [first._replace(neighbour=other), *others]
+    return build_mesh(beside(parts), patches)
 
 
 def matching(left, right, turn, shift, n):

@@ -50,14 +50,33 @@ def first_order_slip(
     l_f
         ∂u_i/∂x_j, 1/s.
     """
-    times = reciprocals(rate)
     s = J * rho_f / rho_s
-    w = _moved(Q, times, reduced_gravity(J, rho_s, rho_f, gravity))
-    c, inertia = pressure_gradient * s - 1.0, 1.0 + virtual_mass * s
+    steady = reduced_gravity(J, rho_s, rho_f, gravity)
+    inertia, p = 1.0 + virtual_mass * s, (pressure_gradient + virtual_mass) * s
+    push = (steady[0] + p * Du_Dt[0], steady[1] + p * Du_Dt[1], steady[2] + p * Du_Dt[2])
+    return balanced_slip(Q, rate, steady, push, inertia, Du_Dt, l_f)
+
+
+def balanced_slip(
+    Q: Tensor, rate: Vector, steady: Vector, push: Vector, inertia: Scalar, Du_Dt: Vector, l_f: Tensor
+) -> Vector:
+    """The same for forces in general.
+
+    Parameters
+    ----------
+    steady, push
+        What all forces but drag are per mass of the body, m/s², in a fluid that is not accelerated, and in
+        this one.
+    inertia
+        What resists acceleration, in masses of the body: 1 + C m_f/m.
+    """
+    times = reciprocals(rate)
+    w = _moved(Q, times, steady)
     lw = dot_vector(l_f, w)
-    more = _moved(
-        Q,
-        times,
-        (c * Du_Dt[0] - inertia * lw[0], c * Du_Dt[1] - inertia * lw[1], c * Du_Dt[2] - inertia * lw[2]),
+    more = (
+        push[0] - steady[0] - inertia * (Du_Dt[0] + lw[0]),
+        push[1] - steady[1] - inertia * (Du_Dt[1] + lw[1]),
+        push[2] - steady[2] - inertia * (Du_Dt[2] + lw[2]),
     )
+    more = _moved(Q, times, more)
     return w[0] + more[0], w[1] + more[1], w[2] + more[2]

@@ -79,25 +79,29 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     return Mobility(normal, (p1 * r[0], p2 * r[1], p3 * r[2]), slip, own)
 
 
-def velocity_gradient(semi_axes: Vector, g: Integrals, m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
+def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
     """Velocity gradient l_s of the body, 1/s.
+
+    The normal components of the fluid's traction need no integrals of their own: with N the mobility of
+    those, whose rows and columns add up to nothing, −N·s̃(e) = e − 2 (1 − η_s/μ_f) N·e for a traceless e.
 
     Parameters
     ----------
-    semi_axes, g, m
-        Axes, their integrals and :func:`mobility`.
+    m
+        :func:`mobility`.
     sigma
         Elastic Cauchy stress over μ_f, 1/s; symmetric, its mean does not matter.
     l_f
         Velocity gradient of the fluid, 1/s.
     """
     third = (l_f[0] + l_f[4] + l_f[8]) * (1.0 / 3.0)
-    s, _ = disturbance_normal(semi_axes, g, (l_f[0] - third, l_f[4] - third, l_f[8] - third))
-    d = dot_vector(m.normal, (sigma[0] - s[0], sigma[4] - s[1], sigma[8] - s[2]))
+    x, y, z = l_f[0] - third, l_f[4] - third, l_f[8] - third
+    n = 2.0 * m.own
+    d = dot_vector(m.normal, (sigma[0] - n * x, sigma[4] - n * y, sigma[8] - n * z))
     l23, l32 = _off_diagonal(m.compliance[0], m.slip[0], m.own, sigma[5], l_f[5], l_f[7])
     l13, l31 = _off_diagonal(m.compliance[1], m.slip[1], m.own, sigma[2], l_f[2], l_f[6])
     l12, l21 = _off_diagonal(m.compliance[2], m.slip[2], m.own, sigma[1], l_f[1], l_f[3])
-    return (d[0], l12, l13, l21, d[1], l23, l31, l32, d[2])
+    return (x + d[0], l12, l13, l21, y + d[1], l23, l31, l32, z + d[2])
 
 
 def _off_diagonal(

@@ -8,7 +8,6 @@ strain to the order that it has its attitude. All tensors are components in the 
 
 from __future__ import annotations
 
-from foamprb.body.ellipsoid import Integrals
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, scale, skew
@@ -59,7 +58,6 @@ def _stress_of_spin(e: Elasticity, W: Tensor) -> Tensor:
 
 def turning_gradient(
     stretches: Vector,
-    g: Integrals,
     m: Mobility,
     e: Elasticity,
     mu_f: Scalar,
@@ -74,8 +72,8 @@ def turning_gradient(
 
     Parameters
     ----------
-    stretches, g, m, e
-        Shape, its integrals, mobility and elasticity.
+    stretches, m, e
+        Shape, its mobility and elasticity.
     mu_f
         Viscosity of the fluid, Pa s.
     l_s, l_f
@@ -86,5 +84,5 @@ def turning_gradient(
     W, own = shape_spin(stretches, l_s), skew(l_s)
     stress = commutator(add(W, scale(-1.0, own)), sigma)
     stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, own)))
-    seen = velocity_gradient(stretches, g, m, stress, commutator(W, l_f))
+    seen = velocity_gradient(m, stress, commutator(W, l_f))
     return add(commutator(W, l_s), scale(-1.0, seen))

@@ -16,14 +16,19 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     dot_vector,
+    longest_stretch,
     refined_frame,
     select,
     stretches_in_frame,
 )
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
+from foamprb.cloud.limits import Bounds
 from foamprb.cloud.state import Particles, Reason
 
-LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED = (int(reason) for reason in Reason if reason)
+(
+    LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
+    FLOW_NOT_FINITE, STRETCHED, TOO_LARGE, WALLS_TOO_MANY, SUB_STEPS,
+) = (int(reason) for reason in Reason if reason)  # fmt: skip
 
 
 class Rows(NamedTuple):
@@ -70,6 +75,12 @@ class Rows(NamedTuple):
     moving: Annotated[int, Row(1, "", "1 where a step is being taken, else 0")]
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
     clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall")]
+    most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed")]
+    most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed")]
+    taken: Annotated[int, Row(1, "1", "steps taken so far in this tracking step, also those repeated")]
+    substeps: Annotated[
+        int, Row(1, "1", "the same of the last tracking step that is done", of="substeps", saved=True)
+    ]
 
 
 at = offsets(Rows)
@@ -116,12 +127,22 @@ class Scratch(NamedTuple):
     """The step at which each particle is."""
     matrix: Any
     """9 × 10 numbers: one particle's equations."""
+    stop: Any
+    """A whole number that others share: not zero when a loop shall end at once."""
+    outgrown: Any
+    """A whole number: not zero once a body may touch walls that are not listed."""
+    bounds: Bounds
+    """What no particle may pass."""
 
 
-def new_scratch(rows: int) -> Scratch:
-    """Working memory for a block of that many rows."""
+def new_scratch(rows: int, stop: Any = None, bounds: Bounds = Bounds()) -> Scratch:  # noqa: B008
+    """Working memory for a block of that many rows; ``stop`` and ``bounds`` as in :class:`Scratch`."""
     a, b, c, d, e = np.empty((5, LANES), dtype=np.int64)
-    return Scratch(np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)))
+    nothing = np.zeros((2, 1), dtype=np.int64)
+    return Scratch(
+        np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)),
+        nothing[0] if stop is None else stop, nothing[1], bounds,
+    )  # fmt: skip
 
 
 def load3(block: Any, row: int, i: int) -> Vector:
@@ -242,6 +263,7 @@ def straighten_stage(block: Any, allowed: float) -> None:
 def accept_stage(block: Any, tolerance: float) -> None:
     """Judge the new shapes and velocities, and take over those that are sound, of the lanes that move."""
     for i in range(LANES):
+        block[at.taken * LANES + i] += block[at.moving * LANES + i]
         F, A, v = load9(block, at.new_F, i), load9(block, at.new_A, i), load3(block, at.new_v, i)
         total = (
             (v[0] + v[1] + v[2] + F[0] + F[1] + F[2] + F[3] + F[4] + F[5] + F[6] + F[7] + F[8])
@@ -249,6 +271,10 @@ def accept_stage(block: Any, tolerance: float) -> None:
         )  # fmt: skip
         J = block[at.J * LANES + i]
         verdict = select(block[at.error * LANES + i] <= tolerance, 0.0, float(NOT_CONVERGED))
+        stretch = longest_stretch(F)
+        length = block[at.R * LANES + i] * stretch
+        verdict = select(length <= block[at.most_length * LANES + i], verdict, float(TOO_LARGE))
+        verdict = select(stretch <= block[at.most_stretch * LANES + i], verdict, float(STRETCHED))
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         block[at.verdict * LANES + i] = verdict
@@ -293,6 +319,9 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     s.block[at.tension * LANES + i] = p.gamma[k] / p.R[k]
     store9(s.block, at.M, i, metric_at_rest(load9(s.block, at.F0, i)))
     s.block[at.clearance * LANES + i] = np.inf
+    s.block[at.taken * LANES + i] = 0.0
+    s.block[at.most_stretch * LANES + i] = s.bounds.stretch * longest_stretch(load9(s.block, at.F0, i))
+    s.block[at.most_length * LANES + i] = s.bounds.length
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:

@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.executor import Executor, Threads, available_threads
+from foamprb.cloud.integrators.registry import automatic
+from foamprb.cloud.limits import Bounds, Limits
+from foamprb.cloud.measures import shape_stokes_number
+from foamprb.cloud.motion import SEEN
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
+from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.tracker import Models, Tracker, check
+from foamprb.cloud.tracker import Models, Tracker, check, never
 from foamprb.compile.link import link
-from foamprb.errors import InputError
+from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
 __all__ = ["Cloud", "Snapshot"]
 
-_REACH_MARGIN = 2.0
+_REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
 
@@ -65,13 +72,15 @@ class Cloud:
     recovered
         Number of walks so far that failed and were mended by the tree.
     reach
-        Distance, m, to which walls are listed: it grows with the longest particle so far, and is a part of
-        the state, as a step that ends on a wall may depend on whether the wall was listed before.
+        Distance, m, to which walls are listed: it grows with the longest particle so far.
+    limits
+        What no particle may pass.
 
     Raises
     ------
     InputError
-        If a particle without a host lies outside the flow, or the models do not go together.
+        If a particle without a host lies outside the flow, one is larger than the limits allow in it, or the
+        models do not go together.
     ValueError
         If there is not one interaction for each patch.
     """
@@ -87,17 +96,25 @@ class Cloud:
     recovered: int = 0
     start: float = 0.0
     reach: float = 0.0
+    limits: Limits = field(default_factory=Limits)
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
+        _refuse_early(p, self.start)
+        _find_hosts(p, self.flow)
+        if self.models.integrator == "auto":
+            number = shape_stokes_number(
+                p.take(p.status <= Status.ACTIVE), self.flow, self.medium.mu, self.time
+            )
+            self.models = replace(self.models, integrator=automatic(number))
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)
-        _refuse_early(p, self.start)
-        _find_hosts(p, self.flow)
+        self._reach_grows = True
+        self._refuse_large()
         self.tracker = Tracker(
             self.models,
             self.flow.kernels,
@@ -125,8 +142,43 @@ class Cloud:
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps, whatever becomes of single particles.
 
+        A :class:`~foamprb.errors.FailedParticlesWarning` tells of those that fail. Ctrl-C leaves the cloud so
+        that it can go on. Where another executor than this process' threads carries the particles,
+        :meth:`gather` brings the result.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; the steps so far are done.
+        """
+        before = self.counts()[Status.FAILED]
+        self.carry(steps)
+        failed = self.counts()[Status.FAILED] - before
+        if failed:
+            self.gather()
+            p = self.particles
+            k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
+            warnings.warn(
+                f"{failed} of {p.size} particles failed until t = {self.time:g} s; particle {k}, at "
+                f"t = {p.t[k]:g} s: {explain(p.reason[k], self.models, self.limits)}.",
+                FailedParticlesWarning,
+                stacklevel=2,
+            )
+
+    def carry(self, steps: int, stop: Callable[[], bool] = never) -> None:
+        """Take ``steps`` time steps, of which nobody is warned.
+
         Where another executor than this process' threads carries the particles, :meth:`gather` brings the
         result.
+
+        Parameters
+        ----------
+        steps
+            Their number.
+        stop
+            Asked some times a second: true to end at once. Then :attr:`step` is that to which all particles
+            have come; some may be ahead, and wait for the others when the cloud goes on. So it is after
+            Ctrl-C.
 
         Raises
         ------
@@ -136,8 +188,23 @@ class Cloud:
         last = self.step + steps
         while self.step < last:
             flow, ready = self.load_flow(last - self.step)
-            self.recovered += self.executor.advance(flow, ready)
-            self.step += ready
+            outcome = self.executor.advance(flow, ready, stop)
+            self.recovered += outcome.mended
+            if outcome.outgrown:
+                self._extend_reach()
+            elif outcome.finished:
+                self.step += ready
+            else:
+                return
+
+    @property
+    def bounds(self) -> Bounds:
+        """What no particle may pass, and how far walls are listed."""
+        limits = self.limits
+        length = limits.max_size * self.flow.width
+        listed = self.flow.lists_walls and bool(self._touchable)
+        reach = self.reach if listed else np.inf
+        return Bounds(limits.max_stretch, length, float(limits.max_sub_steps), reach, self._reach_grows)
 
     def begin(self, steps: int) -> None:
         """Let the executor begin with steps while this process does something else, if it is one that can.
@@ -201,25 +268,50 @@ class Cloud:
 
     def flow_arrays(self) -> Any:
         """What the flow's kernels read, with walls listed to :attr:`reach`."""
-        touchable = [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
-        unseen = self.models.touching == "centre" and self._wanted_reach == 0.0
-        return self.flow.arrays(self.reach, [] if unseen else touchable)
+        return self.flow.arrays(self.reach, self._touchable)
 
-    def make_ready(self) -> None:
-        """Do what the first step wants done of the flow, and would do."""
+    @property
+    def _touchable(self) -> list[int]:
+        """The patches that a body may touch."""
+        if self.models.touching == "centre" and self._wanted_reach == 0.0:
+            return []
+        return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
+
+    def make_ready(self) -> Any:
+        """Do what the first step wants done of the flow, and would do; return what the kernels read."""
         self._grow_reach()
-        self.flow_arrays()
+        return self.flow_arrays()
 
     def _grow_reach(self) -> None:
-        """Let the reach be well beyond the longest particle."""
-        longest = self.executor.longest()
-        if longest * max(_REACH_MARGIN, self._wanted_reach) > self.reach:
-            self.reach = max(2.0 * _REACH_MARGIN, 1.25 * self._wanted_reach) * longest
+        """Let the reach at the start be beyond what the longest particle sees."""
+        if self.reach == 0.0:
+            self.reach = max(SEEN * _REACH_MARGIN, self._wanted_reach) * self.executor.longest()
 
     @property
     def _wanted_reach(self) -> float:
         """Distance to which models want walls to be listed, in radii."""
         return max((model.reach for model in self.models.surroundings), default=0.0)
+
+    def _extend_reach(self) -> None:
+        """List walls farther away, unless the lists would be too long: then bodies that need it fail."""
+        before, self.reach = self.reach, _REACH_GROWTH * self.reach
+        try:
+            self.flow_arrays()
+        except InputError:
+            self.reach, self._reach_grows = before, False
+
+    def _refuse_large(self) -> None:
+        """Raise InputError if a particle that has not ended is larger than the flow is wide."""
+        p, most = self.particles, self.bounds.length
+        longest = p.R * longest_stretch(tuple(p.F.T))
+        wrong = np.flatnonzero((longest > most) & (p.status <= Status.ACTIVE))
+        if len(wrong):
+            raise InputError(
+                f"{len(wrong)} of {p.size} particles are too large for the flow, which is "
+                f"{self.flow.width:g} m wide: the longest semi-axis of particle {wrong[0]} is "
+                f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.max_size:g} "
+                "times the width; are diameters in m"
+            )
 
 
 def _refuse_early(p: Particles, start: float) -> None:

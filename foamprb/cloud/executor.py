@@ -12,6 +12,7 @@ import numpy as np
 from foamprb.cloud.measures import gradients
 from foamprb.cloud.motion import longest_of
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.tracker import Outcome, never
 from foamprb.compile.link import link
 
 if TYPE_CHECKING:
@@ -70,8 +71,16 @@ class Executor(ABC):
         """
 
     @abstractmethod
-    def advance(self, flow: Any, steps: int) -> int:
-        """Take steps with what the flow's kernels read; return the number of walks mended by the tree."""
+    def advance(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:
+        """Take steps with what the flow's kernels read.
+
+        Parameters
+        ----------
+        flow, stop
+            As of :meth:`foamprb.cloud.tracker.Tracker.advance`; ``stop`` need not be heeded.
+        steps
+            Their number.
+        """
 
     def counts(self) -> dict[Status, int]:
         """Number of particles of each status."""
@@ -139,10 +148,12 @@ class Threads(Executor):
         """Whether the loop is compiled."""
         return self._cloud.tracker.compiled
 
-    def advance(self, flow: Any, steps: int) -> int:
-        """Take steps in the cloud's arrays; return the number of walks mended by the tree."""
+    def advance(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:
+        """Take steps in the cloud's arrays."""
         cloud = self._cloud
-        return cloud.tracker.advance(flow, cloud.particles, cloud.step, steps, cloud.threads)
+        return cloud.tracker.advance(
+            flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
+        )
 
     def longest(self) -> float:
         """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
+from foamprb.body.imex import relaxation_time
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -229,6 +230,14 @@ def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
         gradient = flow.sample(p.x[part], p.host[part], time)[1].reshape(-1, 9)
         rate[part] = shear_rate(tuple(gradient.T))  # type: ignore[arg-type]
     return rate
+
+
+def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
+    """The largest γ̇ τ_s of the particles where they start, at ``time`` (s), in a fluid of μ_f (Pa s)."""
+    if p.size == 0:
+        return 0.0
+    rate = shear_rate_at(flow, p, time)
+    return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
 def _glyph(c: Context) -> Floats:

@@ -15,7 +15,12 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
+    FLOW_NOT_FINITE,
     LOST,
+    NOT_FINITE,
+    STEP_TOO_SMALL,
+    SUB_STEPS,
+    WALLS_TOO_MANY,
     Scratch,
     at,
     load3,
@@ -35,6 +40,8 @@ from foamprb.flow.analytic import walk_free as walk
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 
+SEEN = 4.0
+"""Distance from a body's centre, in semi-axes, from which on it does not see walls."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
 _MAX_BOUNCES = 10
@@ -55,6 +62,43 @@ def fail(s: Scratch, i: int, reason: int) -> None:
     """End the particle in lane i with a reason."""
     s.status[i] = FAILED
     s.reason[i] = reason
+    if not (are_finite(s.block, i, at.u, at.u + 3) and are_finite(s.block, i, at.l, at.l + 9)):
+        # Particle or flow: which was it first?
+        own = are_finite(s.block, i, at.x, at.x + 24)
+        s.reason[i] = FLOW_NOT_FINITE if own else NOT_FINITE
+
+
+def are_finite(block: Any, i: int, row: int, end: int) -> bool:
+    """Whether lane i has finite numbers in the rows from one to before another."""
+    total = 0.0
+    for k in range(row, end):
+        total += block[k * LANES + i]
+    return bool(abs(total) < math.inf)
+
+
+def fail_small_step(s: Scratch, i: int) -> None:
+    """End the particle in lane i, of which the error asks for a step that is too small."""
+    fail(s, i, STEP_TOO_SMALL if s.block[at.error * LANES + i] < math.inf else NOT_FINITE)
+
+
+def interrupted(s: Scratch) -> bool:
+    """Whether a loop shall end at once, and leave its particles as they were when it began."""
+    return bool(s.stop[0] + s.outgrown[0] != 0)
+
+
+def end_tracking_step(s: Scratch, i: int) -> None:
+    """Let lane i go on to the next tracking step."""
+    s.block[at.substeps * LANES + i] = s.block[at.taken * LANES + i]
+    s.block[at.taken * LANES + i] = 0.0
+    s.step[i] += 1
+
+
+def overspent(s: Scratch, i: int) -> bool:
+    """Whether lane i has taken more steps than it may in one tracking step; it then fails."""
+    if s.block[at.taken * LANES + i] <= s.bounds.sub_steps:
+        return False
+    fail(s, i, SUB_STEPS)
+    return True
 
 
 def reach_end(
@@ -92,10 +136,22 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
 
 
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
-    """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle."""
+    """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle.
+
+    Where walls are listed, it is infinite, with −1 and −1, from three radii of the undeformed ball on, in
+    which metres it is: so it depends on no wall that may or may not be listed.
+    """
     block = s.block
-    R = block[at.R * LANES + i]
-    return gap(flow, s.host[i], load3(block, at.x, i), load9(block, at.F, i), R)
+    R, F = block[at.R * LANES + i], load9(block, at.F, i)
+    if SEEN * R * longest_stretch(F) > s.bounds.reach:
+        if s.bounds.reach_grows:
+            s.outgrown[0] = 1
+        else:
+            fail(s, i, WALLS_TOO_MANY)
+    clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R)
+    if clearance >= (SEEN - 1.0) * R and s.bounds.reach < math.inf:
+        return math.inf, -1, -1
+    return clearance, patch, triangle
 
 
 def beyond(
@@ -320,5 +376,5 @@ def longest_of(p: Particles) -> float:
     return longest
 
 
-RARE: tuple[Callable[..., Any], ...] = (beyond, last_inside, move_back)
+RARE: tuple[Callable[..., Any], ...] = (fail, beyond, last_inside, move_back)
 """What few steps need: compiled on its own, it does not swell the loops."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol
 
 from foamprb.body.tensor import Scalar, Vector, select
-from foamprb.dictionary.constraints import Fraction, NonNegative
+from foamprb.dictionary.constraints import Fraction, Meaning, NonNegative
 from foamprb.dictionary.schema import Schema
 
 STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
@@ -36,8 +36,8 @@ class Escape:
 class Rebound:
     """The particle bounces off: restitution ``e`` normal to the patch, friction ``mu`` along it."""
 
-    e: Annotated[float, Fraction] = 1.0
-    mu: Annotated[float, NonNegative] = 0.0
+    e: Annotated[float, Fraction, Meaning("restitution, normal to the patch", "1")] = 1.0
+    mu: Annotated[float, NonNegative, Meaning("friction, along the patch", "1")] = 0.0
     code: ClassVar[int] = REBOUND
 
 

@@ -35,15 +35,28 @@ class Reason(IntEnum):
     NOT_FINITE = 2
     VOLUME_RATIO = 3
     NOT_CONVERGED = 4
+    STEP_TOO_SMALL = 5
+    FLOW_NOT_FINITE = 6
+    STRETCHED = 7
+    TOO_LARGE = 8
+    WALLS_TOO_MANY = 9
+    SUB_STEPS = 10
 
 
 REASONS: dict[Reason, str] = {
     Reason.NONE: "",
     Reason.LOST: "left the mesh where no boundary face was crossed",
-    Reason.NOT_FINITE: "its position or shape is not a finite number (Δt beyond stability?)",
-    Reason.VOLUME_RATIO: "its volume ratio J left [1/8, 8] (Δt beyond stability?)",
-    Reason.NOT_CONVERGED: "Newton's iteration for its shape did not converge (Δt beyond stability?)",
+    Reason.NOT_FINITE: "its position, velocity or shape is not a finite number",
+    Reason.VOLUME_RATIO: "its volume ratio J left [1/8, 8]",
+    Reason.NOT_CONVERGED: "Newton's iteration for its shape did not converge",
+    Reason.STEP_TOO_SMALL: "the error of its shape or path asks for time steps of less than Δt/1e9",
+    Reason.FLOW_NOT_FINITE: "the flow's velocity or its gradient is not a finite number there",
+    Reason.STRETCHED: "it is stretched beyond maxStretch",
+    Reason.TOO_LARGE: "its longest semi-axis is beyond maxSize of the flow's width",
+    Reason.WALLS_TOO_MANY: "it is so many cells long that the walls near it cannot be listed",
+    Reason.SUB_STEPS: "it needs more than maxSubSteps time steps in one tracking step",
 }
+"""What happened, as the end of a sentence on a particle."""
 
 
 class Variable(NamedTuple):
@@ -82,6 +95,9 @@ class Particles(NamedTuple):
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection", fixed=True)]
     t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
     h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 until it has one")]
+    substeps: Annotated[
+        Array, Variable((), "f8", "1", "time steps of its last tracking step, with those that were repeated")
+    ]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
     patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.drag import DRAGS
 from foamprb.body.material import MATERIALS
@@ -20,9 +21,10 @@ from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
+from foamprb.cloud.limits import Bounds
 from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import total as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import compile_part, is_compiled, link
@@ -31,7 +33,33 @@ from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
 from foamprb.flow.meshflow import LONG
 
-__all__ = ["Models", "Tracker"]
+__all__ = ["Models", "Outcome", "Tracker", "never"]
+
+
+def never() -> bool:
+    """Return false: nobody asks to stop."""
+    return False
+
+
+class Outcome(NamedTuple):
+    """How far the particles came in some steps.
+
+    Where they did not all come to the end, some are there and the others where they began; the same steps
+    taken again take the others there, to the same state.
+    """
+
+    mended: int = 0
+    """Number of walks that failed and were mended by the tree."""
+    finished: bool = True
+    """Whether all particles came to the end."""
+    outgrown: bool = False
+    """Whether one did not as it may touch walls that are not listed."""
+
+    def __add__(self, other: Any) -> Outcome:
+        """Of two shares of the particles."""
+        return Outcome(
+            self.mended + other.mended, self.finished and other.finished, self.outgrown or other.outgrown
+        )
 
 
 @dataclass(frozen=True)
@@ -42,7 +70,8 @@ class Models:
     drag: str = "oberbeck"
     material: str = "neoHooke"
     touching: Literal["ellipsoid", "centre"] = "ellipsoid"
-    integrator: str = "paper"
+    integrator: str = "auto"
+    """``auto`` is chosen by a cloud, by its particles' largest shape Stokes number where they start."""
     tolerance: float = 1e-4
     """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
@@ -125,6 +154,15 @@ class Tracker:
         """Whether the loop is compiled already."""
         return is_compiled(self._track)
 
+    def compile(self, flow: Any) -> None:
+        """Compile the loop in this thread, with what the flow's kernels read."""
+        nothing = np.empty(0, dtype=np.int64)
+        scratch = new_scratch(self.layout.rows)
+        self._track(
+            flow, self.table, self.medium, empty(0), nothing, 0, 1, 0, 0, self.dt, self.start, scratch,
+            self.options,
+        )  # fmt: skip
+
     def compile_moves(self, flow: Any) -> None:
         """Compile what comes after the stages in each step, with what the flow's kernels read."""
         self._compile((release, reach_end), {"flow": flow})
@@ -145,40 +183,86 @@ class Tracker:
         for function in functions:
             compile_part(function, arguments, self.bindings, self.separate)
 
-    def advance(self, flow: Any, p: Particles, step: int, steps: int, threads: int) -> int:
+    def advance(
+        self,
+        flow: Any,
+        p: Particles,
+        step: int,
+        steps: int,
+        threads: int,
+        bounds: Bounds = Bounds(),  # noqa: B008
+        stop: Callable[[], bool] = never,
+    ) -> Outcome:
         """Carry particles from step ``step`` through ``steps`` steps, in place.
 
         Parameters
         ----------
         flow
             What the flow's kernels read.
-
-        Returns
-        -------
-        The number of walks that failed and were mended by the tree.
+        bounds
+            What no particle may pass.
+        stop
+            Asked some times a second: true to end before all are at the end. A signal's handler that raises
+            ends it as well.
         """
-        rows = np.flatnonzero((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
+        last = step + steps
+        reached = np.full(p.size, step)
+        # An earlier call may have been stopped after some had come farther than others.
+        active = p.status == Status.ACTIVE
+        reached[active] = np.maximum(step, np.rint((p.t[active] - self.start) / self.dt).astype(np.int64))
+        outcome = Outcome()
+        for end in sorted({*np.unique(reached[(reached > step) & (reached < last)]).tolist(), last}):
+            rows = np.flatnonzero((p.status <= Status.ACTIVE) & (reached <= step))
+            part = self._carry(flow, p, rows, (step, end - step), threads, bounds, stop)
+            outcome += part
+            if not part.finished:
+                break
+            step = end
+        return outcome
+
+    def _carry(
+        self,
+        flow: Any,
+        p: Particles,
+        rows: NDArray[np.int64],
+        steps: tuple[int, int],
+        threads: int,
+        bounds: Bounds,
+        stop: Callable[[], bool],
+    ) -> Outcome:
+        """Carry the particles of some rows from a step through so many steps."""
         # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
         place = (p.status[rows].astype(np.int64) << 32) + p.host[rows]
         rows = rows[np.argsort(place, kind="stable")]
+        halt = np.zeros(1, dtype=np.int64)
 
-        def work(first: int) -> int:
-            scratch = new_scratch(self.layout.rows)
+        def work(first: int) -> Outcome:
+            scratch = new_scratch(self.layout.rows, halt, bounds)
             mended: int = self._track(
                 flow, self.table, self.medium, p, rows, first, shares,
-                step, steps, self.dt, self.start, scratch, self.options,
+                *steps, self.dt, self.start, scratch, self.options,
             )  # fmt: skip
-            return mended
+            outgrown = bool(scratch.outgrown[0])
+            return Outcome(mended, not (outgrown or halt[0]), outgrown)
 
         blocks = -(-len(rows) // LANES)
         # A thread that is held up leaves the shares that it has not begun to others.
         shares = max(1, min(_SHARES * threads if threads > 1 else 1, blocks))
-        if shares == 1:
-            return work(0)
+        # Also one share goes to another thread: this one answers signals meanwhile.
         with ThreadPoolExecutor(threads) as pool:
-            return sum(pool.map(work, range(shares)))
+            under_way = [pool.submit(work, share) for share in range(shares)]
+            try:
+                while wait(under_way, _PATIENCE).not_done:
+                    if stop():
+                        halt[0] = 1
+            except BaseException:
+                halt[0] = 1
+                raise
+        return sum((share.result() for share in under_way), Outcome())
 
 
+_PATIENCE = 0.1
+"""Seconds after which it is asked whether to stop."""
 _SHARES = 8
 """Of the particles, for each of several threads."""
 

@@ -18,14 +18,24 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, contexts
 from foamprb.cloud.state import Particles, Status
+from foamprb.dictionary.constraints import Meaning
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 
-__all__ = ["STATUS_NAMES", "CloudFunction", "CloudFunctions", "Memory", "ObservedCloud", "Rows"]
+__all__ = [
+    "SAMPLE_INTERVAL",
+    "STATUS_NAMES",
+    "CloudFunction",
+    "CloudFunctions",
+    "Memory",
+    "ObservedCloud",
+    "Rows",
+]
 
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
+SAMPLE_INTERVAL = Meaning("steps between two samples")
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
 

@@ -10,9 +10,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloudfunctions.base import Memory, ObservedCloud
+from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import close_ended, masses, names_of, open_rows
-from foamprb.dictionary.constraints import AtLeastOne, Only, Positive, Vector3
+from foamprb.dictionary.constraints import AtLeastOne, Meaning, Only, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.output.tables import write_table
 
@@ -30,14 +30,18 @@ class ParticleCollector:
     where the path is smooth. A particle that crosses and comes back between two samples is not counted.
     """
 
-    mode: Literal["plane"]
-    origin: Vector3
-    normal: Vector3
-    radius: Annotated[float, Positive] | None = None
-    negateParcelsOppositeNormal: bool = False
+    mode: Annotated[Literal["plane"], Meaning("the only one")]
+    origin: Annotated[Vector3, Meaning("a point of the plane", "m")]
+    normal: Annotated[Vector3, Meaning("its normal, of any length", "1")]
+    radius: (
+        Annotated[float, Positive, Meaning("only the disc about `origin`", "m", "the whole plane")] | None
+    ) = None
+    negateParcelsOppositeNormal: Annotated[
+        bool, Meaning("subtract the mass that goes against the normal")
+    ] = False
     removeCollected: Annotated[bool, Only(False, "the particles go on")] = False
-    resetOnWrite: bool = False
-    sampleInterval: Annotated[int, AtLeastOne] = 10
+    resetOnWrite: Annotated[bool, Meaning("count anew from each write time")] = False
+    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 10
 
     def __post_init__(self) -> None:
         if not any(self.normal):

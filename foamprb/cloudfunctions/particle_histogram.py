@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
+from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import close_ended, names_of, open_rows
-from foamprb.dictionary.constraints import AtLeastOne, Words
+from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.output.tables import Column, write_table
 
@@ -31,9 +31,15 @@ class ParticleHistogram:
     samples, ``sampleInterval`` steps apart, and of the start and the end of each particle.
     """
 
-    fields: Words = ("residenceTime", "maxDeformation", "meanDeformation", "shearExposure")
-    nBins: Annotated[int, AtLeastOne] = 50
-    sampleInterval: Annotated[int, AtLeastOne] = 10
+    fields: Annotated[
+        Words,
+        Meaning(
+            "`residenceTime` (s), `maxDeformation`, `meanDeformation` (Taylor's D), `shearExposure` (∫γ̇ dt)",
+            default="all",
+        ),
+    ] = ("residenceTime", "maxDeformation", "meanDeformation", "shearExposure")
+    nBins: Annotated[int, AtLeastOne, Meaning("bins between the smallest and the largest value")] = 50
+    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 10
 
     def __post_init__(self) -> None:
         for name in self.fields:

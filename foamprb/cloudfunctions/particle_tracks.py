@@ -11,7 +11,7 @@ import numpy as np
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud, Rows
-from foamprb.dictionary.constraints import AtLeastOne
+from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.output.vtk import Tracks, write_tracks
 
 __all__ = ["ParticleTracks"]
@@ -22,16 +22,16 @@ _POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate")
 
 @dataclass(frozen=True)
 class ParticleTracks:
-    """The paths of particles, a polyline each: ``tracks.vtp``.
+    """The paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
 
     A path begins where the particle is released, has a point every ``trackInterval`` steps and at the write
     times, and ends where the particle does. A path has at most ``maxSamples`` points. Of more than
     ``maxTracks`` particles that many are followed, evenly spread over their numbers.
     """
 
-    trackInterval: Annotated[int, AtLeastOne]
-    maxSamples: Annotated[int, AtLeastOne]
-    maxTracks: Annotated[int, AtLeastOne] = 1000
+    trackInterval: Annotated[int, AtLeastOne, Meaning("steps between two points")]
+    maxSamples: Annotated[int, AtLeastOne, Meaning("most points of a path, which then ends")]
+    maxTracks: Annotated[int, AtLeastOne, Meaning("most paths, evenly spread over the particles")] = 1000
 
     @property
     def interval(self) -> int:

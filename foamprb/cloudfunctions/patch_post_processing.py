@@ -14,7 +14,7 @@ from foamprb.cloud.patches import REBOUND
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import columns, masses, names_of
-from foamprb.dictionary.constraints import AtLeastOne, Words
+from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.output.names import file_name
 from foamprb.output.tables import write_table
@@ -32,8 +32,10 @@ class PatchPostProcessing:
     between the longest axis and the normal, both in degrees. A rebound is not recorded.
     """
 
-    patches: Words
-    maxStoredParcels: Annotated[int, AtLeastOne] | None = None
+    patches: Annotated[Words, Meaning("`(name name)`")]
+    maxStoredParcels: (
+        Annotated[int, AtLeastOne, Meaning("only the first of each patch", default="all")] | None
+    ) = None
 
     @property
     def interval(self) -> int:

@@ -1,4 +1,4 @@
-"""Rules that a dictionary entry's value must keep, declared beside its type.
+"""Rules that a dictionary entry's value must keep, and what it means, declared beside its type.
 
 A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
 annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.schema` checks.
@@ -77,6 +77,20 @@ class Each:
     def admits(self, value: tuple[float, ...]) -> bool:
         """Whether all components are admitted."""
         return all(self.bounds.admits(component) for component in value)
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What the documentation says of an entry, in Markdown: beside its rule, in the same type hint.
+
+    ``deltaT: Annotated[float, Positive, Meaning("tracking step", "s")]``. :mod:`foamprb.settings.reference`
+    makes the pages, ``foamprb help`` and the comments of ``foamprb init`` of it.
+    """
+
+    text: str
+    unit: str = ""
+    default: str = ""
+    """How the default is called, where its value says nothing to a reader."""
 
 
 Rule: TypeAlias = Bounds | Choice | Only | NoEffect | Each

@@ -1,4 +1,4 @@
-"""A schema: a frozen dataclass that declares a dictionary's entries, their types, bounds and defaults.
+"""A schema: a frozen dataclass that declares a dictionary's entries: types, bounds, defaults, meanings.
 
 Its field names are the entries' own words, its type hints say what they hold:
 ``rho0: Annotated[float, Positive]``. A field of type ``Annotated[None, NoEffect(why)]`` is an entry of
@@ -39,6 +39,7 @@ __all__ = [
     "read_entries",
     "read_entry",
     "refuse_unknown",
+    "rule_of",
     "selected",
 ]
 
@@ -212,12 +213,18 @@ def _kind(hint: Any) -> tuple[Any, Rule | None]:
     """Split a hint into a type (a key of ``READERS``, or a schema) and the rule that the value must keep."""
     origin = get_origin(hint)
     if origin is Annotated:
-        return hint.__origin__, hint.__metadata__[0]
+        kind, rule = _kind(hint.__origin__)
+        return kind, next((note for note in hint.__metadata__ if isinstance(note, Rule)), rule)
     if origin is Literal:
         return str, Choice(get_args(hint))
     if origin in (Union, UnionType):
         return _kind(_first(hint))
     return hint, None
+
+
+def rule_of(hint: Any) -> Rule | None:
+    """Return the rule that the value of an entry must keep, by its type hint."""
+    return _kind(hint)[1]
 
 
 def _may_be_dictionary(hint: Any) -> bool:

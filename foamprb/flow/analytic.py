@@ -102,7 +102,11 @@ class AnalyticFlow:
         Boundaries, if any.
     inside
         Tells for points of shape (n, 3) which lie in the flow.
+    width
+        The shortest way between walls, m.
     """
+
+    lists_walls = False
 
     def __init__(
         self,
@@ -110,11 +114,13 @@ class AnalyticFlow:
         kernels: dict[str, Callable[..., Any]],
         patches: Sequence[Patch] = (),
         inside: Callable[[Floats], NDArray[np.bool_]] = everywhere,
+        width: float = math.inf,
     ) -> None:
         self._parameters = parameters
         self._inside = inside
         self.kernels = kernels
         self.patches = tuple(patches)
+        self.width = width
         self.notes: tuple[str, ...] = ()
         self.span = (-math.inf, math.inf)
 
@@ -128,6 +134,10 @@ class AnalyticFlow:
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """There is nothing large."""
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """Nothing: there are no nodes."""
+        return "", np.empty((0, 3)), np.empty((0, 9))
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """The parameters, by name."""
@@ -484,4 +494,5 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
         },
         (Patch("wall", "wall"), Patch("inlet", "patch"), Patch("outlet", "patch")),
         inside,
+        2.0 * parameters.radius,
     )

@@ -107,6 +107,10 @@ class Flow(Sampled, Protocol):
     """First and last time of the flow, s; from −∞ to ∞ when it is steady or in closed form."""
     patches: tuple[Patch, ...]
     kernels: dict[str, Callable[..., Any]]
+    width: float
+    """The shortest way between walls and openings along an axis of the coordinates, m; infinite without."""
+    lists_walls: bool
+    """Whether ``gap`` sees only the walls within the reach for which :meth:`arrays` has listed them."""
     notes: tuple[str, ...]
     """What the user should know about the flow; a :class:`Caveat` is a warning."""
 
@@ -143,6 +147,9 @@ class Flow(Sampled, Protocol):
 
     def cell_zone(self, name: str | None) -> Tetrahedra:
         """Tetrahedra of a zone of cells, or of all cells; InputError when there is no such zone."""
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The name of the time that was read, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """What tells the flow from another, by name: to know it again when a run is taken up."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.interfaces import overlaps
 from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
@@ -23,17 +24,26 @@ LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, planes_among, loca
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
-def _across(mesh: Mesh) -> Ints:
-    """See :class:`MeshArrays`."""
+def _across(mesh: Mesh) -> tuple[Ints, Ints]:
+    """``across`` and ``partners`` of :class:`MeshArrays`."""
     count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
     start = np.concatenate([[0], np.cumsum(count)])
     partner = np.full(len(mesh.boundary_centres), -1)
     for coupling in mesh.couplings:
         partner[coupling.faces] = coupling.partners
     other = partner[mesh.triangle_face]
+    # The triangles of a face follow each other.
     across = np.stack([start[other], start[other + 1]], axis=1)
     across[other < 0] = 0
-    return across.astype(np.int32)
+    partners = [np.arange(len(mesh.triangle_face))]
+    first = len(partners[0])
+    for coupling in mesh.couplings:
+        if not coupling.matching:
+            own, begin, lists = overlaps(mesh, coupling)
+            across[own] = first + np.stack([begin[:-1], begin[1:]], axis=1)
+            partners.append(lists)
+            first += len(lists)
+    return across.astype(np.int32), np.concatenate(partners).astype(np.int32)
 
 
 def _motions(mesh: Mesh) -> Floats:
@@ -43,6 +53,24 @@ def _motions(mesh: Mesh) -> Floats:
     for coupling in mesh.couplings:
         motions[coupling.patch] = [*coupling.turn.ravel(), *coupling.shift]
     return motions
+
+
+_NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
+"""The types of patches beyond which a flow goes on, as do coupled ones."""
+_FACING = 0.01
+"""Share of the boundary that must face along an axis for the flow to end there."""
+
+
+def _width(mesh: Mesh) -> float:
+    """The shortest extent of the mesh along an axis along which it ends at walls or openings, m."""
+    ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
+    rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
+    if len(rows) == 0:
+        return float(np.inf)
+    corners = mesh.points[mesh.triangles[rows]]
+    areas = np.abs(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])).sum(axis=0)
+    extents = corners.max(axis=(0, 1)) - corners.min(axis=(0, 1))
+    return float(extents[areas > _FACING * areas.sum()].min())
 
 
 _AT_ONCE = 1 << 20
@@ -62,6 +90,8 @@ class MeshFlow:
         What the user should know about the flow, sentence by sentence.
     zones
         Reads the cells of each zone of cells, by name, when somebody asks for one.
+    time
+        Name of the time that was read, if there are times.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -74,6 +104,7 @@ class MeshFlow:
         "recover": recover,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
+    lists_walls = True
 
     def __init__(
         self,
@@ -82,7 +113,9 @@ class MeshFlow:
         l: Floats,
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+        time: str = "",
     ) -> None:
+        self._time = time
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -93,6 +126,7 @@ class MeshFlow:
                 "far from convex there, and paths through them are less certain.",
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
+        self.width = _width(mesh)
         nodes = np.zeros((len(u), 16))
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
@@ -100,6 +134,7 @@ class MeshFlow:
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         self._tree = build_tree(cell_boxes(mesh))
+        across, partners = _across(mesh)
         self._arrays = MeshArrays(
             nodes=nodes,
             n_points=mesh.n_points,
@@ -112,7 +147,8 @@ class MeshFlow:
             triangle_patch=mesh.triangle_patch,
             triangle_normals=mesh.triangle_normals,
             triangle_tet=mesh.triangle_tet,
-            across=_across(mesh),
+            across=across,
+            partners=partners,
             motions=_motions(mesh),
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
@@ -176,6 +212,10 @@ class MeshFlow:
         self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
         held = {field.name for field in fields(self.mesh)}
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import Vector
 from foamprb.flow.base import NO_PLANES, Planes
 from foamprb.flow.mesh.locator import MeshArrays
-from foamprb.flow.walk import inward
-from foamprb.flow.walls import closest
+from foamprb.flow.walk import inward, nearest_point
 
 _SAME_WALL = math.sqrt(0.5)
 _ON_EDGE = 1e-9
@@ -60,7 +59,7 @@ def planes_among(
         if _over(n, ra, rb, rc):
             planes = _with(planes, h, n)
         else:
-            p = closest(ra, rb, rc)
+            p = nearest_point(ra, rb, rc)
             distance = math.sqrt(_dot(p, p))
             if distance < nearest:
                 nearest, towards = distance, (-p[0] / distance, -p[1] / distance, -p[2] / distance)

@@ -157,6 +157,7 @@ class SeriesFlow:
         nodes = mesh.n_points + mesh.n_cells
         self._steady = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
         self.patches, self.notes, self.bounds = self._steady.patches, self._steady.notes, self._steady.bounds
+        self.width, self.lists_walls = self._steady.width, self._steady.lists_walls
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())
@@ -221,6 +222,12 @@ class SeriesFlow:
         """As :meth:`MeshFlow.move`; the fields, which change, are not moved."""
         self._steady.move(place)
         self.mesh = self._steady.mesh
+
+    def at_nodes(self) -> tuple[str, Floats, Floats]:
+        """The first time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        self.load(self.times[0], self.times[0])
+        first = self._fields[self._in_memory[0]]
+        return f"{self.times[0]:g}", first[:, :3], first[:, 3:]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, times, and velocities at the first of them, by name."""

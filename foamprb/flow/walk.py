@@ -7,7 +7,7 @@ is met exactly where it is crossed.
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -23,6 +23,8 @@ _MOST_CROSSINGS = 20_000
 # Crossings without progress, as around an edge or a vertex, after which the start is nudged.
 _MOST_STALLS = 200
 _ATTEMPTS = 4
+# Smaller weights than this, negative, are no round-off.
+_APART = 1e-6
 # A point off the middle of a tetrahedron and of its faces.
 _INSIDE = (0.1, 0.2, 0.3, 0.4)
 
@@ -172,7 +174,7 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     -------
     host, x, turn
         The tetrahedron behind the neighbouring face, −1 if the patch is coupled to none; the place, which
-        lies in it to round-off however well the two faces fit; the rotation from this side to that.
+        lies in it to round-off however well the two sides fit; the rotation from this side to that.
     """
     first, end = flow.across[triangle, 0], flow.across[triangle, 1]
     m, k = flow.motions, flow.triangle_patch[triangle]
@@ -180,22 +182,79 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     y = dot_vector(turn, x)
     y = (y[0] + m[k, 9], y[1] + m[k, 10], y[2] + m[k, 11])
     host, depth = _NO_TET, -np.inf
-    for other in range(first, end):
-        tet = int(flow.triangle_tet[other])
+    for place in range(first, end):
+        tet = int(flow.triangle_tet[flow.partners[place]])
         origin, c1, c2, c3, volume = frame(flow, tet)
         if volume != 0.0:
             w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
             smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
             if smallest > depth:
                 host, depth = tet, smallest
-    if host >= 0 and depth < 0.0:
+    if depth < -_APART:
+        # Surfaces that are cut differently lie apart by what is between their chords.
+        host, y = _landed(flow, first, end, y)
+    elif host >= 0 and depth < 0.0:
         origin, c1, c2, c3, volume = frame(flow, host)
         w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, y)
         s = 1.0 / volume
         w0, w1, w2, w3 = max(s * w0, 0.0), max(s * w1, 0.0), max(s * w2, 0.0), max(s * w3, 0.0)
         s = 1.0 / (w0 + w1 + w2 + w3)
-        nodes, tets = flow.nodes, flow.tets
-        a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
-        found, w = (a, b, c, d), (s * w0, s * w1, s * w2, s * w3)
-        y = blend(nodes, 0, found, w), blend(nodes, 1, found, w), blend(nodes, 2, found, w)
+        y = _blend3(flow, host, (s * w0, s * w1, s * w2, s * w3))
     return host, y, turn
+
+
+def _blend3(flow: MeshArrays, tet: int, w: Weights) -> Vector:
+    """The point of a tetrahedron that has these weights."""
+    nodes, at = flow.nodes, corners(flow, tet, 0)
+    return blend(nodes, 0, at, w), blend(nodes, 1, at, w), blend(nodes, 2, at, w)
+
+
+def _landed(flow: MeshArrays, first: int, end: int, y: Vector) -> tuple[int, Vector]:
+    """The nearest point to y of triangles across, and the tetrahedron behind it."""
+    host, best, least = _NO_TET, y, np.inf
+    for place in range(first, end):
+        triangle = int(flow.partners[place])
+        a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
+        p = nearest_point(_seen_from(y, flow, a), _seen_from(y, flow, b), _seen_from(y, flow, c))
+        distance = _dot(p, p)
+        if distance < least:
+            host, least = int(flow.triangle_tet[triangle]), distance
+            best = (y[0] + p[0], y[1] + p[1], y[2] + p[2])
+    return host, best
+
+
+def _seen_from(y: Vector, flow: MeshArrays, node: int) -> Vector:
+    nodes = flow.nodes
+    return nodes[node, 0] - y[0], nodes[node, 1] - y[1], nodes[node, 2] - y[2]
+
+
+def nearest_point(a: Vector, b: Vector, c: Vector) -> Vector:
+    """Point of the triangle a, b, c nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
+    ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+    ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
+    d1, d2 = -_dot(ab, a), -_dot(ac, a)
+    d3, d4 = -_dot(ab, b), -_dot(ac, b)
+    d5, d6 = -_dot(ab, c), -_dot(ac, c)
+    va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
+    v, w = 0.0, 0.0
+    if d1 <= 0.0 and d2 <= 0.0:
+        v, w = 0.0, 0.0
+    elif d3 >= 0.0 and d4 <= d3:
+        v, w = 1.0, 0.0
+    elif d6 >= 0.0 and d5 <= d6:
+        v, w = 0.0, 1.0
+    elif vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        v, w = d1 / (d1 - d3), 0.0
+    elif vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        v, w = 0.0, d2 / (d2 - d6)
+    elif va <= 0.0 and d4 - d3 >= 0.0 and d5 - d6 >= 0.0:
+        w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        v = 1.0 - w
+    else:
+        s = 1.0 / (va + vb + vc)
+        v, w = vb * s, vc * s
+    return a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2]
+
+
+def _dot(p: Vector, q: Vector) -> Any:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

@@ -15,7 +15,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.locator import MeshArrays
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.walk import NO_TRIANGLE, inward
+from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
 
 # Entries of the lists of walls nearby: a gigabyte.
 _MOST_ENTRIES = 250_000_000
@@ -69,40 +69,8 @@ def nearest_wall(
 
 def _distance(a: Vector, b: Vector, c: Vector) -> float:
     """Distance of the triangle a, b, c from the origin."""
-    p = closest(a, b, c)
-    return float(np.sqrt(_dot(p, p)))
-
-
-def closest(a: Vector, b: Vector, c: Vector) -> Vector:
-    """Point of the triangle a, b, c nearest the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
-    ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-    ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
-    d1, d2 = -_dot(ab, a), -_dot(ac, a)
-    d3, d4 = -_dot(ab, b), -_dot(ac, b)
-    d5, d6 = -_dot(ab, c), -_dot(ac, c)
-    va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
-    v, w = 0.0, 0.0
-    if d1 <= 0.0 and d2 <= 0.0:
-        v, w = 0.0, 0.0
-    elif d3 >= 0.0 and d4 <= d3:
-        v, w = 1.0, 0.0
-    elif d6 >= 0.0 and d5 <= d6:
-        v, w = 0.0, 1.0
-    elif vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-        v, w = d1 / (d1 - d3), 0.0
-    elif vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-        v, w = 0.0, d2 / (d2 - d6)
-    elif va <= 0.0 and d4 - d3 >= 0.0 and d5 - d6 >= 0.0:
-        w = (d4 - d3) / ((d4 - d3) + (d5 - d6))
-        v = 1.0 - w
-    else:
-        s = 1.0 / (va + vb + vc)
-        v, w = vb * s, vc * s
-    return a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2]
-
-
-def _dot(p: Vector, q: Vector) -> Any:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+    p = nearest_point(a, b, c)
+    return float(np.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]))
 
 
 class Walls(NamedTuple):

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import groupby
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import orjson
 from numpy.typing import NDArray
 
 from foamprb.output.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
-# Rows converted to Python objects at a time: bounds the memory, costs no time.
+# Rows converted to text at a time: bounds the memory, costs no time.
 _CHUNK = 65536
+
+_WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
@@ -48,7 +54,7 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
     with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         file.write(",".join(map(_cell, arrays)) + "\n")
         for rows in _chunks(list(arrays.values())):
-            file.writelines(f"{','.join(row)}\n" for row in rows)
+            file.write("\n".join(map(",".join, rows)) + "\n")
 
 
 def _as_column(name: str, column: Column) -> NDArray[Any]:
@@ -61,15 +67,39 @@ def _as_column(name: str, column: Column) -> NDArray[Any]:
 
 def _chunks(columns: list[NDArray[Any]]) -> Iterator[Iterable[tuple[str, ...]]]:
     n = len(columns[0]) if columns else 0
+    runs = [list(run) for _, run in groupby(columns, _kind)]
     for start in range(0, n, _CHUNK):
-        yield zip(*(_cells(column[start : start + _CHUNK]) for column in columns), strict=True)
+        rows = slice(start, start + _CHUNK)
+        yield zip(*(_texts([column[rows] for column in run]) for run in runs), strict=True)
 
 
-def _cells(column: NDArray[Any]) -> Iterator[str]:
-    # A double's repr is the shortest text that reads back the same.
-    return map(repr if column.dtype.kind in "iuf" else _cell, column.tolist())
+def _kind(column: NDArray[Any]) -> np.dtype[Any] | int:
+    """What is the same for columns whose cells are written together: those of numbers of a kind."""
+    return _WIDE.get(column.dtype.kind, id(column))
+
+
+def _texts(columns: list[NDArray[Any]]) -> Iterable[str]:
+    """The rows of columns of a kind as text."""
+    kind = _kind(columns[0])
+    if isinstance(kind, int):
+        return map(_cell, columns[0].tolist())
+    # JSON's numbers are those of tables, and orjson writes them thirty times as fast as Python does.
+    numbers = np.stack(columns, axis=1).astype(kind, order="C", copy=False)
+    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
+    for row in np.flatnonzero(~np.isfinite(numbers).all(axis=1)):
+        texts[row] = ",".join(map(_float, numbers[row].tolist()))
+    return texts
+
+
+def _float(value: float) -> str:
+    return orjson.dumps(value).decode() if isfinite(value) else repr(value)
 
 
 def _cell(value: object) -> str:
-    text = str(value)
+    return _quoted(str(value))
+
+
+# The words of a column are few.
+@lru_cache(maxsize=_CHUNK)
+def _quoted(text: str) -> str:
     return f'"{text.replace(_QUOTE, 2 * _QUOTE)}"' if _SPECIAL.search(text) else text

@@ -9,6 +9,7 @@ device.
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -20,9 +21,10 @@ from foamprb.cloud.block import ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Executor
 from foamprb.cloud.integrators.paper import track_block as track
+from foamprb.cloud.limits import Bounds
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
 from foamprb.cloud.state import CHANGING, Particles
-from foamprb.cloud.tracker import Tracker
+from foamprb.cloud.tracker import Outcome, Tracker, never
 from foamprb.compile.link import is_compiled, link
 from foamprb.errors import InputError
 
@@ -33,7 +35,7 @@ log = logging.getLogger("foamprb")
 _THREADS = 64
 """Threads of a block; few, as a particle takes all registers that a thread can have."""
 _STEPS_PER_SORT = 100
-_ZERO = np.zeros(1, dtype=np.int64)
+_ZERO = np.zeros(2, dtype=np.int64)
 
 
 def device_name() -> str:
@@ -66,9 +68,14 @@ def track_each(
     dt: float,
     start: float,
     options: tuple[float, ...],
+    bounds: Bounds,
     mended: NDArray[np.int64],
 ) -> None:
-    """Carry the particles of some rows through ``steps`` steps, and count the walks that were mended."""
+    """Carry the particles of some rows through ``steps`` steps.
+
+    To ``mended`` are added the number of walks that were mended, and that of the particles that stay as they
+    are since they may touch walls that are not listed.
+    """
     i = cuda.grid(1)
     if i < rows.shape[0]:
         scratch = Scratch(
@@ -79,13 +86,19 @@ def track_each(
             cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),
             cuda.local.array((9, 10), np.float64),
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
+            bounds,
         )
+        scratch.stop[0] = scratch.outgrown[0] = 0
         # Not a slice of rows: that this has one element the compiler must see.
         members = cuda.local.array(1, np.int64)
         members[0] = rows[i]
         n = track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
         if n > 0:
             cuda.atomic.add(mended, 0, n)
+        if scratch.outgrown[0] > 0:
+            cuda.atomic.add(mended, 1, 1)
 
 
 def find_longest(p: Particles, longest: NDArray[np.float64]) -> None:
@@ -151,7 +164,7 @@ class Device(Executor):
         with suppress(InputError):
             self._launch(*self._cloud.load_flow(steps))
 
-    def advance(self, flow: Any, steps: int) -> int:
+    def advance(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:  # noqa: ARG002
         """Take steps, those that were begun if they are as many, and wait for them."""
         self._hold()
         if self._coming:
@@ -167,7 +180,13 @@ class Device(Executor):
         self._mended.copy_to_device(_ZERO)
         self._held.status[:] = status
         self._begun, self._gathered = 0, False
-        return int(mended[0])
+        outgrown = bool(mended[1])
+        if outgrown:
+            # All come to the end together.
+            self._begun = steps
+            self._go_back()
+            return Outcome(0, finished=False, outgrown=True)
+        return Outcome(int(mended[0]))
 
     def longest(self) -> float:
         """Longest semi-axis of the particles that move or will, m, or a little more; 0 without any."""
@@ -247,7 +266,8 @@ class Device(Executor):
         if len(self._rows):
             self._track[_blocks(len(self._rows)), _THREADS, self._work](
                 arrays, self._table, medium, self._state, rows,
-                self._cloud.step, steps, tracker.dt, tracker.start, tracker.options, self._mended,
+                self._cloud.step, steps, tracker.dt, tracker.start, tracker.options, self._cloud.bounds,
+                self._mended,
             )  # fmt: skip
         self._in_use = arrays, medium, rows
         self._begun = steps

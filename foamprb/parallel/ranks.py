@@ -23,6 +23,7 @@ import numpy as np
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.executor import AT_ONCE, Executor
 from foamprb.cloud.state import Status
+from foamprb.cloud.tracker import Outcome, never
 from foamprb.output.pvd import Series, with_ending
 from foamprb.output.vtk import write_pieces
 from foamprb.parallel.exchange import plan_exchange
@@ -55,6 +56,7 @@ class Ranks(Executor):
         self._flow = b""
         self._shares: list[Share] = []
         self._gathered = True
+        self._stop: Callable[[], bool] = never
 
     @property
     def threads(self) -> int:
@@ -88,8 +90,9 @@ class Ranks(Executor):
         return [answer.value for answer in answers]
 
     def _carry_out(self, name: str, arguments: tuple[Any, ...]) -> Answer:
-        # The whole cloud is not for sending around.
-        own = (self._cloud.particles,) if name == "distribute" else ()
+        # The whole cloud is not for sending around, and who asks to stop cannot be sent.
+        own: tuple[Any, ...] = (self._cloud.particles,) if name == "distribute" else ()
+        own = (self._stop,) if name == "advance" else own
         return self.worker.carry_out(name, (*arguments, *own), ())
 
     def dismiss(self, status: int) -> None:
@@ -120,15 +123,16 @@ class Ranks(Executor):
         """Whether the loop is compiled in this process."""
         return self._cloud.tracker.compiled
 
-    def advance(self, flow: Any, steps: int) -> int:
+    def advance(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:
         """Even out the shares if they have become too different, and let all go on."""
         self._publish(flow)
         plan = plan_exchange([int(share.counts[Status.ACTIVE]) for share in self._shares])
         if plan is not None:
             self.order("exchange", plan)
-        self._shares = self.order("advance", self._cloud.step, steps)
+        self._stop = stop
+        self._shares = self.order("advance", self._cloud.step, steps, self._cloud.bounds)
         self._gathered = False
-        return sum(share.mended for share in self._shares)
+        return sum((share.outcome for share in self._shares), Outcome())
 
     def counts(self) -> dict[Status, int]:
         """Number of particles of each status."""

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.executor import longest_semi_axis
+from foamprb.cloud.limits import Bounds
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, concatenate, empty
-from foamprb.cloud.tracker import Tracker
+from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.sampling import sample_with
@@ -46,8 +47,8 @@ class Share(NamedTuple):
     """Number of each status."""
     longest: float
     """Longest semi-axis of those that move or will, m."""
-    mended: int = 0
-    """Number of walks that the tree mended since the last time."""
+    outcome: Outcome = Outcome()
+    """How far they came in the steps that they were ordered to take."""
 
 
 class Answer(NamedTuple):
@@ -89,9 +90,12 @@ class Worker:
         # Of each particle, whether the first process may not know its state.
         self._fresh = np.empty(0, dtype=bool)
         self._flow: Any = None
+        self.signals: Sequence[int] = ()
+        """Those that this process has received, which grow."""
 
     def carry_out(self, name: str, arguments: tuple[Any, ...], signals: Sequence[int]) -> Answer:
         """Do what an order says."""
+        self.signals = signals
         try:
             return Answer(getattr(self, name)(*arguments), None, list(signals))
         except Exception as error:
@@ -156,10 +160,11 @@ class Worker:
         self.ids = np.concatenate([self.ids[~gone], ids])
         self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
 
-    def advance(self, step: int, steps: int) -> Share:
-        """Carry the particles through some steps."""
-        mended = self._tracker.advance(self._flow, self.particles, step, steps, self._threads)
-        return self.share()._replace(mended=mended)
+    def advance(self, step: int, steps: int, bounds: Bounds, stop: Callable[[], bool] | None = None) -> Share:
+        """Carry the particles through some steps, or to where ``stop``, else a signal, ends them."""
+        stop = stop or (lambda: bool(self.signals))
+        outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
+        return self.share()._replace(outcome=outcome)
 
     def gather(self) -> None:
         """Send what may have changed since the last time to the first process."""

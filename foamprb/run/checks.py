@@ -10,7 +10,11 @@ from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import shear_rate_at
+from foamprb.cloud.state import Particles
 
+STEADY_CAPILLARY = 0.3
+"""Largest μ_f γ̇/μ_s, about, at which a neo-Hookean sphere comes to a steady shape in uniaxial extension."""
+_MOST_NODES, _SMALL_SHARE = 20_000, 0.01
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number at which Stokes flow around the particle is taken for granted."""
 
@@ -31,6 +35,8 @@ class Groups(NamedTuple):
     """Δt/τ_s."""
     size: tuple[float, float]
     """d over the size of the cell at release."""
+    extending: float = 0.0
+    """Share of the flow in which the softest has no steady shape if it stays."""
 
 
 def groups(cloud: Cloud, injector: int) -> Groups:
@@ -48,7 +54,22 @@ def groups(cloud: Cloud, injector: int) -> Groups:
         _range(gamma * tau),
         _range(cloud.dt / tau),
         _range(2.0 * p.R / cloud.flow.cell_size(p.host)),
+        _extending(cloud, p),
     )
+
+
+def _extending(cloud: Cloud, p: Particles) -> float:
+    """Share of the flow's nodes where the softest particle's capillary number of extension is too large.
+
+    It is that of the uniaxial extension that stretches as fast as the flow there, the rate of which is the
+    largest real part of the eigenvalues of ∇u; in simple shear, where every body has a steady shape, zero.
+    """
+    gradient = cloud.flow.at_nodes()[2]
+    gradient = gradient[:: max(1, len(gradient) // _MOST_NODES)]
+    if len(gradient) == 0 or p.size == 0:
+        return 0.0
+    rate = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
+    return float(np.mean(np.sqrt(3.0) * cloud.medium.mu * rate / p.mu.min() > STEADY_CAPILLARY))
 
 
 def _range(values: np.ndarray) -> tuple[float, float]:
@@ -81,6 +102,12 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
         found.append(
             f"{where}: the particle Reynolds number is {g.reynolds[1]:.3g}; the traction and the drag are "
             f"those of Stokes flow, which needs it small (below {SMALL_REYNOLDS:g})."
+        )
+    if g.extending > _SMALL_SHARE:
+        found.append(
+            f"{where}: in {100 * g.extending:.2g} % of the flow the capillary number is beyond "
+            f"{STEADY_CAPILLARY:g} in extension, where a body has no steady shape: one that stays there is "
+            "stretched on and on, and fails at maxStretch."
         )
     if g.size[1] > 1.0:
         found.append(

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -21,7 +20,6 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
-from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.tracker import Models, Tracker
@@ -210,10 +208,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
-    integrator = solution.shape
-    if integrator == "auto":
-        integrator = automatic(shape_stokes_number(particles, flow, medium.mu, start))
-    models = _models(settings, integrator)
+    models = _models(settings, solution.shape)
     try:
         cloud = Cloud(
             particles,
@@ -224,6 +219,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
             models,
             threads or available_threads(),
             start=start,
+            limits=solution.limits,
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
@@ -263,14 +259,6 @@ def _start(settings: Settings, flow: Flow) -> float:
 def _steps(solution: Solution, start: float) -> int:
     """Number of steps from the start to the end of the run."""
     return max(1, round((solution.endTime - start) / solution.deltaT))
-
-
-def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
-    """The largest γ̇ τ_s of the particles where they start, at ``time`` (s)."""
-    if p.size == 0:
-        return 0.0
-    rate = shear_rate_at(flow, p, time)
-    return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
 def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium) -> Particles:

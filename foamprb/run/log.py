@@ -13,20 +13,26 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
-from foamprb.cloud.state import REASONS, Reason, Status
+from foamprb.cloud.measures import shape_stokes_number, shear_rate
+from foamprb.cloud.reasons import explain
+from foamprb.cloud.state import Status
 from foamprb.compile.cache import cache_directory
 from foamprb.run.checks import Groups, doubts, groups
-from foamprb.run.job import Job, shape_stokes_number
+from foamprb.run.job import Job
 from foamprb.run.results import FAILURES
 
 log = logging.getLogger("foamprb")
 
 _MAX_LISTED_FAILURES = 10
+_CHUNK = 1 << 20
+_BETWEEN_LINES = 30.0
+"""Seconds between two lines on how far a run is."""
 
 
 def describe(job: Job) -> list[str]:
     """Log what was selected and what it means; return the warnings, each logged as well."""
     settings, cloud = job.settings, job.cloud
+    _log_flow(job)
     log.info("Selecting tractionModel %s", settings.traction)
     forces = {"ellipsoidDrag": settings.drag, **settings.forces, **settings.surroundings}
     named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
@@ -60,6 +66,23 @@ def describe(job: Job) -> list[str]:
     return warnings
 
 
+def _log_flow(job: Job) -> None:
+    """Log the fluid, and the ranges of the flow that was read."""
+    fluid, (time, u, l) = job.settings.fluid, job.cloud.flow.at_nodes()
+    log.info("Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid.nu, fluid.mu, fluid.rho)
+    if len(u) == 0:
+        return
+    parts = [slice(start, start + _CHUNK) for start in range(0, len(u), _CHUNK)]
+    first = " (the first)" if job.settings.solution.transient else ""
+    log.info("Flow%s", f" at time {time}{first}" if time else "")
+    for name, values in (
+        ("|U| [m/s]", [np.linalg.norm(u[part], axis=1) for part in parts]),
+        ("shear rate [1/s]", [shear_rate(tuple(l[part].T)) for part in parts]),
+    ):
+        low, high = min(v.min() for v in values), max(v.max() for v in values)
+        log.info("    %-24s %.4g to %.4g", name, low, high)
+
+
 def log_dry_run(job: Job) -> None:
     """Log what a run would do that is not done."""
     log.info(
@@ -82,6 +105,11 @@ def _log_groups(g: Groups) -> None:
         log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 
+def log_compiling() -> None:
+    """Say that the loop over the particles is compiled now."""
+    log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+
+
 class RunLog:
     """The log of a run from the start of its time loop on."""
 
@@ -93,7 +121,7 @@ class RunLog:
     def begin(self) -> None:
         """Say that the time loop starts, and whether its loop over the particles has yet to be compiled."""
         if not self._job.cloud.compiled:
-            log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+            log_compiling()
         log.info("\nStarting time loop\n")
 
     def write_time(self) -> None:
@@ -106,6 +134,7 @@ class RunLog:
         log.info("    injected                        = %d", cloud.particles.size - counts[Status.PENDING])
         log.info("    stuck, escaped, failed          = %d, %d, %d",
                  counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
+        self._log_steps()
         self._log_clocks()
         self._log_failures()
 
@@ -117,6 +146,17 @@ class RunLog:
         if finished:
             log.info("End")
 
+    def _log_steps(self) -> None:
+        """Say in how many steps the last tracking step was cut."""
+        cloud = self._job.cloud
+        p = cloud.particles
+        moved = (p.status == Status.ACTIVE) & (p.substeps > 0.0)
+        if not moved.any():
+            return
+        n, short = p.substeps[moved], p.h[moved] < 0.1 * cloud.dt
+        log.info("    steps per tracking step         = %.3g in the mean, %d at most", n.mean(), n.max())
+        log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * short.mean())
+
     def _failures(self) -> NDArray[np.int64]:
         """Numbers of the particles that have failed."""
         return np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
@@ -127,11 +167,12 @@ class RunLog:
 
     def _log_failures(self) -> None:
         """Name the particles that have failed since the last time, as long as there are few in all."""
-        p, failed = self._job.cloud.particles, self._failures()
+        cloud, failed = self._job.cloud, self._failures()
+        p = cloud.particles
         room = max(0, _MAX_LISTED_FAILURES - len(self._failed))
         for k in np.setdiff1d(failed, self._failed)[:room]:
             log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
-                        k, p.t[k], *p.x[k], REASONS[Reason(p.reason[k])])  # fmt: skip
+                        k, p.t[k], *p.x[k], explain(p.reason[k], cloud.models, cloud.limits))  # fmt: skip
         self._failed = failed
 
     def _log_fates(self) -> None:
@@ -160,7 +201,7 @@ class RunLog:
 
 @contextmanager
 def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
-    """A progress bar on a terminal, nothing elsewhere.
+    """A progress bar on a terminal, a line in the log now and then elsewhere.
 
     Parameters
     ----------
@@ -178,5 +219,40 @@ def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
-        task = progress.add_task("", total=end - start)
-        yield lambda t: progress.update(task, completed=min(t, end) - start)
+        if console.is_terminal:
+            task = progress.add_task("", total=end - start)
+            yield lambda t: progress.update(task, completed=min(t, end) - start)
+        else:
+            yield _Lines(start, end)
+
+
+class _Lines:
+    """Lines in the log that say how far a run is; arguments as of :func:`progress_bar`."""
+
+    def __init__(self, start: float, end: float) -> None:
+        self._start, self._end = start, end
+        self._first: tuple[float, float] | None = None
+        self._last = clock.perf_counter()
+
+    def __call__(self, t: float) -> None:
+        """Say how far the run is at a time, s, if that was not said just now."""
+        now = clock.perf_counter()
+        if self._first is None:
+            # What was compiled until here says nothing of the rest.
+            self._first = now, t
+        if now - self._last < _BETWEEN_LINES:
+            return
+        self._last = now
+        began, from_time = self._first
+        left = ""
+        if t > from_time:
+            left = f", about {_duration((now - began) * (self._end - t) / (t - from_time))} left"
+        share = 100.0 * (t - self._start) / (self._end - self._start)
+        log.info("t = %.6g s, %.3g %% of the run%s", t, share, left)
+
+
+def _duration(seconds: float) -> str:
+    for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {name}"
+    return f"{seconds:.0f} s"

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import time as clock
 from collections.abc import Callable
 
 import numpy as np
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import Executor
+from foamprb.cloud.executor import AT_ONCE, Executor
 from foamprb.cloud.measures import context
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.parallel.signals import caught_signals
 from foamprb.run.job import Job
-from foamprb.run.log import RunLog, progress_bar
+from foamprb.run.log import RunLog, log_compiling, progress_bar
 from foamprb.run.results import FAILURES, HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.settings import StartFrom
 
@@ -39,7 +40,7 @@ def execute(
         checkpoint, if there is one. By default what the settings say. If they say nothing, a run begins anew,
         but not in place of an unfinished one.
     stop
-        Asked every second or so: true to write a checkpoint and end the run.
+        Asked some times a second: true to write a checkpoint and end the run.
     executor
         Who carries the particles; by default the threads of this process.
 
@@ -60,9 +61,10 @@ def execute(
         log = RunLog(job)
         _make_ready(job, executor)
         log.begin()
+        pace = _Pace()
         with progress_bar(job.cloud.start, job.settings.solution.endTime) as show:
             while _goes_on(job):
-                if not _advance(job, results, stop, show):
+                if not _advance(job, results, stop, show, pace):
                     results.save()
                     raise RunStopped(f"stopped at t = {job.cloud.time:.12g} s. {HOW_TO_GO_ON}")
                 results.write()
@@ -85,6 +87,7 @@ def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | N
     InputError, RunStopped
         As of :func:`execute`.
     """
+    _compile(job, executor)
     with caught_signals() as caught:
         try:
             execute(job, start_from, lambda: bool(caught or executor.signals), executor)
@@ -93,6 +96,19 @@ def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | N
             if not signals:
                 raise
             raise RunInterrupted(str(stopped), signals[0]) from stopped
+
+
+def _compile(job: Job, executor: Executor) -> None:
+    """Compile the loop, if this process needs it; a signal acts at once until then."""
+    cloud = job.cloud
+    if not executor.precompiles:
+        return
+    if job.precompiler:
+        cloud.make_ready()
+        job.precompiler.wait()
+    if not cloud.compiled:
+        log_compiling()
+    cloud.tracker.compile(cloud.make_ready())
 
 
 def _make_ready(job: Job, executor: Executor | None) -> None:
@@ -133,7 +149,9 @@ def _moving(cloud: Cloud) -> bool:
     return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
 
 
-def _advance(job: Job, results: Results, stop: Callable[[], bool], show: Callable[[float], None]) -> bool:
+def _advance(
+    job: Job, results: Results, stop: Callable[[], bool], show: Callable[[float], None], pace: _Pace
+) -> bool:
     """Advance to the next write time; return whether it was reached before ``stop`` said so.
 
     The executor may then begin with the steps that come after it.
@@ -144,18 +162,47 @@ def _advance(job: Job, results: Results, stop: Callable[[], bool], show: Callabl
         if stop():
             return False
         until = results.next_observation(target)
-        cloud.advance(_steps_at_once(cloud, until))
+        pace.advance(cloud, until, stop)
         if cloud.step == until:
             results.observe()
         show(cloud.time)
     cloud.step = target
     if target < job.steps and _moving(cloud):
-        cloud.begin(_steps_at_once(cloud, results.next_observation(job.next_write(target))))
+        pace.begin(cloud, results.next_observation(job.next_write(target)))
     return True
 
 
-def _steps_at_once(cloud: Cloud, target: int) -> int:
-    """Number of steps on the way to a target after which the run asks whether to stop."""
-    counts = cloud.counts()
-    work = counts[Status.PENDING] + counts[Status.ACTIVE]
-    return min(target - cloud.step, max(1, cloud.executor.at_once // work))
+_CALL, _FIRST_CALL = 0.25, 250_000
+"""Seconds that the steps taken at once should take; steps of a particle that take about as long."""
+_SLOWER, _FASTER = 0.1, 4.0
+
+
+class _Pace:
+    """How many steps are taken at once, so that the run is asked some times a second how far it is."""
+
+    def __init__(self) -> None:
+        self._steps: float = 0.0
+        self._begun = 0
+
+    def advance(self, cloud: Cloud, target: int, stop: Callable[[], bool]) -> None:
+        """Take some steps towards a target, those that were begun if there are any."""
+        steps = min(self._begun, target - cloud.step) or self._at_once(cloud, target)
+        self._begun = 0
+        # What is compiled at the first call says nothing of the next.
+        compiled, started = cloud.compiled, clock.perf_counter()
+        cloud.carry(steps, stop)
+        if compiled:
+            seconds = clock.perf_counter() - started
+            self._steps = steps * min(_FASTER, max(_SLOWER, _CALL / (seconds + 1e-9)))
+
+    def begin(self, cloud: Cloud, target: int) -> None:
+        """Let the executor begin with the steps that :meth:`advance` takes next."""
+        self._begun = self._at_once(cloud, target)
+        cloud.begin(self._begun)
+
+    def _at_once(self, cloud: Cloud, target: int) -> int:
+        counts = cloud.counts()
+        work = counts[Status.PENDING] + counts[Status.ACTIVE]
+        most = cloud.executor.at_once // work
+        steps = min(most, self._steps or _FIRST_CALL * cloud.executor.at_once // (AT_ONCE * work))
+        return min(target - cloud.step, max(1, int(steps)))

@@ -49,6 +49,7 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
         if field.name not in _LEFT_OUT:
             texts |= _leaves(field.name, getattr(settings, field.name))
     texts |= _leaves("models", cloud.models)
+    texts |= _leaves("limits", cloud.limits)
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
@@ -299,6 +300,6 @@ def _write_failures(path: Path, job: Job, failed: NDArray[np.int64]) -> None:
         "x": x[:, 0],
         "y": x[:, 1],
         "z": x[:, 2],
-        "reason": [REASONS[Reason(r)] for r in p.reason[failed]],
+        "reason": [explain(r, job.cloud.models, job.cloud.limits) for r in p.reason[failed]],
     }
     write_table(path, columns)

@@ -16,10 +16,12 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.limits import Limits
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
     Fraction,
+    Meaning,
     NoEffect,
     NonNegative,
     Only,
@@ -51,7 +53,9 @@ _CONSTANT_FLUID = NoEffect("density and viscosity of the fluid are constants")
 class InterpolationSchemes:
     """``solution/interpolationSchemes``; OpenFOAM's ``cellPoint`` is linear in the same tetrahedra."""
 
-    U: Literal["linear", "cellPoint"] = "linear"
+    U: Annotated[Literal["linear", "cellPoint"], Meaning("the only one; OpenFOAM calls it `cellPoint`")] = (
+        "linear"
+    )
     rho: Annotated[None, _CONSTANT_FLUID] = None
     mu: Annotated[None, _CONSTANT_FLUID] = None
 
@@ -66,11 +70,22 @@ class InterpolationSchemes:
 class IntegrationSchemes:
     """``solution/integrationSchemes``."""
 
-    U: Literal["Euler"] = "Euler"
-    shape: Annotated[str, Choice(("auto", *INTEGRATORS))] = "auto"
-    tolerance: Annotated[float, Positive] = 1e-4
+    U: Annotated[Literal["Euler"], Meaning("of the barycentre; the only one")] = "Euler"
+    shape: Annotated[
+        str,
+        Choice(("auto", *INTEGRATORS)),
+        Meaning("[integrator of the shape](integrators.md); `auto` chooses by the shape Stokes number"),
+    ] = "auto"
+    tolerance: Annotated[
+        float,
+        Positive,
+        Meaning("largest error of a step, of the integrators that choose their own steps", "1"),
+    ] = 1e-4
 
 
+_ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
+_FROM_ONE = Bounds(1.0, math.inf, False, True, "a number >= 1")
+_OF_CONTROL = "that of `system/controlDict`"
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
 _NO_SOURCES = NoEffect("the particles do not act on the flow")
 
@@ -79,16 +94,76 @@ _NO_SOURCES = NoEffect("the particles do not act on the flow")
 class Solution:
     """``solution``."""
 
-    deltaT: Annotated[float, Positive] | None = None
-    endTime: Annotated[float, Positive] | None = None
-    writeInterval: Annotated[float, Positive] | None = None
-    startFrom: StartFrom | None = None
-    startTime: Annotated[float, Only(0.0, "a cloud begins at time 0")] = 0.0
-    maxFailedFraction: Annotated[float, Fraction] = 1.0
+    deltaT: Annotated[float, Positive, Meaning("tracking step", "s", _OF_CONTROL)] | None = None
+    endTime: (
+        Annotated[
+            float,
+            Positive,
+            Meaning("end of the run, which also ends when no particle moves", "s", _OF_CONTROL),
+        ]
+        | None
+    ) = None
+    writeInterval: (
+        Annotated[
+            float,
+            Positive,
+            Meaning(
+                "time between two writings, a multiple of `deltaT`; if `deltaT` or `endTime` is that of "
+                "`system/controlDict`, so is this one",
+                "s",
+                "`endTime`",
+            ),
+        ]
+        | None
+    ) = None
+    startFrom: (
+        Annotated[
+            StartFrom,
+            Meaning(
+                "`startTime`: begin anew; `latestTime`: go on from the last checkpoint, if there is one",
+                default="as `startTime` unless an unfinished run is there, which is an error",
+            ),
+        ]
+        | None
+    ) = None
+    startTime: Annotated[float, Only(0.0, "a cloud begins at time 0"), Meaning("accepted as 0", "s")] = 0.0
+    maxFailedFraction: Annotated[
+        float,
+        Fraction,
+        Meaning("the run ends when a larger share of the injected particles has failed", "1"),
+    ] = 1.0
+    maxStretch: Annotated[
+        float,
+        _ABOVE_ONE,
+        Meaning("a particle that is stretched more, from its shape at rest, fails", "1"),
+    ] = Limits.max_stretch
+    maxSize: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "one whose longest semi-axis is a larger share of the flow's width fails; one that would start "
+            "so is an error",
+            "1",
+        ),
+    ] = Limits.max_size
+    maxSubSteps: Annotated[
+        float, _FROM_ONE, Meaning("one that needs more time steps in one `deltaT` fails", "1")
+    ] = Limits.max_sub_steps
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, _NOT_COUPLED] = False
-    transient: bool = False
-    period: Annotated[float, Positive] | None = None
+    transient: Annotated[
+        bool,
+        Meaning(
+            "the flow changes in time: it is read at all its times, or those that `-time a:b` selects, "
+            "and is linear between them; the run begins at the first"
+        ),
+    ] = False
+    period: (
+        Annotated[
+            float, Positive, Meaning("with `transient`: the flow repeats itself after this time", "s", "none")
+        ]
+        | None
+    ) = None
     cellValueSourceCorrection: Annotated[bool, _NOT_COUPLED] = False
     interpolationSchemes: InterpolationSchemes = InterpolationSchemes()
     integrationSchemes: IntegrationSchemes = IntegrationSchemes()
@@ -102,18 +177,63 @@ class Solution:
     resetSourcesOnStartup: Annotated[None, _NO_SOURCES] = None
 
 
+_ONE_OF_THESE = "one of the three is required"
+
+
 @dataclass(frozen=True, kw_only=True)
 class Solid:
     """``solid``; which of its entries are needed depends on all of them."""
 
-    type: Annotated[str, Choice(MATERIALS)] | None = None
-    poissonsRatio: Annotated[float, PoissonsRatio] | None = None
-    shearModulus: Annotated[float, Positive] | Dictionary | None = None
-    youngsModulus: Annotated[float, Positive] | Dictionary | None = None
-    Ca: Annotated[float, Positive] | Dictionary | None = None
-    referenceShearRate: Annotated[float, Positive] | None = None
-    viscosity: Annotated[float, NonNegative] | Dictionary | None = None
-    surfaceTension: Annotated[float, NonNegative] | Dictionary | None = None
+    type: (
+        Annotated[
+            str,
+            Choice(MATERIALS),
+            Meaning(
+                "[material](models/materials.md), or one from `libs`; one for the whole cloud", "", "required"
+            ),
+        ]
+        | None
+    ) = None
+    poissonsRatio: Annotated[float, PoissonsRatio, Meaning("Poisson's ratio", "1", "required")] | None = None
+    shearModulus: (
+        Annotated[float, Positive, Meaning("shear modulus", "Pa", _ONE_OF_THESE)] | Dictionary | None
+    ) = None
+    youngsModulus: (
+        Annotated[float, Positive, Meaning("Young's modulus", "Pa", _ONE_OF_THESE)] | Dictionary | None
+    ) = None
+    Ca: (
+        Annotated[
+            float,
+            Positive,
+            Meaning("capillary number μ_f γ̇/μ_s at `referenceShearRate`", "1", _ONE_OF_THESE),
+        ]
+        | Dictionary
+        | None
+    ) = None
+    referenceShearRate: (
+        Annotated[
+            float,
+            Positive,
+            Meaning(
+                "γ̇ of `Ca`; without it the reported Ca is that at the place of release",
+                "1/s",
+                "with `Ca` required",
+            ),
+        ]
+        | None
+    ) = None
+    viscosity: (
+        Annotated[
+            float, NonNegative, Meaning("[of the solid](models/viscosity.md) (Kelvin–Voigt)", "Pa s", "0")
+        ]
+        | Dictionary
+        | None
+    ) = None
+    surfaceTension: (
+        Annotated[float, NonNegative, Meaning("[surface tension](models/surface-tension.md)", "N/m", "0")]
+        | Dictionary
+        | None
+    ) = None
 
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
@@ -126,12 +246,14 @@ def parameters() -> dict[str, Any]:
         p.entry: Annotated[
             float,
             Bounds(p.lower, p.upper, True, math.isinf(p.upper), f"a number > {p.lower:g} and <= {p.upper:g}"),
+            Meaning(f"third parameter of `{name}`", "1", f"with `{name}` required"),
         ]
-        for p in (material.parameter for material in MATERIALS.values())
+        for name, p in ((name, material.parameter) for name, material in MATERIALS.items())
         if p is not None
     }
 
 
+_OF_CASE = "that of the case, see [The fluid](#the-fluid)"
 _NO_MASS_TRANSFER = NoEffect("the mass of a particle does not change")
 
 
@@ -139,13 +261,42 @@ _NO_MASS_TRANSFER = NoEffect("the mass of a particle does not change")
 class ConstantProperties:
     """``constantProperties``."""
 
-    rho0: Annotated[float, Positive] | Dictionary
-    rhoInf: Annotated[Density, Positive] | None = None
-    nu: Annotated[Viscosity, Positive] | None = None
-    mu: Annotated[DynamicViscosity, Positive] | None = None
-    TInf: Annotated[float, Positive] | None = None
-    solid: Dictionary | None = None
-    shape: Dictionary | None = None
+    rho0: Annotated[float, Positive, Meaning("density of the particles", "kg/m³")] | Dictionary
+    rhoInf: Annotated[Density, Positive, Meaning("density of the fluid", "kg/m³", _OF_CASE)] | None = None
+    nu: (
+        Annotated[Viscosity, Positive, Meaning("kinematic viscosity of the fluid", "m²/s", _OF_CASE)] | None
+    ) = None
+    mu: (
+        Annotated[
+            DynamicViscosity,
+            Positive,
+            Meaning("dynamic viscosity of the fluid, in place of `nu`", "Pa s", _OF_CASE),
+        ]
+        | None
+    ) = None
+    TInf: (
+        Annotated[
+            float,
+            Positive,
+            Meaning("temperature of the fluid", "K", "required where the viscosity depends on it"),
+        ]
+        | None
+    ) = None
+    solid: (
+        Annotated[
+            Dictionary,
+            Meaning(
+                "[material](#solid); an injection model's own `solid` replaces single entries", "", "required"
+            ),
+        ]
+        | None
+    ) = None
+    shape: (
+        Annotated[
+            Dictionary, Meaning("[shape at rest](#shape); so may an injection model's own", default="sphere")
+        ]
+        | None
+    ) = None
     parcelTypeId: Annotated[None, NoEffect("particles are told apart by their injection model")] = None
     constantVolume: Annotated[None, _NO_MASS_TRANSFER] = None
     rhoMin: Annotated[None, _NO_MASS_TRANSFER] = None
@@ -164,14 +315,14 @@ class ConstantProperties:
 class EllipsoidDrag:
     """``subModels/particleForces/ellipsoidDrag``."""
 
-    type: Annotated[str, Choice(DRAGS)] = "oberbeck"
+    type: Annotated[str, Choice(DRAGS), Meaning("[law of drag](models/drag.md)")] = "oberbeck"
 
 
 @dataclass(frozen=True, kw_only=True)
 class ParticleForces:
     """``subModels/particleForces``, without those that the registries of forces and surroundings have."""
 
-    ellipsoidDrag: EllipsoidDrag
+    ellipsoidDrag: Annotated[EllipsoidDrag, Meaning("drag; `ellipsoidDrag;` alone is enough")]
 
     @staticmethod
     def instead(word: str) -> Instead | None:
@@ -188,11 +339,35 @@ _CONSTANT_RATE = Line("constant 1")
 class InjectionModel:
     """The entries that every injection model has beside its own."""
 
-    type: Annotated[str, Choice(INJECTIONS)]
-    sizeDistribution: Dictionary | None = None
-    rho0: Annotated[float, Positive] | Dictionary | None = None
-    solid: Dictionary | None = None
-    shape: Dictionary | None = None
+    type: Annotated[str, Choice(INJECTIONS), Meaning("one of those below")]
+    sizeDistribution: (
+        Annotated[
+            Dictionary,
+            Meaning(
+                "[distribution](#distributions) of the diameters, of the sphere of the same volume",
+                "m",
+                "required, unless a file of positions gives `d`",
+            ),
+        ]
+        | None
+    ) = None
+    rho0: (
+        Annotated[float, Positive, Meaning("density of this model's particles", "kg/m³", "that of the cloud")]
+        | Dictionary
+        | None
+    ) = None
+    solid: (
+        Annotated[
+            Dictionary, Meaning("[material](#solid) of this model's particles", "", "that of the cloud")
+        ]
+        | None
+    ) = None
+    shape: (
+        Annotated[
+            Dictionary, Meaning("[shape at rest](#shape) of this model's particles", "", "that of the cloud")
+        ]
+        | None
+    ) = None
     parcelBasisType: Annotated[str, Only("fixed", _PARCELS)] = "fixed"
     nParticle: Annotated[float, Only(1.0, _PARCELS)] = 1.0
     massTotal: Annotated[float, Only(0.0, f"{_PARCELS}: their mass follows from diameter and rho0")] = 0.0
@@ -212,10 +387,18 @@ _NO_MODEL = NoEffect("there is no such model")
 class SubModels:
     """``subModels``, without the coefficients of the patch interaction models."""
 
-    particleForces: Dictionary
-    injectionModels: Dictionary
-    patchInteractionModel: Annotated[str, Choice(INTERACTION_MODELS)]
-    tractionModel: Annotated[str, Choice(TRACTIONS)] = "roscoe"
+    particleForces: Annotated[Dictionary, Meaning("[forces](#particleforces); `ellipsoidDrag;` at least")]
+    injectionModels: Annotated[
+        Dictionary, Meaning("[dictionaries](#injectionmodels), one for each model, any number")
+    ]
+    patchInteractionModel: Annotated[
+        str,
+        Choice(INTERACTION_MODELS),
+        Meaning("[what patches do](#patch-interaction), with the `…Coeffs` of the model"),
+    ]
+    tractionModel: Annotated[
+        str, Choice(TRACTIONS), Meaning("[traction](models/traction.md) on the surface")
+    ] = "roscoe"
     dispersionModel: Annotated[str, _NO_DISPERSION] = "none"
     heatTransferModel: Annotated[str, Only("none", "particles have no temperature")] = "none"
     surfaceFilmModel: Annotated[str, Only("none", "there is no film on the walls")] = "none"
@@ -236,8 +419,18 @@ class SubModels:
 class CloudProperties:
     """The whole file, the dictionaries of which have schemas of their own."""
 
-    solution: Dictionary
-    constantProperties: Dictionary
-    subModels: Dictionary
-    cloudFunctions: Dictionary | None = None
-    libs: Files | None = None
+    solution: Annotated[Dictionary, Meaning("[time](#solution) and schemes")]
+    constantProperties: Annotated[Dictionary, Meaning("[fluid and particles](#constantproperties)")]
+    subModels: Annotated[Dictionary, Meaning("[models](#submodels)")]
+    cloudFunctions: (
+        Annotated[Dictionary, Meaning("[what is observed](#cloudfunctions)", default="none")] | None
+    ) = None
+    libs: (
+        Annotated[
+            Files,
+            Meaning(
+                "Python files, in `constant` or absolute, that add [solids](models/materials.md)", "", "none"
+            ),
+        ]
+        | None
+    ) = None

@@ -5,12 +5,14 @@ from __future__ import annotations
 import logging
 from pathlib import Path
 
+from foamprb.cloud.block import Medium
 from foamprb.dictionary.constraints import Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entries, read_entry
 from foamprb.dictionary.tree import Dictionary, Source
 from foamprb.dictionary.values import Acceleration
+from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
     FILES,
     CaseViscosity,
@@ -22,7 +24,7 @@ from foamprb.flow.read.fluid import (
 from foamprb.settings import entries
 from foamprb.settings.settings import Fluid
 
-__all__ = ["of_region", "read_fluid", "read_gravity"]
+__all__ = ["of_region", "read_fluid", "read_gravity", "read_medium"]
 
 log = logging.getLogger("foamprb")
 
@@ -84,15 +86,67 @@ def _density_of_case(
     case: Path, region: str, constant: Dictionary, file: Path | None, time: float | str
 ) -> float:
     """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
-    found = None if file is None else read_density(file, case)
-    where = str(Source(file, case)) if file is not None else ""
-    if found is None and (field := mean_density(case, region, time)) is not None:
-        found, where = field[0], f"the field rho at time {field[1]}, its mean"
+    found = _find_density(case, region, file, time)
     if found is None:
-        also = where or f"constant/{FILES[0]}"
+        also = str(Source(file, case)) if file is not None else f"constant/{FILES[0]}"
         raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
-    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, found, where)
-    return found
+    log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *found)
+    return found[0]
+
+
+def _find_density(case: Path, region: str, file: Path | None, time: float | str) -> tuple[float, str] | None:
+    """Density, kg/m3, and where the case says it; None if it does not."""
+    if file is not None and (found := read_density(file, case)) is not None:
+        return found, str(Source(file, case))
+    field = mean_density(case, region, time)
+    return None if field is None else (field[0], f"the field rho at time {field[1]}, its mean")
+
+
+def read_medium(
+    case: Path | str,
+    region: str = "",
+    time: float | str = "latestTime",
+    *,
+    rho: float | None = None,
+    mu: float | None = None,
+    temperature: float | None = None,
+) -> Medium:
+    """Read the fluid's viscosity and density, and gravity, wherever the solver of a case keeps them.
+
+    Parameters
+    ----------
+    case, region
+        The case's folder, and a region of its mesh if it has several.
+    time
+        At which the field ``rho`` is read, if the density is nowhere else.
+    rho, mu
+        Density, kg/m³, and viscosity, Pa s, to be taken instead of the case's.
+    temperature
+        At which a viscosity that depends on it is taken, K.
+
+    Returns
+    -------
+    The medium; without a file ``g`` there is no gravity.
+
+    Raises
+    ------
+    InputError
+        A file that is broken, or a value that is neither in the case nor given.
+    """
+    case = Path(case)
+    file = fluid_file(case, region)
+    if rho is None:
+        found = _find_density(case, region, file, time)
+        if found is None:
+            raise InputError(f"{case}: the density is not in the case; give rho, kg/m3.")
+        rho = found[0]
+    if mu is None:
+        if file is None:
+            raise InputError(f"{case}: constant/{FILES[0]} is not there; give mu, Pa s.")
+        viscosity = read_viscosity(file, case, temperature)
+        mu = float(viscosity.mu or 0.0) if viscosity.nu is None else viscosity.nu * rho
+    there = (case / of_region(case, region, "g")).is_file()
+    return Medium(mu, rho, read_gravity(case, region) if there else (0.0, 0.0, 0.0))
 
 
 def read_gravity(case: Path, region: str) -> Vector3:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
-from foamprb.dictionary.constraints import Bounds, Choice
+from foamprb.dictionary.constraints import Bounds, Choice, Meaning
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
@@ -28,6 +28,7 @@ __all__ = [
     "Touching",
     "coefficient_names",
     "match_patches",
+    "needs_entry",
     "read_patch_interaction",
 ]
 
@@ -91,15 +92,23 @@ def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], To
 
 
 @dataclass(frozen=True, kw_only=True)
-class _LocalInteraction:
-    patches: DictionaryList
+class LocalInteraction:
+    """``localInteractionCoeffs``: patch by patch."""
+
+    patches: Annotated[
+        DictionaryList,
+        Meaning(
+            "`( pattern { type …; } … )`: a name, a group (`wall`) or a quoted regular expression; the first "
+            "that matches counts. A symmetry plane, wedge or empty patch needs none"
+        ),
+    ]
 
 
 def _local_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
     """Return a rule for each entry of ``patches``."""
     mistakes, rules = Mistakes(), []
     with mistakes:
-        entries = read_entries(_LocalInteraction, coefficients, also=("touching",))
+        entries = read_entries(LocalInteraction, coefficients, also=("touching",))
         for entry in entries.patches.items:
             with mistakes:
                 rules.append(_patch_rule(entry))
@@ -118,6 +127,26 @@ def _patch_rule(dictionary: Dictionary) -> PatchRule:
     return PatchRule(pattern, interaction, regex)
 
 
+@dataclass(frozen=True, kw_only=True)
+class StandardWallInteraction:
+    """``standardWallInteractionCoeffs``: what all walls do; particles leave through open patches."""
+
+    type: Annotated[
+        str,
+        Choice(INTERACTIONS),
+        Meaning("with the entries of that type, for every patch of type `wall`"),
+    ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnyInteraction:
+    """What the ``…Coeffs`` of every model may have."""
+
+    touching: Annotated[
+        Touching, Meaning("what of the particle touches a wall: the body, or only its centre")
+    ] = "ellipsoid"
+
+
 def _standard_wall_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
     """Return one rule for all walls, and that particles leave through what is open."""
     walls = read_entries(selected(INTERACTIONS, coefficients), coefficients, also=("type", "touching"))
@@ -125,13 +154,19 @@ def _standard_wall_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Rebound:
-    UFactor: Annotated[float, Bounds(0.5, 1.0, False, False, "a number from 0.5 to 1")]
+class ReboundFromAll:
+    """``reboundCoeffs``: particles bounce off every patch."""
+
+    UFactor: Annotated[
+        float,
+        Bounds(0.5, 1.0, False, False, "a number from 0.5 to 1"),
+        Meaning("they bounce off every patch, with e = 2 `UFactor` − 1", "1"),
+    ]
 
 
 def _rebound(coefficients: Dictionary) -> tuple[Rule, ...]:
     """Return that particles bounce off every patch; twice UFactor of the normal velocity is taken away."""
-    entries = read_entries(_Rebound, coefficients, also=("touching",))
+    entries = read_entries(ReboundFromAll, coefficients, also=("touching",))
     return (KindRule("any", Rebound(e=2.0 * entries.UFactor - 1.0)),)
 
 
@@ -160,7 +195,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
 
     The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
-    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a cyclic
+    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a coupled
     patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
 
     Parameters
@@ -195,11 +230,18 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     return interactions
 
 
+def needs_entry(patch: Patch) -> bool:
+    """Whether the settings must say what a patch does: its type does not."""
+    if patch.type in _MIRRORS:
+        return False
+    return not (patch.neighbour and patch.type == "cyclic")
+
+
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
         if _applies(rule, patch):
             return rule.interaction
-    if patch.neighbour and patch.type in ("cyclic", "wedge"):
+    if patch.neighbour and patch.type in ("cyclic", "cyclicAMI", "wedge"):
         return Cyclic()
     if patch.type in _MIRRORS:
         return Mirror()
@@ -208,8 +250,8 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     if patch.type.startswith(_COUPLED):
         raise InputError(
             f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
-            "coupled patches only cyclic ones, whose faces fit one to one, let them through. Give it an "
-            f"entry of its own ({', '.join(INTERACTIONS)})."
+            "coupled patches only cyclic and cyclicAMI ones that lie on their neighbours let them through. "
+            f"Give it an entry of its own ({', '.join(INTERACTIONS)})."
         )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
 

@@ -30,8 +30,8 @@ __all__ = ["read_settings"]
 
 _DICTIONARY = "softCloudProperties"
 _TO_BEGIN = (
-    f"To begin, copy the dictionary at the top of docs/settings.md to constant/{_DICTIONARY}, and adapt its "
-    "patches, particles and times; or name another with -dict."
+    f"To begin: foamprb init writes constant/{_DICTIONARY} from what the case says; or name another "
+    "dictionary with -dict."
 )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -11,6 +11,7 @@ from foamprb.cloud.forces.base import Force
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import Injection
 from foamprb.cloud.injection.shapes import Shape
+from foamprb.cloud.limits import Limits
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.dictionary.constraints import Vector3
@@ -40,6 +41,7 @@ class Solution:
     """Time after which a transient flow repeats itself, s."""
     startFrom: StartFrom | None = None
     maxFailedFraction: float = 1.0
+    limits: Limits = field(default_factory=Limits)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import logging
 from pathlib import Path
 from typing import Annotated
 
+from foamprb.cloud.limits import Limits
 from foamprb.dictionary.constraints import Positive
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
@@ -72,6 +73,7 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         period=solution.period,
         startFrom=solution.startFrom,
         maxFailedFraction=solution.maxFailedFraction,
+        limits=Limits(solution.maxStretch, solution.maxSize, solution.maxSubSteps),
     )
 
 

@@ -95,7 +95,7 @@ def test_the_bodys_response_to_a_stress_is_that_of_its_shape(axes, eta, T):
     g = integrals(axes)
     stress = sym(T)
     l = response(shape_resistance(axes, g, eta), stress)
-    expected = velocity_gradient(axes, g, mobility(axes, g, eta), scale(-1.0, stress), ZERO)
+    expected = velocity_gradient(mobility(axes, g, eta), scale(-1.0, stress), ZERO)
     np.testing.assert_allclose(l, expected, atol=1e-12)
 
 
@@ -216,7 +216,7 @@ def rates(F, T, Q0):
     g = integrals(stretches)
     sigma = to_frame(Q, dot(F, transpose(F)))
     turned = to_frame(Q, from_frame(Q0, T))
-    l = velocity_gradient(stretches, g, mobility(stretches, g, 0.0), sigma, ZERO)
+    l = velocity_gradient(mobility(stretches, g, 0.0), sigma, ZERO)
     return from_frame(Q, add(l, response(shape_resistance(stretches, g, 0.0), turned)))
 
 

@@ -162,7 +162,7 @@ def motion(F, l_f, Ca):
     g = integrals(stretches)
     l = to_frame(Q, flat(l_f))
     sigma = to_frame(Q, flat(F @ F.T / Ca))
-    l_s = velocity_gradient(stretches, g, mobility(stretches, g, 0.0), sigma, l)
+    l_s = velocity_gradient(mobility(stretches, g, 0.0), sigma, l)
     relative = tuple(p - q for p, q in zip(l, l_s, strict=True))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
     return square(from_frame(Q, l_s)), from_frame(Q, scale(VOLUME, dev(sym(s))))

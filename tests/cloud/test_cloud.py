@@ -415,8 +415,6 @@ def test_not_a_number_ends_its_particle_with_a_reason_and_no_other(array, integr
         cloud.advance(100)
     p = spoilt.particles
     assert p.status[k] == Status.FAILED
-    # The adaptive integrator takes its error for one that no step is small enough for.
-    reason = Reason.NOT_FINITE if integrator == "paper" else Reason.NOT_CONVERGED
-    assert p.reason[k] == reason
+    assert p.reason[k] == Reason.NOT_FINITE
     others = np.arange(p.size) != k
     assert_same(p.take(others), clean.particles.take(others))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches, cyclic_row, period, wedge, wedge_patches
+from mesh_shapes import block, box_patches, cyclic_row, interfaces, period, rings, wedge, wedge_patches
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, analytic, spheres
 from foamprb.cloud.patches import Cyclic, Mirror
@@ -76,6 +76,65 @@ def test_one_period_holds_the_whole_path(angle, random):
 def _in_sector(x, angle):
     at = np.degrees(np.arctan2(x[:, 1], x[:, 0]))
     return (at >= 0.0) & (at <= angle)
+
+
+@pytest.mark.parametrize("angle", [0.0, 20.0])
+def test_faces_that_do_not_fit_one_to_one_are_crossed_like_nothing(angle, random):
+    """Round and round through interfaces between blocks cut into 4, 5 and 7 cells a side."""
+    mesh, turn, shift = interfaces(angle)
+    l = np.zeros((3, 3)) if angle == 0.0 else 3.0 * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]])
+    u0 = np.array([12.0, 0.0, 0.0] if angle == 0.0 else [0.0, 0.0, 0.0])
+    flow = linear(mesh, l, u0)
+    x = np.column_stack([random.uniform(0.1, 0.4, (20, 2)), random.uniform(0.3, 0.7, 20)])
+    if angle:
+        x[:, :2] = [1.0, 0.8] + 0.1 * (x[:, :2] - 0.25)
+    v = x @ l.T + u0
+    cloud = tracked(moving(x, v, 5.0), flow, actions(flow), 500)
+    free = tracked(moving(x, v, 5.0), analytic.linear(l, u0), [], 500)
+    p, q = cloud.particles, free.particles
+    assert np.all(p.status == Status.ACTIVE)
+    assert cloud.recovered == 0
+    y, rotation = q.x.copy(), np.broadcast_to(np.eye(3), (20, 3, 3)).copy()
+    for _ in range(5):
+        beyond = y[:, 0] > 3.0 if angle == 0.0 else ~_in_sector(y, 60.0)
+        y[beyond] = (y[beyond] - shift) @ turn
+        rotation[beyond] = turn.T @ rotation[beyond]
+    assert np.any(y != q.x)
+    assert p.x == pytest.approx(y, abs=1e-9)
+    for name in ("F", "A"):
+        ours, theirs = (getattr(c, name).reshape(-1, 3, 3) for c in (p, q))
+        assert ours == pytest.approx(rotation @ theirs, abs=1e-7)
+
+
+def test_rings_that_slide_on_each_other_are_crossed_with_the_error_of_their_chords():
+    """What lies between the chords of 24 and of 36 segments is skipped or walked twice, and no more."""
+    mesh = rings()
+    assert [(c.patch, c.other) for c in mesh.couplings] == [(0, 3), (3, 0)]
+    flow = linear(mesh, np.zeros((3, 3)))
+    a = 2.0 * np.pi * (np.arange(200) + 0.3) / 200
+    v = np.column_stack([np.cos(a), np.sin(a), np.full(200, 0.3)])
+    for start, sign in ((0.8, 1.0), (1.25, -1.0)):
+        p = moving(np.column_stack([start * v[:, :2], np.full(200, 0.4)]), sign * v, 1e13)
+        expected = p.x + 0.4 * p.v
+        cloud = tracked(p, flow, actions(flow), 400)
+        assert np.all(cloud.particles.status == Status.ACTIVE)
+        assert cloud.recovered == 0
+        error = np.linalg.norm(cloud.particles.x - expected, axis=1)
+        assert error.max() < 1.0 - np.cos(np.pi / 24)
+        assert np.median(error) > 0.0
+
+
+def test_patches_apart_are_not_coupled():
+    shape = block(3, 0.0)
+    floor, lid, sides = box_patches(shape)
+    patches = [
+        floor._replace(type="cyclicAMI", neighbour="lid"),
+        lid._replace(type="cyclicAMI", neighbour="floor"),
+        sides,
+    ]
+    mesh = build_mesh(shape, patches)
+    assert mesh.couplings == ()
+    assert [patch.neighbour for patch in mesh.patches] == ["", "", ""]
 
 
 def test_beyond_a_symmetry_plane_the_mirror_image_goes_on():

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import FunctionType
 from typing import Annotated, ClassVar
 
 import numpy as np
 import pytest
 from paths import ROOT
 from pipe_case import copy_of_pipe, edit
+from strategies import flat
 
 from foamprb import (
     Cloud,
@@ -21,9 +23,12 @@ from foamprb import (
     analytic,
     spheres,
 )
+from foamprb.body.slip import balanced_slip, first_order_slip
+from foamprb.cloud.block import ROWS, at, store3
 from foamprb.cloud.forces.base import Force, Inputs
 from foamprb.cloud.forces.registry import FORCES
-from foamprb.cloud.forces.total import coefficients, compose
+from foamprb.cloud.forces.total import coefficients, compose, pushes_on
+from foamprb.cloud.layout import LANES
 from foamprb.dictionary.constraints import Positive
 from foamprb.run.job import prepare
 
@@ -49,35 +54,58 @@ def with_thrust(monkeypatch):
     monkeypatch.setitem(FORCES, "thrust", Thrust)
 
 
-def summed(*forces):
-    """Force and inertia per mass, and what the drag balances without inertia, of plain numbers."""
+def summed(*forces, Du_Dt=DU_DT):
+    """Force and inertia per mass, of plain numbers."""
     given = coefficients(forces)
-    inputs = Inputs(1.1, RHO, DU_DT, Medium(MU_F, RHO_F, G, given))
-    bound = compose(forces)
-    push, inertia = bound["pushes"](inputs, given)
-    return np.array(push), inertia, np.array(bound["slips"](inputs, given))
+    inputs = Inputs(1.1, RHO, Du_Dt, Medium(MU_F, RHO_F, G, given))
+    push, inertia = compose(forces)["pushes"](inputs, given)
+    return np.array(push), inertia
 
 
 def test_forces_are_those_of_maxey_and_riley():
     s, g, Du = 1.1 * RHO_F / RHO, np.array(G), np.array(DU_DT)
-    push, inertia, slip = summed()
-    assert (push.tolist(), inertia, slip.tolist()) == ([0.0] * 3, 1.0, [0.0] * 3)
-    push, inertia, slip = summed(Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
+    push, inertia = summed()
+    assert (push.tolist(), inertia) == ([0.0] * 3, 1.0)
+    push, inertia = summed(Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
     np.testing.assert_allclose(push, (1 - s) * g + s * Du + 0.5 * s * Du, rtol=1e-14)
     assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15)
-    # With dv/dt = Du/Dt in the equation of motion.
-    np.testing.assert_allclose(slip, push - inertia * Du, rtol=1e-14)
+
+
+@pytest.mark.parametrize("with_pressure", [False, True])
+def test_slip_is_that_of_maxey_and_riley_to_first_order(with_pressure):
+    """A sphere's velocity relative to the fluid, from the forces as the integrator adds them up.
+
+    m (1 + C s)(Du/Dt + l·w) = Σ f − μ_f K·(v − u), with w where the fluid is not accelerated.
+    """
+    forces = (Gravity(), VirtualMass(Cvm=0.5), *([PressureGradient()] if with_pressure else []))
+    block = np.zeros(ROWS * LANES)
+    block[at.rho * LANES] = RHO
+    store3(block, at.DuDt, 0, DU_DT)
+    medium = Medium(MU_F, RHO_F, G, coefficients(forces))
+    bound = FunctionType(pushes_on.__code__, pushes_on.__globals__ | compose(forces))
+    steady, push, inertia = bound(block, 0, medium, 1.1)
+    np.testing.assert_allclose(steady, summed(*forces, Du_Dt=(0.0, 0.0, 0.0))[0], rtol=1e-14)
+    rate, l = 40.0, np.array([[0.0, 3.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]])
+    rates = (rate, rate, rate)
+    slip = balanced_slip(flat(np.eye(3)), rates, steady, push, inertia, DU_DT, flat(l))
+    s = 1.1 * RHO_F / RHO
+    w = (1 - s) * np.array(G) / rate
+    assert inertia == pytest.approx(1 + 0.5 * s, rel=1e-15)
+    expected = w + ((with_pressure * s - 1) * np.array(DU_DT) - (1 + 0.5 * s) * l @ w) / rate
+    np.testing.assert_allclose(slip, expected, rtol=1e-13)
+    known = first_order_slip(
+        flat(np.eye(3)), rates, 1.1, RHO, RHO_F, G, float(with_pressure), 0.5, DU_DT, flat(l)
+    )
+    np.testing.assert_allclose(slip, known, rtol=1e-13)
 
 
 @pytest.mark.parametrize(
     "forces", [(Thrust(a=2.0, share=3.0), Gravity()), (Gravity(), Thrust(a=2.0, share=3.0))]
 )
 def test_sum_does_not_depend_on_the_order(forces):
-    push, inertia, slip = summed(*forces)
+    push, inertia = summed(*forces)
     expected = (1 - 1.1 * RHO_F / RHO) * np.array(G) + [2.0, 6.0, 0.0]
     np.testing.assert_allclose(push, expected, rtol=1e-14)
-    # Without a function of its own, a force is balanced by the drag as it is.
-    np.testing.assert_allclose(slip, expected, rtol=1e-14)
     assert inertia == 1.0
 
 

@@ -45,7 +45,7 @@ def inertialess(t, Ca, gradient, material="neoHooke"):
         Q, g = square(Q), integrals(axes)
         tau = square(piola(MATERIALS[material], flat(F), 1.0, 0.0, K[material])) @ F.T
         sigma, l_f = Q @ tau @ Q.T / Ca, Q @ gradient @ Q.T
-        l_s = stokes.velocity_gradient(axes, g, stokes.mobility(axes, g, 0.0), flat(sigma), flat(l_f))
+        l_s = stokes.velocity_gradient(stokes.mobility(axes, g, 0.0), flat(sigma), flat(l_f))
         return (Q.T @ square(l_s) @ Q @ F).ravel()
 
     found = solve_ivp(rate, (0.0, t), np.eye(3).ravel(), method="LSODA", rtol=1e-10, atol=1e-12)

@@ -12,6 +12,7 @@ import pytest
 from foamprb.cloud import measures
 from foamprb.cloud.block import ROWS, Rows, at, load_particle, new_scratch, save_particle
 from foamprb.cloud.integrators import rosenbrock, stokes
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.integrators.second_order import slope
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets, rows_of
@@ -21,7 +22,7 @@ from foamprb.compile.link import link
 PARTS = {
     "paper": (at,),
     "rosenbrock": (at, slope, rosenbrock.own),
-    "stokes": (at, slope, stokes.own),
+    "stokes": (at, during, stokes.own),
     "measures": (at, measures.result),
 }
 

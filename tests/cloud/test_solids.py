@@ -68,7 +68,7 @@ def inertialess_from(F, F0, t, gradient, Ca, eta=0.0, tension=0.0):
         tau = square(piola(MATERIALS["neoHooke"], flat(F_e), 1.0, 0.0)) @ F_e.T
         sigma = Q @ tau @ Q.T / Ca + np.diag(laplace_stress(axes, tension))
         m = stokes.mobility(axes, g, eta)
-        l_s = stokes.velocity_gradient(axes, g, m, flat(sigma), flat(Q @ gradient @ Q.T))
+        l_s = stokes.velocity_gradient(m, flat(sigma), flat(Q @ gradient @ Q.T))
         return (Q.T @ square(l_s) @ Q @ F).ravel()
 
     found = solve_ivp(rate, (0.0, t), F.ravel(), method="LSODA", rtol=1e-10, atol=1e-12)

@@ -161,7 +161,7 @@ def test_checkpoints_hold_what_cloud_functions_had_observed_at_their_time(case, 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     job = prepare(case, threads=1)
     write, begun, writers = pvd.write_snapshot, [], []
-    begin, advance = Writer.begin, Cloud.advance
+    begin, carry = Writer.begin, Cloud.carry
 
     def full(path, cloud):
         begun.append(path.name)
@@ -173,15 +173,15 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
         begin(writer, work)
         writers.append(writer)
 
-    def slow(cloud, steps):
+    def slow(cloud, steps, stop):
         # As more particles would be: on the way to the third write time the second cloud has time to fail.
-        advance(cloud, steps)
+        carry(cloud, steps, stop)
         if cloud.step > 100:
             wait_for(lambda: writers[-1]._unfinished.done())
 
     monkeypatch.setattr(pvd, "write_snapshot", full)
     monkeypatch.setattr(Writer, "begin", known)
-    monkeypatch.setattr(Cloud, "advance", slow)
+    monkeypatch.setattr(Cloud, "carry", slow)
     with pytest.raises(RunStopped, match=r"No space .*softCloud_000001\.vtp'\. To go on .*-resume"):
         execute(job)
     assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp"]

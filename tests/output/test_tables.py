@@ -44,7 +44,7 @@ def test_shortest_digits(tmp_path: Path) -> None:
             "fate": np.array(["stuck", "escaped"]),
         },
     )
-    assert path.read_text() == f"id,d,t1,fate\n7,0.1,nan,stuck\n{2**62},5e-06,-inf,escaped\n"
+    assert path.read_text() == f"id,d,t1,fate\n7,0.1,nan,stuck\n{2**62},5e-6,-inf,escaped\n"
 
 
 def test_many_rows_keep_their_order(tmp_path: Path) -> None:

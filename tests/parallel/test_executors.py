@@ -13,6 +13,7 @@ from device_cases import pipe_cloud
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Threads, available_threads
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.tracker import never
 from foamprb.errors import InputError, RunStopped
 from foamprb.output.pvd import Series, read_pvd
 from foamprb.parallel import launch
@@ -27,9 +28,9 @@ class Apart(Threads):
         super().take(cloud)
         self.own = Particles(*(array.copy() for array in cloud.particles))
 
-    def advance(self, flow, steps):
+    def advance(self, flow, steps, stop=never):
         cloud = self._cloud
-        return cloud.tracker.advance(flow, self.own, cloud.step, steps, cloud.threads)
+        return cloud.tracker.advance(flow, self.own, cloud.step, steps, cloud.threads, cloud.bounds, stop)
 
     def counts(self):
         return self.own.counts()

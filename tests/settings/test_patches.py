@@ -50,13 +50,14 @@ def test_patches_of_a_constraint_type() -> None:
     assert match_patches([], planes) == [Mirror()] * 4
     assert match_patches([PatchRule("symmetry", Stick())], planes)[1] == Stick()
     assert match_patches([PatchRule("wall", Stick())], [patch("to_solid", "mappedWall")]) == [Stick()]
-    for kind in ("cyclic", "wedge"):
+    for kind in ("cyclic", "cyclicAMI", "wedge"):
         pair = [patch("left", kind, "right"), patch("right", kind, "left")]
         assert match_patches([], pair) == [Cyclic()] * 2
     with pytest.raises(InputError, match="the cyclic patch 'left' names no neighbourPatch"):
         match_patches([], [patch("left", "cyclic")])
-    with pytest.raises(InputError, match="cannot pass through 'left', a patch of type cyclicAMI"):
-        match_patches([], [patch("left", "cyclicAMI", "right")])
+    for kind in ("cyclicAMI", "cyclicACMI"):
+        with pytest.raises(InputError, match=f"cannot pass through 'left', a patch of type {kind}"):
+            match_patches([], [patch("left", kind)])
     assert match_patches([PatchRule("left", Escape())], [patch("left", "cyclicAMI")]) == [Escape()]
 
 

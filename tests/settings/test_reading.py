@@ -308,28 +308,14 @@ def test_what_to_do_without_a_dictionary(case: Path) -> None:
     with pytest.raises(InputError) as caught:
         read_settings(case)
     assert str(caught.value) == (
-        f"constant/softCloudProperties: No such file or directory (case {case}). To begin, copy the "
-        "dictionary at the top of docs/settings.md to constant/softCloudProperties, and adapt its patches, "
-        "particles and times; or name another with -dict."
+        f"constant/softCloudProperties: No such file or directory (case {case}). To begin: foamprb init "
+        "writes constant/softCloudProperties from what the case says; or name another dictionary with -dict."
     )
-    with pytest.raises(
-        InputError, match=r"^constant/other: No such file or directory .* copy the dictionary"
-    ):
-        read_settings(case, Path("constant/other"))
-    with pytest.raises(
-        InputError, match=r"^/nowhere/other: No such file or directory .* copy the dictionary"
-    ):
-        read_settings(case, Path("/nowhere/other"))
-    (template,) = re.findall(
-        r"<!-- template -->\n```\n(.*?)```", (ROOT / "docs/settings.md").read_text(), re.DOTALL
-    )
-    (case / "constant/softCloudProperties").write_text(template)
-    settings = read_settings(case)
-    assert settings.gravity == (0.0, -9.81, 0.0)
-    interactions = match_patches(
-        settings.patches, [Patch("inlet", "patch"), Patch("side", "wall")], settings.file
-    )
-    assert interactions == [Escape(), Stick()]
+    for missing in ("constant/other", "/nowhere/other"):
+        with pytest.raises(
+            InputError, match=rf"^{missing}: No such file or directory .* foamprb init writes"
+        ):
+            read_settings(case, Path(missing))
 
 
 def test_files_that_are_missing(case: Path, read: Reader) -> None:

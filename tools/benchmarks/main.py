@@ -24,6 +24,7 @@ from benchmarks.records import (
 
 PARTS = (
     "tracker",
+    "whole",
     "threads",
     "memory",
     "run",

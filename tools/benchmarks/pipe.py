@@ -205,12 +205,17 @@ def write_control(folder: Path, dt: float, end: float) -> None:
     )
 
 
-def write_parcels(folder: Path, x: Floats) -> None:
-    """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3)."""
-    with (folder / "constant" / "kinematicCloudPositions").open("w") as file:
-        file.write(_header("vectorField", "kinematicCloudPositions", binary=False) + "(\n")
+def write_positions(path: Path, x: Floats) -> None:
+    """Write positions (n, 3) as OpenFOAM's ``manualInjection`` reads them."""
+    with path.open("w") as file:
+        file.write(_header("vectorField", path.name, binary=False) + "(\n")
         file.writelines(f"({a!r} {b!r} {c!r})\n" for a, b, c in x.tolist())
         file.write(")\n")
+
+
+def write_parcels(folder: Path, x: Floats) -> None:
+    """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3)."""
+    write_positions(folder / "constant" / "kinematicCloudPositions", x)
     _dictionary(
         folder / "constant" / "kinematicCloudProperties",
         "solution { active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3; "
@@ -245,10 +250,28 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int) -
     )
 
 
-def positions(n: int, seed: int = 0) -> Floats:
-    """Places spread evenly over the first third of the pipe, off the wall, (n, 3)."""
+def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: int) -> Path:
+    """Write the properties of a cloud with nothing in them that has a default; return the file."""
+    end, path = steps * dt, folder / "constant" / f"{cloud}Properties"
+    _dictionary(
+        path,
+        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; }}\n"
+        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; solid {{ type neoHooke; poissonsRatio 0.499; "
+        f"shearModulus {RHO * NU * WALL_RATE / Ca:.9g}; }} }}\n"
+        "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { all { "
+        'type manualInjection; SOI 0; U0 (0 0 0); positionsFile "softCloudPositions"; '
+        "ignoreOutOfBounds true; sizeDistribution { type fixedValue; fixedValueDistribution { "
+        f"value {D}; }} }} }} }}\n"
+        "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
+        'wall { type stick; } "(inlet|outlet)" { type escape; } ); } }',
+    )
+    return path
+
+
+def positions(n: int, seed: int = 0, reach: float = 0.95) -> Floats:
+    """Places spread evenly over the first third of the pipe, to ``reach`` radii from the axis, (n, 3)."""
     random = np.random.default_rng(seed)
-    r, angle = 0.95 * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
+    r, angle = reach * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
     x = LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
     return np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
 

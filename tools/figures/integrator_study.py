@@ -175,7 +175,7 @@ def evaluate(bodies: Bodies, fluid: Fluid, F: tuple, l_f: tuple, Q: tuple | None
     zero = 0.0 * bodies.mu
     s.sigma = scale(1.0 / fluid.mu, kirchhoff(s.b_e, 1.0 + zero, bodies.mu, zero, zero))
     s.l_f = to_frame(s.Q, l_f)
-    s.l = stokes.velocity_gradient(s.stretches, s.g, s.m, s.sigma, s.l_f)
+    s.l = stokes.velocity_gradient(s.m, s.sigma, s.l_f)
     return s
 
 
@@ -187,7 +187,7 @@ def solid(bodies: Bodies, s: SimpleNamespace) -> Any:
 
 def seen(s: SimpleNamespace, l_f: tuple) -> tuple:
     """What of l_s a velocity gradient of the fluid alone would make, in the frame."""
-    return stokes.velocity_gradient(s.stretches, s.g, s.m, scale(0.0, l_f), to_frame(s.Q, l_f))
+    return stokes.velocity_gradient(s.m, scale(0.0, l_f), to_frame(s.Q, l_f))
 
 
 def drag_rate(bodies: Bodies, fluid: Fluid, s: SimpleNamespace) -> tuple:
@@ -244,7 +244,7 @@ def pair_step(
     quarter, whole = relaxation.responses(n, h)
     dL = add(L1, scale(-1.0, L0))
     change = seen(s, dL)
-    w = turning.turning_gradient(s.stretches, s.g, s.m, e, fluid.mu, s.l, s.l_f, s.sigma)
+    w = turning.turning_gradient(s.stretches, s.m, e, fluid.mu, s.l, s.l_f, s.sigma)
     first = pair.first_argument(n, quarter, h, s.l, change, w)
     g, c = rate_at(first, add(L0, scale(pair.NODE, dL)))
     k = pair.slope(n, first, g, s.l, scale(pair.NODE, change), 1.0 / pair.NODE)
@@ -654,7 +654,8 @@ def table(names: tuple[str, ...], rows: list[tuple]) -> dict[str, list]:
 
 def main() -> None:
     """Compute, write, print a summary and plot."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=Path("docs"))
     parser.add_argument("--end", type=float, default=10.0, help="shear times of the adaptive runs")
     arguments = parser.parse_args()

@@ -70,7 +70,8 @@ def main() -> None:
     """Run the case and take the pictures."""
     from playwright.sync_api import sync_playwright
 
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=ROOT / "docs", metavar="DIR", help="[docs]")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:

@@ -51,9 +51,6 @@ class Force:
     push: ClassVar[Callable[..., tuple[Vector, Scalar]]]
     """``push(inputs, *coefficients)``: the force per mass of the particle, m/s², and the inertia that it
     adds, in masses of the particle."""
-    slip: ClassVar[Callable[..., Vector] | None] = None
-    """``slip(inputs, *coefficients)``: what the drag of a particle without inertia has to balance, m/s², if
-    its acceleration is the fluid's; where there is no such function, the force of ``push``."""
 
     @property
     def coefficients(self) -> tuple[float, ...]:

@@ -17,6 +17,6 @@ def weight(inputs: Inputs) -> tuple[Vector, Scalar]:
 
 @dataclass(frozen=True, kw_only=True)
 class Gravity(Force):
-    """``gravity;``, with the g of the medium (``constant/g``)."""
+    """Gravity, ``constant/g``, less buoyancy: ``gravity;``."""
 
     push: ClassVar = staticmethod(weight)

@@ -14,16 +14,10 @@ def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
     return scale_vector(displaced(inputs), inputs.Du_Dt), 0.0
 
 
-def pressure_gradient_slip(inputs: Inputs) -> Vector:
-    """(s − 1) Du/Dt, m/s²: the particle's own acceleration, which is the fluid's, is taken off."""
-    return scale_vector(displaced(inputs) - 1.0, inputs.Du_Dt)
-
-
 @dataclass(frozen=True, kw_only=True)
 class PressureGradient(Force):
-    """``pressureGradient;`` or, as OpenFOAM has it, ``pressureGradient { U U; }``."""
+    """Force of the undisturbed flow's acceleration: ``pressureGradient;`` or ``{ U U; }``."""
 
     U: Annotated[str, FLUID_VELOCITY] = "U"
 
     push: ClassVar = staticmethod(pressure_gradient)
-    slip: ClassVar = staticmethod(pressure_gradient_slip)

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 
 from foamprb.body.tensor import Scalar, Vector, scale_vector
 from foamprb.cloud.forces.base import FLUID_VELOCITY, Force, Inputs, displaced
-from foamprb.dictionary.constraints import NonNegative
+from foamprb.dictionary.constraints import Meaning, NonNegative
 
 
 def virtual_mass(inputs: Inputs, Cvm: Scalar) -> tuple[Vector, Scalar]:
@@ -16,17 +16,11 @@ def virtual_mass(inputs: Inputs, Cvm: Scalar) -> tuple[Vector, Scalar]:
     return scale_vector(c, inputs.Du_Dt), c
 
 
-def virtual_mass_slip(_inputs: Inputs, _Cvm: Scalar) -> Vector:
-    """Nothing: C s (Du/Dt − dv/dt) vanishes where the particle's acceleration is the fluid's."""
-    return (0.0, 0.0, 0.0)
-
-
 @dataclass(frozen=True, kw_only=True)
 class VirtualMass(Force):
-    """``virtualMass { Cvm 0.5; }``; ½ is the coefficient of a sphere."""
+    """Fluid that an accelerating particle accelerates with it: ``virtualMass { Cvm 0.5; }``."""
 
-    Cvm: Annotated[float, NonNegative]
+    Cvm: Annotated[float, NonNegative, Meaning("coefficient of virtual mass; ½ for a sphere", "1")]
     U: Annotated[str, FLUID_VELOCITY] = "U"
 
     push: ClassVar = staticmethod(virtual_mass)
-    slip: ClassVar = staticmethod(virtual_mass_slip)

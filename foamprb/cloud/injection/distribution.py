@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
-from foamprb.dictionary.constraints import Pairs, Positive
+from foamprb.dictionary.constraints import Meaning, Pairs, Positive
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 
@@ -37,7 +37,7 @@ class Distribution(Schema, Protocol):
 class FixedValue:
     """Every particle has the same value."""
 
-    value: float
+    value: Annotated[float, Meaning("of every particle")]
 
     @property
     def limits(self) -> tuple[float, float]:
@@ -53,8 +53,8 @@ class FixedValue:
 class Uniform:
     """Every value between the limits is as likely as any other."""
 
-    minValue: float
-    maxValue: float
+    minValue: Annotated[float, Meaning("smallest value")]
+    maxValue: Annotated[float, Meaning("largest value")]
 
     def __post_init__(self) -> None:
         _check_order(self.minValue, self.maxValue)
@@ -77,10 +77,12 @@ class Normal:
     quantity's own unit.
     """
 
-    minValue: float
-    maxValue: float
-    expectation: float
-    variance: Annotated[float, Positive]
+    minValue: Annotated[float, Meaning("smallest value")]
+    maxValue: Annotated[float, Meaning("largest value")]
+    expectation: Annotated[float, Meaning("where the density is largest")]
+    variance: Annotated[
+        float, Positive, Meaning("a width: √2 times the standard deviation of the whole bell")
+    ]
 
     def __post_init__(self) -> None:
         _check_order(self.minValue, self.maxValue)
@@ -117,10 +119,10 @@ class RosinRammler:
     So OpenFOAM up to v2112 has it: the distribution begins at ``minValue``.
     """
 
-    minValue: float
-    maxValue: float
-    d: Annotated[float, Positive]
-    n: Annotated[float, Positive]
+    minValue: Annotated[float, Meaning("smallest value")]
+    maxValue: Annotated[float, Meaning("largest value")]
+    d: Annotated[float, Positive, Meaning("scale")]
+    n: Annotated[float, Positive, Meaning("exponent", "1")]
 
     def __post_init__(self) -> None:
         _check_order(self.minValue, self.maxValue)
@@ -141,7 +143,7 @@ class RosinRammler:
 class General:
     """A density given at rising values, ``( (x w) (x w) … )``, linear between them, of any scale."""
 
-    distribution: Pairs
+    distribution: Annotated[Pairs, Meaning("`( (x w) (x w) … )`, x rising")]
 
     def __post_init__(self) -> None:
         x, w = np.transpose(self.distribution) if self.distribution else np.empty((2, 0))

@@ -18,7 +18,16 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.injection.room import require_room
 from foamprb.cloud.state import Particles, empty
-from foamprb.dictionary.constraints import Angle, Axes, Bounds, Constant, NonNegative, Positive, Vector3
+from foamprb.dictionary.constraints import (
+    Angle,
+    Axes,
+    Bounds,
+    Constant,
+    Meaning,
+    NonNegative,
+    Positive,
+    Vector3,
+)
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
@@ -29,6 +38,19 @@ log = logging.getLogger("foamprb")
 START_OF_FLOW = -math.inf
 """``SOI`` of a model that says nothing about it; see :func:`start_of_injection`."""
 
+
+_SOI = Annotated[float, NonNegative, Meaning("start of injection", "s", "first time of the flow, or 0")]
+_U0 = (
+    Annotated[
+        Vector3,
+        Meaning(
+            "initial velocity; the integrator `stokes` has no inertia and forgets it at once",
+            "m/s",
+            "the fluid's",
+        ),
+    ]
+    | None
+)
 
 GIVEN: dict[str, Bounds] = {
     "d": Positive,
@@ -91,10 +113,10 @@ class Injection(Schema, Protocol):
 class ManualInjection:
     """Particles at the positions that a file lists, all at the time ``SOI``."""
 
-    positionsFile: Path
-    U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = START_OF_FLOW
-    ignoreOutOfBounds: bool = False
+    positionsFile: Annotated[Path, Meaning("a file in `constant`, see [Positions](#positions)")]
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
+    ignoreOutOfBounds: Annotated[bool, Meaning("leave out positions outside the mesh")] = False
 
     def places(
         self,
@@ -133,11 +155,11 @@ class ManualInjection:
 class PatchInjection:
     """Particles spread over a patch, uniform in flux, from ``SOI`` on for ``duration``."""
 
-    patch: str
-    parcelsPerSecond: Annotated[float, Positive]
-    duration: Annotated[float, Positive]
-    U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = START_OF_FLOW
+    patch: Annotated[str, Meaning("places are random, as many per area as fluid enters there")]
+    parcelsPerSecond: Annotated[float, Positive, Meaning("rate of injection, at even intervals", "1/s")]
+    duration: Annotated[float, Positive, Meaning("of the injection", "s")]
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
 
     def places(
         self,
@@ -181,11 +203,17 @@ class CellZoneInjection:
     With ``selectionMode all``, a word of OpenFOAM's fvOptions, over all cells.
     """
 
-    numberDensity: Annotated[float, Positive]
-    cellZone: str = ""
-    selectionMode: Literal["cellZone", "all"] = "cellZone"
-    U0: Vector3 | None = None
-    SOI: Annotated[float, NonNegative] = START_OF_FLOW
+    numberDensity: Annotated[
+        float, Positive, Meaning("random places, evenly over the volume, all at `SOI`", "1/m³")
+    ]
+    cellZone: Annotated[
+        str, Meaning("a zone of `polyMesh/cellZones`", default="required, without `selectionMode all`")
+    ] = ""
+    selectionMode: Annotated[
+        Literal["cellZone", "all"], Meaning("`all`: all cells of the mesh, in place of a `cellZone`")
+    ] = "cellZone"
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
 
     def __post_init__(self) -> None:
         if self.selectionMode == "all" and self.cellZone:
@@ -234,13 +262,13 @@ class ConeInjection:
     degrees (not uniform over the sphere), and so is the angle about the axis; ``Umag`` is the speed, m/s.
     """
 
-    positionAxis: Axes
-    duration: Annotated[float, Positive]
-    parcelsPerInjector: Annotated[float, Positive]
-    Umag: Annotated[Constant, NonNegative]
-    thetaInner: Annotated[Constant, Angle]
-    thetaOuter: Annotated[Constant, Angle]
-    SOI: Annotated[float, NonNegative] = START_OF_FLOW
+    positionAxis: Annotated[Axes, Meaning("`( ((x y z) (axis)) … )`, used in turn", "m")]
+    duration: Annotated[float, Positive, Meaning("of the injection", "s")]
+    parcelsPerInjector: Annotated[float, Positive, Meaning("at each position, at even intervals", "1")]
+    Umag: Annotated[Constant, NonNegative, Meaning("speed; `3` or `constant 3`", "m/s")]
+    thetaInner: Annotated[Constant, Angle, Meaning("smallest angle from the axis", "°")]
+    thetaOuter: Annotated[Constant, Angle, Meaning("largest angle; uniform between them", "°")]
+    SOI: _SOI = START_OF_FLOW
 
     def __post_init__(self) -> None:
         if not self.positionAxis:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.state import Particles, set_rest_shape
-from foamprb.dictionary.constraints import Positive3, Vector3
+from foamprb.dictionary.constraints import Meaning, Positive3, Vector3
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 
@@ -43,10 +43,12 @@ class Ellipsoid:
     of ``e1`` and ``e2``; or their directions are random, each as likely as any other.
     """
 
-    axisRatios: Annotated[Vector3, Positive3]
-    orientation: Literal["axes", "random"] = "axes"
-    e1: Vector3 = (1.0, 0.0, 0.0)
-    e2: Vector3 = (0.0, 1.0, 0.0)
+    axisRatios: Annotated[Vector3, Positive3, Meaning("semi-axes up to a common factor, `(2 1 1)`", "1")]
+    orientation: Annotated[
+        Literal["axes", "random"], Meaning("`axes`, or `random`: each direction as likely as any other")
+    ] = "axes"
+    e1: Annotated[Vector3, Meaning("the first semi-axis lies along it", "1")] = (1.0, 0.0, 0.0)
+    e2: Annotated[Vector3, Meaning("the second lies in the plane of `e1` and `e2`", "1")] = (0.0, 1.0, 0.0)
 
     def __post_init__(self) -> None:
         first, second = np.array(self.e1), np.array(self.e2)

@@ -46,6 +46,7 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
+    interrupted,
     is_sound,
     reach_end,
     release,
@@ -225,11 +226,11 @@ def track_block(
                 look_around(flow, scratch, i, n, dt, medium)
             elif status[i] == PENDING:
                 moving += 1
-        if moving == 0:
+        if moving == 0 or interrupted(scratch):
             break
 
         renew_frames(block)
-        surround(block, medium, False)
+        surround(block, medium, 0.0)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):
@@ -247,6 +248,8 @@ def track_block(
             x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
             recovered += reach_end(flow, patches, scratch, i, goal, t_end, h)
+    if interrupted(scratch):
+        return 0
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
     return recovered

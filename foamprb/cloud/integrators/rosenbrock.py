@@ -32,18 +32,11 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces.total import acceleration
+from foamprb.cloud.integrators.adaptive import drag_rate
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.second_order import (
-    SECOND_ORDER_ROWS,
-    conservative_stress,
-    drag_rate,
-    finish,
-    largest,
-    slope,
-    solid_elasticity,
-    track_adaptive,
-)
+from foamprb.cloud.integrators.second_order import SECOND_ORDER_ROWS, finish, largest, slope, track_adaptive
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 
 

@@ -16,11 +16,8 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
-from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector, add, dot, exponential, scale
 from foamprb.cloud.block import (
-    NOT_CONVERGED,
     ROWS,
     Medium,
     Scratch,
@@ -44,8 +41,11 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
-    fail,
+    end_tracking_step,
+    fail_small_step,
+    interrupted,
     is_sound,
+    overspent,
     reach_end,
     release,
 )
@@ -69,37 +69,6 @@ SECOND_ORDER_ROWS = end(slope)
 _SAFETY, _LEAST, _MOST = 0.9, 0.2, 4.0
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
-
-
-def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
-    """μ_s and λ_s, Pa, and the third parameter of the solid."""
-    return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
-
-
-def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
-    """μ_f K_a/m, 1/s, with K_a in units of R."""
-    R = block[at.R * LANES + i]
-    c = mu_f / (4.0 / 3.0 * math.pi * R * R * block[at.rho * LANES + i])
-    return c * k[0], c * k[1], c * k[2]
-
-
-def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
-    """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
-    tau = kirchhoff(b_e, J, *solid(block, i))
-    s = interface(stretches, block[at.tension * LANES + i])
-    return (
-        tau[0] + s[0], tau[1], tau[2],
-        tau[3], tau[4] + s[1], tau[5],
-        tau[6], tau[7], tau[8] + s[2],
-    )  # fmt: skip
-
-
-def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
-    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
-    mu, lame, k = solid(block, i)
-    J = stretches[0] * stretches[1] * stretches[2]
-    squares = (b_e[0], b_e[4], b_e[8])
-    return elasticity(squares, J, mu, dilation * lame, k, block[at.tension * LANES + i])
 
 
 def finish(block: Any, i: int, F: Tensor, k2F: Tensor, x_slopes: tuple[Vector, Vector]) -> None:
@@ -216,12 +185,14 @@ def track_adaptive(
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
             look_around(flow, scratch, i, current[i], dt, medium)
+        if interrupted(scratch):
+            return 0
         if moving == 0:
             break
 
         new_frames(block)
         integrals_stage(block)
-        surround(block, medium, False)
+        surround(block, medium, 0.0)
         first_slope(block, medium)
         for i in range(len(members)):
             if status[i] == ACTIVE and current[i] < last:
@@ -231,12 +202,14 @@ def track_adaptive(
                 store_fluid(block, i, u, l_f, u_t)
         new_frames(block)
         integrals_stage(block)
-        surround(block, medium, True)
+        surround(block, medium, 1.0)
         second_slope(block, medium)
         accept_stage(block, tolerance)
 
         for i in range(len(members)):
             if status[i] != ACTIVE or current[i] >= last:
+                continue
+            if overspent(scratch, i):
                 continue
             h = block[at.dt * LANES + i]
             t_end = start + (current[i] + 1) * dt
@@ -245,7 +218,7 @@ def track_adaptive(
             if not error <= tolerance:
                 block[at.h * LANES + i] = size
                 if size < _SMALLEST * dt:
-                    fail(scratch, i, NOT_CONVERGED)
+                    fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
@@ -259,7 +232,7 @@ def track_adaptive(
             goal = load3(block, at.new_x, i)
             recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
-                current[i] += 1
+                end_tracking_step(scratch, i)
     for i in range(len(members)):
         block[at.moving * LANES + i] = 0.0
         if status[i] == ACTIVE:
@@ -271,7 +244,7 @@ def track_adaptive(
             look_around(flow, scratch, i, last - 1, dt, medium)
     new_frames(block)
     integrals_stage(block)
-    surround(block, medium, False)
+    surround(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)

@@ -1,7 +1,8 @@
-"""The integrator ``stokes``: without inertia of the solid, of second order, exactly incompressible.
+"""The integrator ``stokes``: without inertia of the shape, of order 3(2), exactly incompressible.
 
-The formulas are those of :mod:`foamprb.body.stokes`. The shape's only unknown is F; its rate, and the
-barycentre's velocity, are those of the balance of forces in the state.
+The formulas are those of :mod:`foamprb.body.exponential_runge_kutta`. The shape's only unknown is F; its
+rate is that of the balance of forces in the state. The barycentre follows the flow and slips through it
+as far as drag balances the forces and, to first order, its own inertia (:mod:`foamprb.body.slip`).
 """
 
 from __future__ import annotations
@@ -9,153 +10,291 @@ from __future__ import annotations
 from typing import Annotated, Any, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.ellipsoid import Integrals
+from foamprb.body.error_control import FLUID_SHARE, relative_size, strain_scale
+from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
+from foamprb.body.exponential_runge_kutta import first_argument as quarter_argument
+from foamprb.body.exponential_runge_kutta import last_argument as end_argument
+from foamprb.body.exponential_runge_kutta import second_order as of_second_order
+from foamprb.body.exponential_runge_kutta import slope as slope_of
+from foamprb.body.exponential_runge_kutta import third_order as of_third_order
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger_of_sphere as finger
-from foamprb.body.rosenbrock import GAMMA, Elasticity
-from foamprb.body.stokes import Mobility, isochoric, mobility, solve_inertialess, velocity_gradient
+from foamprb.body.relaxation import Relaxation, Response, relaxation, relaxing, responses
+from foamprb.body.slip import balanced_slip
+from foamprb.body.stokes import Mobility, isochoric, mobility, velocity_gradient
 from foamprb.body.tensor import (
     Tensor,
     Vector,
     add,
     det,
     dot,
-    dot_vector,
-    exponential,
     from_frame,
-    reciprocals,
     scale,
     select,
     to_frame,
-    vector_dot,
+    transpose,
 )
+from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.forces.total import slip_acceleration
-from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.second_order import (
-    SECOND_ORDER_ROWS,
-    conservative_stress,
+from foamprb.cloud.elastic import conservative_stress, solid_elasticity
+from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.integrators.adaptive import (
+    STEP_ROWS,
     drag_rate,
-    finish,
-    slope,
-    solid_elasticity,
+    during,
+    finish_path,
+    fluid_acceleration,
+    judge_difference,
+    keep_frame,
     track_adaptive,
 )
+from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 
 
-class ResponseRows(NamedTuple):
-    """What stage 2 needs of stage 1 beside the :class:`SlopeRows`: the state's mobility and elasticity."""
+class RelaxationRows(NamedTuple):
+    """What a stage needs of those before it: the state at the start in its frame, and how it relaxes."""
 
+    start_slip: Annotated[int, Row(3, "m/s", "velocity relative to the fluid at the start")]
+    l_s: Annotated[int, Row(9, "1/s", "the body's velocity gradient")]
+    b_e: Annotated[int, Row(9, "1", "elastic b_e")]
     normal: Annotated[int, Row(9, "1", "d_s,aa for unit changes of the normal stresses over μ_f")]
     compliance: Annotated[int, Row(3, "1", "d_s,ab for unit changes of the shear stresses over μ_f")]
     slip: Annotated[int, Row(3, "1", "(b² − c²)/(b² + c²) and its cyclic companions")]
-    squares: Annotated[int, Row(3, "1", "squared elastic stretches e_a²")]
-    slopes: Annotated[int, Row(9, "Pa", "∂τ_a/∂ln e_c")]
-    shear: Annotated[int, Row(3, "Pa", "the same of the shear stresses, for 23, 13 and 12")]
+    upper: Annotated[int, Row(3, "1/s", "relaxation of the components 23, 13 and 12")]
+    lower: Annotated[int, Row(3, "1/s", "the same of 32, 31 and 21")]
+    relaxation: Annotated[int, Row(9, "1/s", "relaxation of the normal components")]
+    pairs: Annotated[int, Row(9, "1", "φ₂, φ₃ and φ₄ of the pairs, for the whole step")]
+    mean: Annotated[int, Row(3, "1", "their means of the two normal rates")]
+    bend: Annotated[int, Row(3, "1", "their differences over that of the rates times h")]
+    centre: Annotated[int, Row(1, "1", "mean of the two normal rates, times h")]
+    change: Annotated[int, Row(9, "1/s", "change of l_s by that of the fluid's gradient over the step")]
+    turning: Annotated[int, Row(9, "1/s2", "rate of change of l_s by turning")]
+    quarter: Annotated[int, Row(9, "1", "Ω at a quarter of the step")]
+    slope: Annotated[int, Row(9, "1/s", "slope of what is not stiff, per step")]
+    second: Annotated[int, Row(9, "1", "Ω of order 2")]
 
 
-own = offsets(ResponseRows, SECOND_ORDER_ROWS)
+own = offsets(RelaxationRows, STEP_ROWS)
+
+
+def predict_inertialess(block: Any, medium: Medium) -> None:
+    """Velocity and acceleration at the start, and where they lead."""
+    for i in range(LANES):
+        h = block[at.dt * LANES + i]
+        w = _slip(block, i, medium, load9(block, at.l, i))
+        u, x = load3(block, during.start_u, i), load3(block, at.x, i)
+        v = (u[0] + w[0], u[1] + w[1], u[2] + w[2])
+        a = fluid_acceleration(block, i, v)
+        store3(block, own.start_slip, i, w)
+        store3(block, during.start_v, i, v)
+        store3(block, during.start_a, i, a)
+        f = 0.5 * h * h
+        place = (x[0] + h * v[0] + f * a[0], x[1] + h * v[1] + f * a[1], x[2] + h * v[2] + f * a[2])
+        store3(block, at.new_x, i, place)
 
 
 def first_inertialess(block: Any, medium: Medium) -> None:
-    """Stage 1 without inertia."""
+    """The state at the start, how it relaxes, and the shape at a quarter of the step."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-        F, x = load9(block, at.F, i), load3(block, at.x, i)
-        b_e = finger(dot(Q, F), load9(block, at.M, i))
-        m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
-        l_s, kx = _balance(block, i, medium, Q, stretches, g, m, b_e)
+        Q, stretches, F = load9(block, at.Q, i), load3(block, at.stretch, i), load9(block, at.F, i)
+        l, l_start = load9(block, at.l, i), load9(block, during.start_l, i)
+        l_end = load9(block, during.end_l, i)
+        G = dot(Q, F)
+        b_e = finger(G, load9(block, at.M, i))
+        m, sigma = _response(block, i, medium, stretches, b_e)
+        l_f = to_frame(Q, l)
+        l_s = velocity_gradient(m, sigma, l_f)
         # The pressure takes over the solid's resistance to dilation.
         e = solid_elasticity(block, i, stretches, b_e, 0.0)
-        Y = solve_inertialess(m, e, GAMMA * h, medium.mu, l_s)
-        kF = from_frame(Q, Y)
-        store9(block, slope.kF, i, kF)
-        store3(block, slope.kx, i, kx)
-        store9(block, at.new_F, i, dot(exponential(scale(h, kF)), F))
-        store3(block, at.new_x, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
-        store9(block, slope.start_Q, i, Q)
+        n = relaxation(m, e, medium.mu)
+        quarter, whole = responses(n, h)
+        dl = add(l_end, scale(-1.0, l_start))
+        change = _seen(m, to_frame(Q, dl))
+        turning = turning_gradient(stretches, m, e, medium.mu, l_s, l_f, sigma)
+        Omega = quarter_argument(n, quarter, h, l_s, change, turning)
+        store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
+        # That of the body's place and time, as long as the flow is smooth.
+        store9(block, at.l, i, add(l_start, scale(NODE, dl)))
+        store3(block, at.u, i, load3(block, during.start_u, i))
+        store9(block, during.start_Q, i, Q)
+        store9(block, own.l_s, i, l_s)
+        store9(block, own.b_e, i, b_e)
         store9(block, own.normal, i, m.normal)
         store3(block, own.compliance, i, m.compliance)
         store3(block, own.slip, i, m.slip)
-        store3(block, own.squares, i, e.squares)
-        store9(block, own.slopes, i, e.slopes)
-        store3(block, own.shear, i, e.shear)
+        store3(block, own.upper, i, n.upper)
+        store3(block, own.lower, i, n.lower)
+        store9(block, own.relaxation, i, n.normal)
+        store9(block, own.pairs, i, whole.pairs)
+        store3(block, own.mean, i, whole.mean)
+        store3(block, own.bend, i, whole.slope)
+        block[own.centre * LANES + i] = whole.centre
+        store9(block, own.change, i, change)
+        store9(block, own.turning, i, turning)
+        store9(block, own.quarter, i, Omega)
 
 
-def second_inertialess(block: Any, medium: Medium) -> None:
-    """Stage 2 without inertia; the volume is restored exactly."""
+def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
+    """The slope at a quarter of the step, the solution of order 2, and whether it is good enough."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-        Q0 = load9(block, slope.start_Q, i)
-        eta = block[at.eta * LANES + i] / medium.mu
-        F, F_p = load9(block, at.F, i), load9(block, at.new_F, i)
-        b_e = finger(dot(Q, F_p), load9(block, at.M, i))
-        l_s, v = _balance(block, i, medium, Q, stretches, g, mobility(stretches, g, eta), b_e)
-        l_p = from_frame(Q, l_s)
-        k1F, k1x = load9(block, slope.kF, i), load3(block, slope.kx, i)
-        r = to_frame(Q0, add(l_p, scale(-2.0, k1F)))
-        m, e = _load_response(block, i)
-        Y = solve_inertialess(m, e, GAMMA * h, medium.mu, r)
-        k2x = (v[0] - 2.0 * k1x[0], v[1] - 2.0 * k1x[1], v[2] - 2.0 * k1x[2])
-        finish(block, i, F, from_frame(Q0, Y), (k1x, k2x))
-        F_new = load9(block, at.new_F, i)
-        J = det(F_new)
-        F_new = isochoric(F_new, J)
-        store9(block, at.new_F, i, F_new)
-        block[at.J * LANES + i] = J
-        store9(block, at.new_A, i, dot(l_p, F_new))
-        store3(block, at.new_v, i, v)
+        Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
+        l_s, b_e, change = load9(block, own.l_s, i), load9(block, own.b_e, i), load9(block, own.change, i)
+        n, whole = _load_relaxation(block, i)
+        g = algebra_rate(Omega, to_frame(Q0, _gradient(block, i, medium)))
+        k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
+        two, by_fluid, by_slope = of_second_order(n, whole, h, l_s, change, k)
+        strain = strain_scale(b_e, two)
+        size = relative_size(by_slope, b_e, strain) + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
+        third = select(size <= tolerance, 0.0, 1.0)
+        block[during.third * LANES + i] = third
+        store9(block, own.slope, i, k)
+        store9(block, own.second, i, two)
+        store9(block, during.second_Q, i, load9(block, at.Q, i))
+
+        w0, w = load3(block, own.start_slip, i), _slip(block, i, medium, load9(block, during.start_l, i))
+        u = load3(block, during.end_u, i)
+        f = 1.0 / NODE
+        v = (
+            u[0] + w0[0] + f * (w[0] - w0[0]),
+            u[1] + w0[1] + f * (w[1] - w0[1]),
+            u[2] + w0[2] + f * (w[2] - w0[2]),
+        )
+        finish_path(block, i, v)
+        F = _finish_shape(block, i, Q0, two)
+        # The rate of Ω at the end as the slope has it, and l_s = g + ½[Ω, g] of that.
+        end = add(add(relaxing(n, two), l_s), add(change, k))
+        end = add(end, scale(0.5, commutator(two, end)))
+        store9(block, at.new_A, i, dot(from_frame(Q0, end), F))
+
+
+def last_inertialess(block: Any, medium: Medium) -> None:
+    """The shape for the evaluation at the end, in lanes that go to order 3."""
+    for i in range(LANES):
+        h = block[at.dt * LANES + i]
+        Q0, F = load9(block, during.start_Q, i), load9(block, at.F, i)
+        l_s, change = load9(block, own.l_s, i), load9(block, own.change, i)
+        n, whole = _load_relaxation(block, i)
+        k, turning = load9(block, own.slope, i), load9(block, own.turning, i)
+        curve = _bend(block, i, medium, Q0)
+        Omega = end_argument(n, whole, h, l_s, change, curve, k, turning)
+        new = dot(transpose(Q0), dot(group_exponential(Omega), dot(Q0, F)))
+        third = block[during.third * LANES + i] > 0.0
+        store9(block, at.new_F, i, choose(third, new, load9(block, at.new_F, i)))
+        store9(block, at.l, i, load9(block, during.end_l, i))
+        # The quarter has served.
+        store9(block, own.quarter, i, Omega)
+
+
+def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
+    """The slope at the end, and the solution of order 3."""
+    for i in range(LANES):
+        h = block[at.dt * LANES + i]
+        Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
+        l_s, b_e, change = load9(block, own.l_s, i), load9(block, own.b_e, i), load9(block, own.change, i)
+        n, whole = _load_relaxation(block, i)
+        k, two = load9(block, own.slope, i), load9(block, own.second, i)
+        curve = _bend(block, i, medium, Q0)
+        l_end = _gradient(block, i, medium)
+        g = algebra_rate(Omega, to_frame(Q0, l_end))
+        last = slope_of(n, Omega, g, l_s, change, 1.0)
+        three = of_third_order(n, whole, h, l_s, change, curve, k, last)
+        difference = relative_size(add(three, scale(-1.0, two)), b_e, strain_scale(b_e, two))
+        third = block[during.third * LANES + i] > 0.0
+        F_two, J_two, A_two = load9(block, at.new_F, i), block[at.J * LANES + i], load9(block, at.new_A, i)
+        F = _finish_shape(block, i, Q0, three)
+        store9(block, at.new_F, i, choose(third, F, F_two))
+        block[at.J * LANES + i] = select(third, block[at.J * LANES + i], J_two)
+        store9(block, at.new_A, i, choose(third, dot(l_end, F), A_two))
+        keep_frame(block, i, third)
+        judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
 
 def end_inertialess(block: Any, medium: Medium) -> None:
-    """A and v of the balance at the end; the stages leave those of the state that the last step predicted."""
+    """A and v of the balance at the end; the stages leave those that the last step has found on its way."""
     for i in range(LANES):
-        Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-        F = load9(block, at.F, i)
-        m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
-        b_e = finger(dot(Q, F), load9(block, at.M, i))
-        l_s, v = _balance(block, i, medium, Q, stretches, g, m, b_e)
         moving = block[at.moving * LANES + i] > 0.0
-        A, w = load9(block, at.A, i), load3(block, at.v, i)
-        store9(block, at.A, i, choose(moving, dot(from_frame(Q, l_s), F), A))
-        store3(
-            block,
-            at.v,
-            i,
-            (select(moving, v[0], w[0]), select(moving, v[1], w[1]), select(moving, v[2], w[2])),
+        l_s = _gradient(block, i, medium)
+        F, A = load9(block, at.F, i), load9(block, at.A, i)
+        store9(block, at.A, i, choose(moving, dot(l_s, F), A))
+        w, v = _slip(block, i, medium, load9(block, at.l, i)), load3(block, at.v, i)
+        u = load3(block, during.start_u, i)
+        v = (
+            select(moving, u[0] + w[0], v[0]),
+            select(moving, u[1] + w[1], v[1]),
+            select(moving, u[2] + w[2], v[2]),
         )
+        store3(block, at.v, i, v)
 
 
-def _balance(
-    block: Any, i: int, medium: Medium, Q: Tensor, stretches: Vector, g: Integrals, m: Mobility, b_e: Tensor
-) -> tuple[Tensor, Vector]:
-    """l_s in the particle frame, 1/s, and the barycentre's velocity u + K⁻¹ f_G/μ_f, m/s."""
+def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
+    """Mobility, and elastic stress over μ_f, 1/s, in the particle frame."""
+    m = mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
     tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
-    sigma = scale(1.0 / medium.mu, tau)
-    l_f = to_frame(Q, load9(block, at.l, i))
-    l_s = velocity_gradient(stretches, g, m, sigma, l_f)
-    rate = drag_rate(block, i, medium.mu, drag(stretches, g))
-    w = _drift(Q, rate, slip_acceleration(block, i, medium))
-    u = load3(block, at.u, i)
-    return l_s, (u[0] + w[0], u[1] + w[1], u[2] + w[2])
+    return m, scale(1.0 / medium.mu, tau)
 
 
-def _drift(Q: Tensor, rate: Vector, a: Vector) -> Vector:
-    """Velocity relative to the fluid at which drag balances the acceleration, m/s."""
-    g = dot_vector(Q, a)
-    r = reciprocals(rate)
-    return vector_dot((g[0] * r[0], g[1] * r[1], g[2] * r[2]), Q)
+def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
+    """l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
+    Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
+    b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    m, sigma = _response(block, i, medium, stretches, b_e)
+    return from_frame(Q, velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i))))
 
 
-def _load_response(block: Any, i: int) -> tuple[Mobility, Elasticity]:
-    """Mobility and elasticity at the start of the step, as stage 1 left them, for the step's equations."""
-    compliance, slip = load3(block, own.compliance, i), load3(block, own.slip, i)
-    m = Mobility(load9(block, own.normal, i), compliance, slip, 1.0)
-    squares, shear = load3(block, own.squares, i), load3(block, own.shear, i)
-    return m, Elasticity(squares, load9(block, own.slopes, i), shear)
+def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
+    """Change of l_s by one of the fluid's gradient, 1/s."""
+    return velocity_gradient(m, scale(0.0, dl_f), dl_f)
+
+
+def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
+    """The part of l_s that is quadratic in time as the fluid's gradient is, 1/s."""
+    l, middle, l_end = (
+        load9(block, during.start_l, i),
+        load9(block, during.middle_l, i),
+        load9(block, during.end_l, i),
+    )
+    bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
+    own_part = 1.0 - block[at.eta * LANES + i] / medium.mu
+    m = Mobility(
+        load9(block, own.normal, i), load3(block, own.compliance, i), load3(block, own.slip, i), own_part
+    )
+    return _seen(m, to_frame(Q, bend))
+
+
+def _slip(block: Any, i: int, medium: Medium, l_f: Tensor) -> Vector:
+    """Velocity of the shape that is in the block relative to the fluid without its surroundings, m/s."""
+    rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
+    steady, push, inertia = pushes_on(block, i, medium, 1.0)
+    a = load3(block, at.DuDt, i)
+    w = balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, a, l_f)
+    u, free = load3(block, at.u, i), load3(block, during.start_u, i)
+    return w[0] + (u[0] - free[0]), w[1] + (u[1] - free[1]), w[2] + (u[2] - free[2])
+
+
+def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
+    """Store the new deformation gradient, its volume restored exactly, and its volume before; return it."""
+    F = dot(transpose(Q), dot(group_exponential(Omega), dot(Q, load9(block, at.F, i))))
+    J = det(F)
+    F = isochoric(F, J)
+    store9(block, at.new_F, i, F)
+    block[at.J * LANES + i] = J
+    return F
+
+
+def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
+    """How the state at the start relaxes, and the functions of the whole step."""
+    b_e = load9(block, own.b_e, i)
+    n = Relaxation(
+        (b_e[0], b_e[4], b_e[8]),
+        load3(block, own.upper, i),
+        load3(block, own.lower, i),
+        load9(block, own.relaxation, i),
+    )
+    mean, bend = load3(block, own.mean, i), load3(block, own.bend, i)
+    return n, Response(load9(block, own.pairs, i), mean, bend, block[own.centre * LANES + i])
 
 
 def _refuses(traction: str, material: str, _tense: bool) -> str:
@@ -168,14 +307,25 @@ def _refuses(traction: str, material: str, _tense: bool) -> str:
 
 STOKES = Integrator(
     name="stokes",
-    description="without inertia, second order, exactly incompressible",
-    order=2,
+    description="without inertia, third order, exactly incompressible",
+    order=3,
     track=track_adaptive,
-    stages=(*BLOCK_STAGES, first_inertialess, second_inertialess, end_inertialess),
-    layout=layout(at, slope, own),
+    stages=(
+        *BLOCK_STAGES,
+        predict_inertialess,
+        first_inertialess,
+        second_inertialess,
+        last_inertialess,
+        third_inertialess,
+        end_inertialess,
+    ),
+    layout=layout(at, during, own),
     bindings={
+        "predict": predict_inertialess,
         "first_slope": first_inertialess,
         "second_slope": second_inertialess,
+        "last_argument": last_inertialess,
+        "third_slope": third_inertialess,
         "end_slope": end_inertialess,
     },
     adaptive=True,

@@ -29,9 +29,8 @@ class Surrounding:
     in lane i, before each step h, and once more at the end, in the tracking step of that number and size Δt,
     s. The lane's x and t are those of the start of h."""
     disturb: ClassVar[Callable[..., None]]
-    """``disturb(block, medium, predicted, coefficients)``: change the rows u and l of all lanes. The state of
-    the lanes is that of the start of h or, where ``predicted``, new_x and new_F; frames and integrals are
-    those of new_F in both."""
+    """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
+    x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
 
     @property
     def reach(self) -> float:

@@ -29,15 +29,15 @@ def look_around(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Med
     looks(flow, s, i, step, dt, medium, medium.surroundings)
 
 
-def surround(block: Any, medium: Medium, predicted: bool) -> None:
+def surround(block: Any, medium: Medium, share: float) -> None:
     """Change the fluid's u and l as the particles feel them, of all lanes.
 
     Parameters
     ----------
-    predicted
-        Whether they are those at new_x, not at x.
+    share
+        How far on the way from x to new_x the body is.
     """
-    disturbs(block, medium, predicted, medium.surroundings)
+    disturbs(block, medium, share, medium.surroundings)
 
 
 def no_look(
@@ -46,7 +46,7 @@ def no_look(
     """Nothing is looked for."""
 
 
-def no_disturbance(_block: Any, _medium: Medium, _predicted: bool, _coefficients: Any) -> None:
+def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """The fluid is felt as the flow has it."""
 
 
@@ -102,9 +102,9 @@ def _look_and(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Mediu
     model(flow, s, i, step, dt, medium, coefficients[1])
 
 
-def _disturb_and(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None:
-    others(block, medium, predicted, coefficients[0])
-    model(block, medium, predicted, coefficients[1])
+def _disturb_and(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    others(block, medium, share, coefficients[0])
+    model(block, medium, share, coefficients[1])
 
 
 others: Any = no_look

@@ -44,13 +44,13 @@ from foamprb.body.wall import (
     stresslet_velocity,
 )
 from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.forces.total import slip_acceleration
-from foamprb.cloud.integrators.second_order import conservative_stress
+from foamprb.cloud.elastic import conservative_stress
+from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import link
-from foamprb.dictionary.constraints import Bounds, Positive, Words
+from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.analytic import walls_free as walls
 from foamprb.flow.base import WALLS, Floats, Flow, Patch
@@ -98,7 +98,7 @@ def look_for_walls(
             block[near.close * LANES + i] += 1.0
 
 
-def lift(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None:
+def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     """Add what the walls send back of the particles' stresslets to u and l, and hold back what falls.
 
     The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition.
@@ -115,28 +115,28 @@ def lift(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None
         store9(block, near.sent_back, i, nothing)
         store9(block, near.hindrance, i, nothing)
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
-        store9(block, near.stresslet, i, stresslet(block, i, medium, predicted, nothing))
+        store9(block, near.stresslet, i, stresslet(block, i, medium, share, nothing))
     for _ in range(_REPEATS):
         for i in range(LANES):
             store9(block, near.sent_back, i, scale(0.0, load9(block, at.l, i)))
         for wall in range(most):
             for i in range(LANES):
-                there, n, d, _ = wall_at(block, i, wall, predicted, least_gap)
+                there, n, d, _ = wall_at(block, i, wall, share, least_gap)
                 E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
                 store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), scale(there, E)))
         for i in range(LANES):
             E = load9(block, near.sent_back, i)
-            store9(block, near.stresslet, i, stresslet(block, i, medium, predicted, scale(strain, E)))
+            store9(block, near.stresslet, i, stresslet(block, i, medium, share, scale(strain, E)))
     for wall in range(most):
         for i in range(LANES):
-            there, n, d, _ = wall_at(block, i, wall, predicted, least_gap)
+            there, n, d, _ = wall_at(block, i, wall, share, least_gap)
             v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
             w = load3(block, near.wall_lift, i)
             store3(block, near.wall_lift, i, (w[0] + there * v[0], w[1] + there * v[1], w[2] + there * v[2]))
     if hindered > 0.0:
         for wall in range(most):
             for i in range(LANES):
-                W = hindrance_of(block, i, wall, predicted, least_gap)
+                W = hindrance_of(block, i, wall, share, least_gap)
                 store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
         for i in range(LANES):
             v = held_back(block, i, medium)
@@ -160,7 +160,7 @@ def lift(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None
 
 
 def wall_at(
-    block: Any, i: int, wall: int, predicted: bool, least_gap: float
+    block: Any, i: int, wall: int, share: float, least_gap: float
 ) -> tuple[float, Vector, float, float]:
     """1 if lane i has that wall, else 0; its normal, the distance of the centre from it and the gap, m.
 
@@ -169,9 +169,9 @@ def wall_at(
     R, h = block[at.R * LANES + i], block[(near.wall_distance + wall) * LANES + i]
     n = load3(block, near.wall_normal + 3 * wall, i)
     there = select(h < 0.5 * _FAR * R, 1.0, 0.0)
-    if predicted:
+    if share > 0.0:
         x, y = load3(block, at.x, i), load3(block, at.new_x, i)
-        h = h + (y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2]
+        h = h + share * ((y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2])
     extent = reach(R, load9(block, at.new_F, i), n)
     gap = np.maximum(h - extent, least_gap * R)
     return there, n, gap + extent, gap
@@ -183,37 +183,39 @@ def shape_of(block: Any, i: int) -> Tensor:
     return scale(R * R, dot(F, transpose(F)))
 
 
-def stresslet(block: Any, i: int, medium: Medium, predicted: bool, E: Tensor) -> Tensor:
+def stresslet(block: Any, i: int, medium: Medium, share: float, E: Tensor) -> Tensor:
     """S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m, with E (1/s) added to the gradient of the flow."""
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     l_f = to_frame(Q, add(load9(block, at.l, i), E))
-    relative = add(l_f, scale(-1.0, body_gradient(block, i, medium, l_f, predicted)))
+    relative = add(l_f, scale(-1.0, body_gradient(block, i, medium, l_f, share)))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
     R = block[at.R * LANES + i]
     volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
     return from_frame(Q, scale(volume * medium.mu, dev(sym(s))))
 
 
-def balanced_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, predicted: bool) -> Tensor:  # noqa: ARG001
+def balanced_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
     """l_s of a body without inertia in a flow with the gradient l_f, both in the particle frame, 1/s."""
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
     b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
-    return velocity_gradient(stretches, g, m, scale(1.0 / medium.mu, tau), l_f)
+    return velocity_gradient(m, scale(1.0 / medium.mu, tau), l_f)
 
 
-def moving_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, predicted: bool) -> Tensor:  # noqa: ARG001
+def moving_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
     """l_s of a body with inertia, which is its state, in the particle frame, 1/s."""
     Q = load9(block, at.Q, i)
-    if predicted:
+    if share > 0.0:
         return to_frame(Q, load9(block, at.new_A, i))
     return to_frame(Q, dot(load9(block, at.A, i), inverse(load9(block, at.F, i))))
 
 
 def load_of(block: Any, i: int, medium: Medium) -> Vector:
     """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
-    a, t = slip_acceleration(block, i, medium), thermal_force(block, i)
+    _, push, inertia = pushes_on(block, i, medium, 1.0)
+    Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
+    a = (push[0] - inertia * Du_Dt[0], push[1] - inertia * Du_Dt[1], push[2] - inertia * Du_Dt[2])
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
     return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
@@ -230,9 +232,9 @@ def resistances(block: Any, i: int) -> Vector:
     return R * k[0], R * k[1], R * k[2]
 
 
-def hindrance_of(block: Any, i: int, wall: int, predicted: bool, least_gap: float) -> Tensor:
+def hindrance_of(block: Any, i: int, wall: int, share: float, least_gap: float) -> Tensor:
     """W of one wall, in the particle frame; 0 if lane i does not have it."""
-    there, n, h, gap = wall_at(block, i, wall, predicted, least_gap)
+    there, n, h, gap = wall_at(block, i, wall, share, least_gap)
     return scale(there, hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap))
 
 
@@ -273,18 +275,19 @@ _MORE_THAN_CLOSE = Bounds(CLOSE, math.inf, True, True, f"a number > {CLOSE:g}")
 
 @dataclass(frozen=True, kw_only=True)
 class WallLift(Surrounding):
-    """``wallLift { cutOff 10; strain yes; mobility yes; leastGap 0.01; patches (wall); }``."""
+    """What walls send back of a soft particle: ``wallLift;`` or ``wallLift { cutOff 10; }``."""
 
-    cutOff: Annotated[float, _MORE_THAN_CLOSE] = 10.0
-    """Distance of the centre, in radii, beyond which a wall does not count."""
-    strain: bool = True
-    """Whether the velocity gradient that the walls send back deforms the particle."""
-    mobility: bool = True
-    """Whether the walls hinder the motion through the fluid."""
-    leastGap: Annotated[float, Positive] = 0.01
-    """Gap, in radii, below which motion across is hindered no more: what stands for roughness."""
-    patches: Words | None = None
-    """Names, or patterns for them, of the patches that count; all walls that particles can touch if None."""
+    cutOff: Annotated[
+        float, _MORE_THAN_CLOSE, Meaning("distance of the centre beyond which a wall does not count", "radii")
+    ] = 10.0
+    strain: Annotated[bool, Meaning("whether the gradient that walls send back deforms the particle")] = True
+    mobility: Annotated[bool, Meaning("whether walls hinder what settles; needs `stokes`")] = True
+    leastGap: Annotated[
+        float, Positive, Meaning("gap below which motion across is hindered no more: roughness", "radii")
+    ] = 0.01
+    patches: (
+        Annotated[Words, Meaning("patches that count: names, or patterns in quotes", "", "walls")] | None
+    ) = None
 
     rows: ClassVar = WallRows
     place: ClassVar = "near"
@@ -334,8 +337,8 @@ class WallLift(Surrounding):
     def summary(self, p: Particles, dt: float) -> Sequence[str]:
         """How often particles were close to a wall."""
         steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
-        share, some = p.close.sum() / max(steps, 1.0), np.count_nonzero(p.close)
-        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {share:.2%}, of {some} particles"]
+        close, some = p.close.sum() / max(steps, 1.0), np.count_nonzero(p.close)
+        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {close:.2%}, of {some} particles"]
 
     def check(self, patches: Sequence[Patch]) -> None:
         """Raise InputError if a pattern matches no patch."""

@@ -16,6 +16,20 @@ from foamprb.flow.mesh.lists import Index, cell_array, starts, take_lists
 _Hash: TypeAlias = NDArray[np.uint64]
 
 
+class Transform(NamedTuple):
+    """What ``polyMesh/boundary`` says of the way from a cyclicAMI patch to its neighbour."""
+
+    kind: str = ""
+    """``translational`` or ``rotational``; else the two patches lie in the same place."""
+    separation: tuple[float, float, float] | None = None
+    """m."""
+    axis: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """m."""
+    angle: float | None = None
+    """Radians."""
+
+
 class PatchSurface(NamedTuple):
     """A patch with its faces, ``surface`` a ``pyvista.PolyData`` with points of its own."""
 
@@ -24,6 +38,7 @@ class PatchSurface(NamedTuple):
     surface: Any
     neighbour: str = ""
     """The patch that a cyclic patch leads to."""
+    transform: Transform = Transform()
 
 
 def sort_boundary(faces: Faces, order: Index) -> None:

@@ -1,4 +1,8 @@
-"""Cyclic patches and wedges: which face continues which, and the motion that carries one onto the other."""
+"""Coupled patches and wedges: which face continues which, and the motion that carries one onto the other.
+
+The faces of cyclic patches and of wedges fit one to one. Those of cyclicAMI patches do not: the two surfaces
+lie on each other but are cut differently, and each face goes on in all those of the other that it overlaps.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Patch
+from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.lists import Index
 
 __all__ = ["Coupling", "couple"]
@@ -18,6 +24,10 @@ __all__ = ["Coupling", "couple"]
 _MATCH = 1e-2
 # Below this a rotation is none: coordinates have been single precision.
 _NO_TURN = 1e-5
+# Of a face's size: how far surfaces cut differently may lie apart, as chords of a circle do.
+_APART = 0.25
+# Share of the area of a cyclicAMI patch that must lie on its neighbour.
+_COVERED = 0.95
 
 
 class Coupling(NamedTuple):
@@ -33,22 +43,30 @@ class Coupling(NamedTuple):
     """(3, 3), a rotation."""
     shift: Floats
     """(3,), m."""
+    matching: bool = True
+    """Whether the faces fit one to one; if not, a partner is the face nearest to the middle."""
 
     def reverse(self) -> Coupling:
-        """The way back."""
+        """The way back of faces that fit."""
         return Coupling(
             self.other, self.patch, self.partners, self.faces, self.turn.T, -self.turn.T @ self.shift
         )
 
 
 def couple(
-    patches: Sequence[Patch], patch_start: Index, centres: Floats, areas: Floats, source: str
+    patches: Sequence[Patch],
+    patch_start: Index,
+    centres: Floats,
+    areas: Floats,
+    surfaces: Sequence[PatchSurface],
+    source: str,
 ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
-    """Match the faces of cyclic patches with those of their neighbours, and of wedges with each other.
+    """Match the faces of coupled patches with those of their neighbours, and of wedges with each other.
 
-    The motion is found from the faces themselves, so that it does not matter how the case describes it.
-    Cyclic patches match face by face in their order, as OpenFOAM's do; of wedges each face looks for its
-    partner. Wedges that do not fit each other are left as they are.
+    The motion is found from the faces themselves, so that it does not matter how the case describes it; that
+    of cyclicAMI patches is the one stated, of which the sense is found in that way. Cyclic patches match face
+    by face in their order, as OpenFOAM's do; of wedges each face looks for its partner. Wedges and cyclicAMI
+    patches that do not fit each other are left as they are.
 
     Parameters
     ----------
@@ -56,13 +74,15 @@ def couple(
         The patches, and the boundary face at which each begins.
     centres, areas
         Centres (n_boundary, 3) and outward area vectors (n_boundary, 3) of the boundary faces, m and m².
+    surfaces
+        The patches' faces in the same order, of meshes whose patches have any.
     source
         What the messages call the mesh.
 
     Returns
     -------
     patches, couplings
-        The patches, wedges with their neighbours; the couplings, each with its reverse.
+        The patches, with the neighbours on which particles go on; the couplings, each with its reverse.
 
     Raises
     ------
@@ -74,20 +94,25 @@ def couple(
     faces = [np.arange(*patch_start[i : i + 2]) for i in range(len(patches))]
     found: list[Coupling] = []
     for i, patch in enumerate(patches):
-        if patch.type != "cyclic" or not patch.neighbour:
+        if patch.type not in ("cyclic", "cyclicAMI") or not patch.neighbour:
             continue
         if patch.neighbour not in names:
             raise InputError(
-                f"{source}: neighbourPatch {patch.neighbour} of the cyclic patch {patch.name} is not there. "
-                f"{suggestion(patch.neighbour, names)}"
+                f"{source}: neighbourPatch {patch.neighbour} of the {patch.type} patch {patch.name} is not "
+                f"there. {suggestion(patch.neighbour, names)}"
             )
         j = names.index(patch.neighbour)
-        if patches[j].type != "cyclic" or patches[j].neighbour != patch.name or i == j:
+        if patches[j].type != patch.type or patches[j].neighbour != patch.name or i == j:
             raise InputError(
                 f"{source}: {patch.name} names {patch.neighbour} as its neighbour, but {patch.neighbour} is "
                 f"of type {patches[j].type} with the neighbour {patches[j].neighbour or '(none)'}."
             )
-        if i < j:
+        if i < j and patch.type == "cyclicAMI":
+            pair = _interface((i, j), (faces[i], faces[j]), centres, areas, surfaces)
+            found += pair
+            if not pair:
+                named[i], named[j] = patch._replace(neighbour=""), patches[j]._replace(neighbour="")
+        elif i < j:
             coupling = _cyclic(i, j, faces[i], faces[j], centres, areas)
             if coupling is None:
                 raise InputError(
@@ -132,6 +157,69 @@ def _cyclic(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) 
     shift = y.mean(axis=0) - turn @ x.mean(axis=0)
     coupling = Coupling(i, j, a, b, turn, shift)
     return coupling if _fits(coupling, centres, areas) else None
+
+
+def _interface(
+    pair: tuple[int, int],
+    faces: tuple[Index, Index],
+    centres: Floats,
+    areas: Floats,
+    surfaces: Sequence[PatchSurface],
+) -> list[Coupling]:
+    """Both ways between two cyclicAMI patches; none if one does not lie on the other."""
+    if min(len(f) for f in faces) == 0:
+        return []
+    turn, shift = _stated_motion(surfaces[pair[0]], *_summed(faces[0], centres, areas),
+                                 *_summed(faces[1], centres, areas))  # fmt: skip
+    found = []
+    for one, motion in ((0, (turn, shift)), (1, (turn.T, -turn.T @ shift))):
+        a, b = faces[one], faces[1 - one]
+        images = centres[a] @ motion[0].T + motion[1]
+        nearest, places = surfaces[pair[1 - one]].surface.find_closest_cell(images, return_closest_point=True)
+        area = np.linalg.norm(areas[a], axis=1)
+        partners = b[np.atleast_1d(nearest)]
+        size = np.sqrt(np.maximum(area, np.linalg.norm(areas[partners], axis=1)))
+        lies = np.linalg.norm(images - np.atleast_2d(places), axis=1) <= _APART * size
+        if area[lies].sum() < _COVERED * area.sum():
+            return []
+        found.append(Coupling(pair[one], pair[1 - one], a, partners, *motion, matching=False))
+    return found
+
+
+def _summed(faces: Index, centres: Floats, areas: Floats) -> tuple[Floats, Floats]:
+    """Centroid, m, and summed area vector, m², of boundary faces."""
+    area = np.linalg.norm(areas[faces], axis=1)
+    centroid: Floats = np.average(centres[faces], axis=0, weights=area)
+    total: Floats = areas[faces].sum(axis=0)
+    return centroid, total
+
+
+def _stated_motion(
+    surface: PatchSurface, x: Floats, m: Floats, y: Floats, n: Floats
+) -> tuple[Floats, Floats]:
+    """Rotation and shift that the patch states, such that centroid x and area m go to y and −n."""
+    stated = surface.transform
+    turn, shift = np.eye(3), np.zeros(3)
+    if stated.kind == "translational":
+        given = y - x if stated.separation is None else np.array(stated.separation)
+        shift = min((given, -given), key=lambda s: float(np.linalg.norm(x + s - y)))
+    elif stated.kind == "rotational" and np.linalg.norm(stated.axis) > 0.0:
+        axis, centre = np.array(stated.axis) / np.linalg.norm(stated.axis), np.array(stated.centre)
+        # Of a sector the sides face apart; a side that winds about the axis is known by where it lies.
+        flat = min(_arm(m, axis), _arm(n, axis)) > _MATCH * float(np.linalg.norm(m))
+        p, q = (m, -n) if flat else (x - centre, y - centre)
+        p, q = p - (p @ axis) * axis, q - (q @ axis) * axis
+        angle = float(np.arctan2(axis @ np.cross(p, q), p @ q))
+        if stated.angle is not None:
+            angle = np.copysign(abs(stated.angle), angle)
+        turn = Rotation.from_rotvec(angle * axis).as_matrix()
+        shift = centre - turn @ centre
+    return turn, shift
+
+
+def _arm(v: Floats, axis: Floats) -> float:
+    """Length of what of v is across an axis."""
+    return float(np.linalg.norm(v - (v @ axis) * axis))
 
 
 def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:

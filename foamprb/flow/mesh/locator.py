@@ -49,7 +49,9 @@ class MeshArrays(NamedTuple):
     triangle_tet: Ints
     """(n_boundary_triangles,) the tetrahedron inside."""
     across: Ints
-    """(n_boundary_triangles, 2): where a patch is coupled, first and last + 1 of the triangles across."""
+    """(n_boundary_triangles, 2): where a patch is coupled, first and last + 1 of ``partners`` across."""
+    partners: Ints
+    """Boundary triangles across coupled patches."""
     motions: Floats
     """(n_patches, 12): rotation row by row and shift from each coupled patch to its neighbour."""
     near_start: Ints
@@ -81,6 +83,7 @@ def no_mesh() -> MeshArrays:
         triangle_normals=floats(3),
         triangle_tet=none,
         across=ints(2),
+        partners=none,
         motions=floats(12),
         near_start=none,
         near=none,

@@ -81,7 +81,7 @@ class Mesh:
     inverted: int
     """Number of tetrahedra of negative volume."""
     couplings: tuple[Coupling, ...]
-    """Cyclic patches and wedges, each way."""
+    """Coupled patches and wedges, each way."""
 
     @property
     def n_points(self) -> int:
@@ -165,7 +165,9 @@ def _assemble(
     n_internal = len(neighbour)
 
     boundary_centres, boundary_areas = boundary_geometry(points, faces)
-    patches, couplings = couple(patches, patch_start, boundary_centres, boundary_areas, source)
+    patches, couplings = couple(
+        patches, patch_start, boundary_centres, boundary_areas, surfaces or (), source
+    )
     centres, volumes = cell_geometry(points, faces, middles)
     inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from difflib import get_close_matches
+from math import radians
 from pathlib import Path
 from typing import Annotated, NamedTuple
 
-from foamprb.dictionary.constraints import NonNegative
+from foamprb.dictionary.constraints import NonNegative, Vector3
 from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary_list
 from foamprb.dictionary.schema import read_entries
 from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.mesh.boundary import Transform
 
 CONSTRAINTS = frozenset(
     {
@@ -63,6 +65,8 @@ class PatchInfo(NamedTuple):
     """Its first face."""
     neighbour: str
     """The patch that a coupled patch leads to."""
+    transform: Transform
+    """How a cyclicAMI patch lies to it."""
     entries: dict[str, str]
     """All its entries but for dictionaries."""
 
@@ -81,6 +85,11 @@ class _BoundaryEntry:
     nFaces: Annotated[int, NonNegative]
     startFace: Annotated[int, NonNegative]
     neighbourPatch: str = ""
+    transform: str = ""
+    separationVector: Vector3 | None = None
+    rotationAxis: Vector3 = (0.0, 0.0, 0.0)
+    rotationCentre: Vector3 = (0.0, 0.0, 0.0)
+    rotationAngle: float | None = None
 
 
 def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
@@ -116,5 +125,12 @@ def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
                 f"starts at face {read.startFace}, but the patch before it ends at {expected}."
             )
         entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
-        patches.append(PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, entries))
+        # OpenFOAM's angle is in degrees.
+        angle = None if read.rotationAngle is None else radians(read.rotationAngle)
+        transform = Transform(
+            read.transform, read.separationVector, read.rotationAxis, read.rotationCentre, angle
+        )
+        patches.append(
+            PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, transform, entries)
+        )
     return tuple(patches)

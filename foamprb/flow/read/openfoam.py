@@ -98,7 +98,9 @@ def read_case(
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += caveats_of_case(case, folder, region)
     notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, folder, velocity)
-    return MeshFlow(whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)))
+    return MeshFlow(
+        whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)), time=name
+    )
 
 
 def fields_of_case(case: Path, region: str) -> ReadField:
@@ -161,7 +163,7 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
                 f"{shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
                 f"{0 if block is None else block.n_cells} could be read."
             )
-        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour))
+        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour, patch.transform))
     require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)

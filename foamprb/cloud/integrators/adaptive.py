@@ -1,0 +1,324 @@
+"""The compiled loop of the integrators of order 3(2), each particle with error-controlled steps of its own.
+
+A tracking step Δt is cut into as many steps h as the tolerance asks for; the size that a particle found is
+part of its state. As in all loops (:mod:`foamprb.cloud.advance`), the lanes of a block go side by side and
+all alike.
+
+A step evaluates the body's equations at its start, at a quarter of it, and for the lanes that need order 3
+at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
+
+The names ``predict``, ``first_slope``, ``second_slope``, ``last_argument``, ``third_slope`` and ``end_slope``
+are bound to the stages of the integrator when the loop is compiled, ``sample`` and ``walk`` to the flow.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.error_control import longest_step, path_error, step_factor
+from foamprb.body.exponential_runge_kutta import NODE
+from foamprb.body.tensor import Vector, dot_vector
+from foamprb.cloud.block import (
+    ROWS,
+    Medium,
+    Scratch,
+    accept_stage,
+    at,
+    choose,
+    idle_lanes,
+    integrals_stage,
+    load3,
+    load9,
+    load_particle,
+    new_frames,
+    save_particle,
+    store3,
+    store9,
+    store_fluid,
+)
+from foamprb.cloud.layout import LANES, Row, end, offsets
+from foamprb.cloud.motion import (
+    ACTIVE,
+    PENDING,
+    SHORTEST_STEP,
+    PatchTable,
+    clearance_of,
+    end_tracking_step,
+    fail_small_step,
+    interrupted,
+    is_sound,
+    overspent,
+    reach_end,
+    release,
+)
+from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.total import look_around, surround
+from foamprb.flow.analytic import sample_linear as sample
+from foamprb.flow.analytic import walk_free as walk
+
+
+class StepRows(NamedTuple):
+    """What every integrator of this loop has of a step: the flow at three times, and two errors."""
+
+    start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
+    second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
+    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, without its surroundings")]
+    start_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the start, likewise")]
+    start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
+    start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
+    middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
+    end_l: Annotated[int, Row(9, "1/s", "the same at the end")]
+    end_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the end")]
+    end_ut: Annotated[int, Row(3, "m/s2", "∂u/∂t at the end")]
+    third: Annotated[int, Row(1, "", "1 where the step goes to order 3, else 0")]
+    difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
+    path: Annotated[int, Row(1, "1", "error of the path over its length")]
+
+
+during = offsets(StepRows, ROWS)
+STEP_ROWS = end(during)
+
+_SMALLEST = 1e-9
+"""A step that must be smaller than this share of Δt is a failure."""
+
+
+def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
+    """μ_f K_a/m, 1/s, with K_a in units of R."""
+    R = block[at.R * LANES + i]
+    c = mu_f / (4.0 / 3.0 * math.pi * R * R * block[at.rho * LANES + i])
+    return c * k[0], c * k[1], c * k[2]
+
+
+def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
+    """∂u/∂t + l·v, m/s², seen by what moves with v through the fluid that is in the block."""
+    a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
+    c = dot_vector(load9(block, at.l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    return a[0] + c[0], a[1] + c[1], a[2] + c[2]
+
+
+def finish_path(block: Any, i: int, v: Vector) -> None:
+    """Store the velocity v at the end of the step, m/s, the place that it leads to, and the path's error.
+
+    The place is that of Hermite's cubic: x + h/2 (v₀ + v) + h²/12 (a₀ − a), as
+    :func:`foamprb.body.error_control.path_error` wants it.
+    """
+    h = block[at.dt * LANES + i]
+    x, v0, a0 = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
+    u_t, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
+    a = (u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2])
+    f, g = 0.5 * h, h * h * (1.0 / 12.0)
+    place = (
+        x[0] + f * (v0[0] + v[0]) + g * (a0[0] - a[0]),
+        x[1] + f * (v0[1] + v[1]) + g * (a0[1] - a[1]),
+        x[2] + f * (v0[2] + v[2]) + g * (a0[2] - a[2]),
+    )
+    store3(block, at.new_x, i, place)
+    store3(block, at.new_v, i, v)
+    error = path_error(h, block[at.R * LANES + i], v0, a0, a)
+    block[during.path * LANES + i] = error
+    block[during.difference * LANES + i] = 0.0
+    block[at.error * LANES + i] = error
+
+
+def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> None:
+    """Store δ₂, and as error of the step what exceeds the tolerance where δ₂^(4/3) does: δ₂⁴/tolerance²."""
+    block[during.difference * LANES + i] = difference
+    square = difference * difference
+    error = square * square * (1.0 / (tolerance * tolerance + 1e-300))
+    block[at.error * LANES + i] = np.maximum(block[during.path * LANES + i], error)
+
+
+def keep_frame(block: Any, i: int, third: Any) -> None:
+    """Give lane i the frame of its own last evaluation; the third is made if any lane needs it."""
+    Q, second = load9(block, at.Q, i), load9(block, during.second_Q, i)
+    store9(block, at.Q, i, choose(third, Q, second))
+
+
+def no_stage(block: Any, medium: Medium) -> None:
+    """Stands for a stage that an integrator does not have, and until one is bound for those that it has."""
+
+
+def no_choice(block: Any, medium: Medium, tolerance: float) -> None:
+    """The same for a slope that judges by the tolerance."""
+
+
+predict = first_slope = last_argument = end_slope = no_stage
+second_slope = third_slope = no_choice
+
+
+def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
+    """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
+
+    Once before each slope; ``share`` says how far on the way to new_x the body is.
+    """
+    new_frames(block)
+    integrals_stage(block)
+    surround(block, medium, share)
+
+
+def _host_of(flow: Any, host: int, x: Vector, goal: Vector) -> int:
+    """Host of a place that the step leads to, or the last one on the way to a boundary."""
+    found, _, patch, _ = walk(flow, host, x, goal)
+    return host if patch == -2 else found
+
+
+def _sample_end(flow: Any, host: int, block: Any, i: int) -> None:
+    """The flow where the step of lane i leads."""
+    place = load3(block, at.new_x, i)
+    there = _host_of(flow, host, load3(block, at.x, i), place)
+    u, l_f, u_t = sample(flow, there, place, block[at.t * LANES + i] + block[at.dt * LANES + i])
+    store3(block, during.end_u, i, u)
+    store9(block, during.end_l, i, l_f)
+    store3(block, during.end_ut, i, u_t)
+
+
+def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
+    """The flow half-way on the step of lane i."""
+    half = 0.5 * block[at.dt * LANES + i]
+    x, v, a = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
+    f = 0.5 * half * half
+    place = (
+        x[0] + half * v[0] + f * a[0],
+        x[1] + half * v[1] + f * a[1],
+        x[2] + half * v[2] + f * a[2],
+    )
+    there = _host_of(flow, host, x, place)
+    _, l_f, _ = sample(flow, there, place, block[at.t * LANES + i] + half)
+    store9(block, during.middle_l, i, l_f)
+
+
+def track_adaptive(
+    flow: Any,
+    patches: PatchTable,
+    medium: Medium,
+    p: Particles,
+    members: NDArray[np.int64],
+    step: int,
+    steps: int,
+    dt: float,
+    start: float,
+    scratch: Scratch,
+    tolerance: float,
+) -> int:
+    """Carry up to LANES particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
+
+    Parameters
+    ----------
+    As :func:`foamprb.cloud.integrators.paper.track_block`, with a block of the integrator's rows, and
+    tolerance
+        Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, cut
+        only by :func:`foamprb.body.error_control.longest_step`.
+
+    Returns
+    -------
+    The number of walks that failed and were mended by the tree.
+    """
+    recovered = 0
+    last = step + steps
+    enough = tolerance if tolerance < math.inf else 0.0
+    block, status, current = scratch.block, scratch.status, scratch.step
+    idle_lanes(block, dt)
+    for i in range(LANES):
+        current[i] = step
+    for i in range(len(members)):
+        load_particle(p, members[i], scratch, i)
+        if status[i] == ACTIVE:
+            block[at.clearance * LANES + i], _, _ = clearance_of(flow, scratch, i)
+
+    while True:
+        moving = 0
+        for i in range(len(members)):
+            block[at.moving * LANES + i] = 0.0
+            while status[i] == PENDING and current[i] < last:
+                if block[at.t0 * LANES + i] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
+                    release(flow, patches, scratch, i)
+                    block[at.h * LANES + i] = dt
+                else:
+                    current[i] += 1
+            if status[i] != ACTIVE or current[i] >= last:
+                continue
+            moving += 1
+            block[at.moving * LANES + i] = 1.0
+            t = block[at.t * LANES + i]
+            u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
+            store_fluid(block, i, u, l_f, u_t)
+            store3(block, during.start_u, i, u)
+            store9(block, during.start_l, i, l_f)
+            look_around(flow, scratch, i, current[i], dt, medium)
+            store9(block, at.new_F, i, load9(block, at.F, i))
+            size = min(block[at.h * LANES + i], longest_step(l_f))
+            rest = start + (current[i] + 1) * dt - t
+            # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
+            block[at.dt * LANES + i] = rest if size >= rest - SHORTEST_STEP * dt else min(size, 0.5 * rest)
+        if interrupted(scratch):
+            return 0
+        if moving == 0:
+            break
+
+        evaluate_shape(block, medium, 0.0)
+        predict(block, medium)
+        for i in range(len(members)):
+            if block[at.moving * LANES + i] > 0.0:
+                _sample_end(flow, scratch.host[i], block, i)
+        first_slope(block, medium)
+        evaluate_shape(block, medium, NODE)
+        second_slope(block, medium, enough)
+        thirds = 0
+        for i in range(len(members)):
+            if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+                thirds += 1
+                _sample_middle(flow, scratch.host[i], block, i)
+        if thirds:
+            last_argument(block, medium)
+            evaluate_shape(block, medium, 1.0)
+            third_slope(block, medium, enough)
+        accept_stage(block, tolerance)
+
+        for i in range(len(members)):
+            if not block[at.moving * LANES + i] > 0.0:
+                continue
+            if overspent(scratch, i):
+                continue
+            h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
+            t_end = start + (current[i] + 1) * dt
+            error = block[at.error * LANES + i]
+            third = block[during.third * LANES + i] > 0.0
+            difference, path = block[during.difference * LANES + i], block[during.path * LANES + i]
+            allowed = h * step_factor(third, difference, path, tolerance)
+            if not error <= tolerance:
+                block[at.h * LANES + i] = allowed
+                if allowed < _SMALLEST * dt:
+                    fail_small_step(scratch, i)
+                continue
+            if not is_sound(scratch, i):
+                continue
+            t_new = block[at.t * LANES + i] + h
+            whole = t_new >= t_end - SHORTEST_STEP * dt
+            if whole:
+                t_new = t_end
+                # A step cut short by the end of Δt says nothing against the size before it.
+                allowed = max(allowed, size)
+            block[at.h * LANES + i] = min(dt, allowed)
+            goal = load3(block, at.new_x, i)
+            recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
+            if whole:
+                end_tracking_step(scratch, i)
+    for i in range(len(members)):
+        block[at.moving * LANES + i] = 0.0
+        if status[i] == ACTIVE:
+            block[at.moving * LANES + i] = 1.0
+            store9(block, at.new_F, i, load9(block, at.F, i))
+            x, t = load3(block, at.x, i), block[at.t * LANES + i]
+            u, l_f, u_t = sample(flow, scratch.host[i], x, t)
+            store_fluid(block, i, u, l_f, u_t)
+            store3(block, during.start_u, i, u)
+            look_around(flow, scratch, i, last - 1, dt, medium)
+    evaluate_shape(block, medium, 0.0)
+    end_slope(block, medium)
+    for i in range(len(members)):
+        save_particle(p, members[i], scratch, i)
+    return recovered

@@ -1,0 +1,456 @@
+"""The dictionary that ``foamprb init`` writes: the entries to begin with, filled with what a case says."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from foamprb.cloud.measures import shear_rate
+from foamprb.dictionary.constraints import Vector3
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.errors import InputError
+from foamprb.flow.base import WALLS, Patch
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import available_times
+from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.flow.read.source import Source, check_region, read_flow
+from foamprb.settings.fluid import of_region, read_gravity
+from foamprb.settings.patches import needs_entry
+from foamprb.settings.reference import meaning, plain
+
+__all__ = ["FlowScales", "FluidGuess", "scales_of", "template", "write_template"]
+
+NAME = "softCloudProperties"
+PARTICLES = 1000
+"""About as many as the first run releases."""
+_TIMES, _MOST_STEPS = 50, 5000
+_TEMPERATURE = 300.0
+"""Where the viscosity depends on it, K."""
+
+
+@dataclass(frozen=True)
+class FlowScales:
+    """Numbers of a flow from which a first guess of the settings follows."""
+
+    speed: float
+    """The largest, at cells and boundary, m/s; 0 for a fluid at rest."""
+    step: float
+    """Time in which the fluid crosses a fifth of a cell, s; of the fastest in twenty the longest."""
+    duration: float
+    """Time in which the fluid is replaced, or crosses a closed domain ten times, s."""
+    shear: float
+    """Mean shear rate, 1/s."""
+    most_shear: float
+    """Shear rate that one node in a thousand exceeds, 1/s."""
+    cell: float
+    """Size of a cell that one in twenty is smaller than, m."""
+    volume: float
+    """Of the domain, m³."""
+    inlet: str
+    """The patch through which most fluid enters; empty if none does."""
+
+
+@dataclass(frozen=True)
+class FluidGuess:
+    """The fluid that the case names, and the entries that it leaves to the cloud's dictionary."""
+
+    rho: float
+    nu: float
+    lines: tuple[str, ...]
+
+
+def write_template(case: Path, source: Source | None = None) -> Path:
+    """Write ``constant/softCloudProperties`` for a case; that of its region, if the source names one.
+
+    Returns
+    -------
+    The file.
+
+    Raises
+    ------
+    InputError
+        If it is there already, which is left as it is; or the case has no mesh or no flow.
+    """
+    source = source or Source()
+    if not case.is_dir():
+        raise InputError(f"{case}: no such folder.")
+    check_region(case, source)
+    file = case / "constant" / source.region / NAME
+    present = case / of_region(case, source.region, NAME)
+    if file.exists() or present.exists():
+        raise InputError(
+            f"{file if file.exists() else present} is there already, and is left as it is. Check it with: "
+            "foamprb run -dry-run; or rename it to have a new one."
+        )
+    text = template(case, read_flow(case, "latestTime", source), source)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        with file.open("x", encoding="utf-8") as out:
+            out.write(text)
+    except FileExistsError:
+        raise InputError(f"{file} is there already, and is left as it is.") from None
+    return file
+
+
+def template(case: Path, flow: MeshFlow, source: Source) -> str:
+    """Return the text of a dictionary for the flow of a case."""
+    scales = scales_of(flow)
+    fluid = _fluid(case, source)
+    step, interval, end = times(scales)
+    d = diameter(scales, fluid.nu)
+    rate = scales.shear or 1.0
+    modulus = _rounded(10.0 * fluid.rho * fluid.nu * rate)
+    parts = [
+        _HEAD.format(name=NAME),
+        _dictionary(
+            "solution",
+            [
+                _line("deltaT", f"{step:g}", _said("solution", "deltaT", "a fifth of a cell in the flow")),
+                _line("endTime", f"{end:g}", _said("solution", "endTime")),
+                _line("writeInterval", f"{interval:g}", _said("solution", "writeInterval")),
+                *_transient(case),
+            ],
+        ),
+        _dictionary(
+            "constantProperties",
+            [
+                _line("rho0", "1050" if fluid.rho > 500.0 else "1000", _said("constantProperties", "rho0")),
+                *fluid.lines,
+                "",
+                "solid",
+                "{",
+                _line("    type", "neoHooke", "foamprb help solid lists all"),
+                _line("    poissonsRatio", "0.499", "nearly incompressible"),
+                _line(
+                    "    shearModulus",
+                    f"{modulus:g}",
+                    f"Pa; Ca = {fluid.rho * fluid.nu * rate / modulus:.2g} at {rate:.2g} 1/s, "
+                    + ("the mean shear rate" if scales.shear else "as the fluid is at rest"),
+                ),
+                "}",
+            ],
+        ),
+        _sub_models(case, flow, scales, end, d, source),
+        _functions(end / step),
+    ]
+    return "\n".join(parts)
+
+
+# ---------------------------------------------------------------------------------------------------------
+# What the flow says
+
+
+def scales_of(flow: MeshFlow) -> FlowScales:
+    """Return the scales of a flow on a mesh."""
+    nodes = flow.arrays().nodes
+    speeds = np.linalg.norm(nodes[:, 3:6], axis=1)
+    cells = nodes[flow.mesh.n_points :]
+    rates = np.asarray(shear_rate(tuple(cells[:, 6:15].T)))
+    everywhere = np.asarray(shear_rate(tuple(nodes[:, 6:15].T)))
+    volumes = np.maximum(flow.mesh.volumes, 0.0)
+    sizes = np.cbrt(volumes)
+    volume, speed = float(volumes.sum()), float(speeds.max())
+    moving = speeds[flow.mesh.n_points :]
+    length = float(np.linalg.norm(flow.bounds[1] - flow.bounds[0]))
+    crossing = sizes[moving > 1e-3 * speed] / moving[moving > 1e-3 * speed] if speed > 0.0 else np.empty(0)
+    step = 0.2 * float(np.quantile(crossing, 0.05)) if len(crossing) else 0.0
+    inlet, rate_of_flow = _inlet(flow, speed, volume)
+    duration = 1.0
+    if speed > 0.0:
+        duration = 2.0 * volume / rate_of_flow if inlet else 10.0 * length / speed
+    return FlowScales(
+        speed,
+        step or (0.2 * float(np.quantile(sizes, 0.05)) / speed if speed > 0.0 else 0.0),
+        duration,
+        float(np.average(rates, weights=volumes)) if volume > 0.0 else 0.0,
+        float(np.quantile(everywhere, 0.999)),
+        float(np.quantile(sizes, 0.05)),
+        volume,
+        inlet,
+    )
+
+
+def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
+    """The patch through which most fluid enters, and how much in all, m³/s."""
+    rates = {}
+    for patch in flow.patches:
+        if not needs_entry(patch) or patch.type in WALLS:
+            continue
+        try:
+            faces = flow.patch_faces(patch.name, 0.0)
+        except InputError:
+            continue
+        inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
+        rates[patch.name] = float((inflow.mean(axis=1) * faces.areas).sum())
+    total = sum(rates.values())
+    # What is left of round-off, or of a recirculation, is no inlet.
+    if total <= 1e-6 * speed * volume ** (2.0 / 3.0):
+        return "", 0.0
+    return max(rates, key=lambda name: rates[name]), total
+
+
+def times(scales: FlowScales) -> tuple[float, float, float]:
+    """Step, write interval and end of a first run, s: whole multiples of each other, in few digits."""
+    if scales.speed == 0.0:
+        return 0.01, 0.02, 1.0
+    shortest = scales.duration / _MOST_STEPS
+    step = _nice(max(shortest, min(scales.step, scales.duration / (4 * _TIMES))), up=scales.step < shortest)
+    steps = _nice(max(1.0, scales.duration / step / _TIMES), up=True)
+    return step, step * steps, step * steps * _TIMES
+
+
+def diameter(scales: FlowScales, nu: float) -> float:
+    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most."""
+    stokes = math.sqrt(0.05 * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
+    return _nice(min(1e-5, 0.2 * scales.cell, stokes), up=False)
+
+
+def _nice(value: float, *, up: bool) -> float:
+    """The nearest of 1, 2, 5, 10, … that is not above the value, or not below it."""
+    power = math.floor(math.log10(value))
+    steps = [float(f"{m}e{e}") for e in (power - 1, power, power + 1) for m in (1, 2, 5)]
+    slack = 1e-9 * value
+    return min(s for s in steps if s >= value - slack) if up else max(s for s in steps if s <= value + slack)
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.1e}")
+
+
+# ---------------------------------------------------------------------------------------------------------
+# What the case's dictionaries say
+
+
+def _fluid(case: Path, source: Source) -> FluidGuess:
+    file = fluid_file(case, source.region)
+    where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
+    nu, mu, lines = None, None, []
+    try:
+        if file is not None:
+            nu, mu, _ = read_viscosity(file, case)
+            lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: that of {where}")
+    except InputError as error:
+        try:
+            assert file is not None
+            nu, mu, temperature = read_viscosity(file, case, _TEMPERATURE)
+            if temperature is None:
+                raise error
+            lines.append(_line("TInf", f"{_TEMPERATURE:g}", _said("constantProperties", "TInf")))
+        except InputError:
+            nu = _some_viscosity(file, case)
+            lines.append(_line("nu", f"{nu:g}", f"m2/s, kinematic viscosity; {where} has no single one"))
+    if nu is None and mu is None:
+        nu = 1e-6
+        lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; the case does not say, water has this"))
+    rho, origin = _density(case, file, source.region, where)
+    if rho is None:
+        water = (nu or 0.0) < 5e-6 or (nu or 0.0) > 1e-4
+        rho = 1000.0 if water else 1.2
+        kind = "like water" if water else "like air"
+        lines.append(
+            _line("rhoInf", f"{rho:g}", f"kg/m3, density of the fluid; the case does not say: {kind}")
+        )
+    else:
+        lines.append(f"// {'rhoInf':12s}{rho:g}: that of {origin}")
+    return FluidGuess(rho, nu if nu is not None else float(mu or 0.0) / rho, tuple(lines))
+
+
+def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:
+    try:
+        if file is not None and (rho := read_density(file, case)) is not None:
+            return rho, where
+        field = mean_density(case, region, "latestTime")
+    except InputError:
+        return None, ""
+    return (field[0], f"the field rho at time {field[1]}") if field else (None, "")
+
+
+def _some_viscosity(file: Path | None, case: Path) -> float:
+    """A viscosity that a dictionary of another model names, m²/s: that at rest, if there is one."""
+    try:
+        root = read_dictionary(file, case) if file is not None else None
+    except InputError:
+        root = None
+    found = dict(_numbers(root)) if root else {}
+    return next(
+        (found[key] for key in ("nu", "nu0", "nuMax", "nuInf", "k") if found.get(key, 0.0) > 0.0), 1e-6
+    )
+
+
+def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
+    found = []
+    for entry in dictionary.entries.values():
+        if isinstance(entry, Dictionary):
+            found += _numbers(entry)
+        elif isinstance(entry, Stream) and entry.tokens:
+            try:
+                found.append((entry.key, float(entry.tokens[-1])))
+            except ValueError:
+                continue
+    return found
+
+
+def _transient(case: Path) -> list[str]:
+    """A hint, where the flow has been written at several times."""
+    names = [name for name in available_times(case) if float(name) > 0.0]
+    if len(names) < 2:
+        return []
+    return [
+        f"// transient       true;   // the flow at its times {names[0]} to {names[-1]}; without: the latest"
+    ]
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Text
+
+_HEAD = """\
+// Written by foamprb init from what the case says. To check: foamprb run -dry-run; to learn of an entry:
+// foamprb help ENTRY. What is worth changing first: diameter, density and stiffness of the particles.
+FoamFile
+{{
+    version     2.0;
+    format      ascii;
+    class       dictionary;
+    object      {name};
+}}
+"""
+
+
+def _sub_models(case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: float, source: Source) -> str:
+    size = [
+        "sizeDistribution",
+        "{",
+        _line("    type", "fixedValue", "or: foamprb help distributions"),
+        "    fixedValueDistribution",
+        "    {",
+        _line("        value", f"{d:g}", f"m, diameter; cells are {scales.cell:.2g} m"),
+        "    }",
+        "}",
+    ]
+    lines = [
+        "particleForces",
+        "{",
+        "    ellipsoidDrag;",
+        *_gravity(case, source.region),
+        "}",
+        "",
+        "injectionModels",
+        "{",
+        *_indented(_injection(scales, end, size)),
+        "}",
+        "",
+        "patchInteractionModel localInteraction;",
+        "",
+        "localInteractionCoeffs",
+        "{",
+        "    patches",
+        "    (",
+        *_indented(_patches(flow.patches), 8),
+        "    );",
+        "}",
+    ]
+    return _dictionary("subModels", lines)
+
+
+def _injection(scales: FlowScales, end: float, size: Sequence[str]) -> list[str]:
+    if scales.inlet:
+        duration = _rounded(0.2 * end)
+        rate = _rounded(PARTICLES / duration)
+        own = [
+            _line("type", "patchInjection"),
+            _line("patch", _word(scales.inlet), "through which most fluid enters"),
+            _line(
+                "parcelsPerSecond",
+                f"{rate:g}",
+                _said("injections", "parcelsPerSecond", model="patchInjection"),
+            ),
+            _line("duration", f"{duration:g}", "s"),
+        ]
+    else:
+        density = _rounded(PARTICLES / scales.volume)
+        own = [
+            _line("type", "cellZoneInjection", "no fluid enters through a patch"),
+            _line("selectionMode", "all", "all cells"),
+            _line("numberDensity", f"{density:g}", f"1/m3, of {scales.volume:.3g} m3"),
+        ]
+    return ["particles", "{", *_indented([*own, "", *size]), "}"]
+
+
+def _gravity(case: Path, region: str) -> list[str]:
+    file = of_region(case, region, "g")
+    try:
+        g: Vector3 = read_gravity(case, region)
+    except InputError:
+        return ["    // gravity;            // the case has no constant/g"]
+    if not any(g):
+        return [f"    // gravity;            // {file} is zero"]
+    return [_line("    gravity", "", f"less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2")]
+
+
+def _patches(patches: Sequence[Patch]) -> list[str]:
+    lines, walls = [], [patch for patch in patches if patch.type in WALLS]
+    named = [patch for patch in patches if needs_entry(patch) and patch not in walls]
+    for patch in named:
+        why = "" if patch.type == "patch" else f" // {patch.type}"
+        lines.append(f"{_word(patch.name):20s}{{ type escape; }}{why}")
+    if len(walls) > 6:
+        lines.append(f"{'wall':20s}{{ type stick; }} // all {len(walls)} walls; or rebound, escape")
+    else:
+        lines += [f"{_word(patch.name):20s}{{ type stick; }} // wall; or rebound, escape" for patch in walls]
+    others = [f"{patch.name} ({patch.type})" for patch in patches if not needs_entry(patch)]
+    if others:
+        more = ", …" if len(others) > 4 else ""
+        lines.append(f"// need no entry: {', '.join(others[:4])}{more}")
+    return lines
+
+
+def _functions(steps: float) -> str:
+    every = max(1, round(steps / 500))
+    return _dictionary(
+        "cloudFunctions",
+        [
+            "paths",
+            "{",
+            _line("    type", "particleTracks", "for foamprb view and foamprb report"),
+            _line("    trackInterval", f"{every}", "steps"),
+            _line("    maxSamples", "1000"),
+            _line("    maxTracks", "200"),
+            "}",
+            "exposure",
+            "{",
+            _line("    type", "particleHistogram", "residence time, deformation, shear"),
+            "}",
+        ],
+    )
+
+
+def _said(section: str, entry: str, more: str = "", model: str = "") -> str:
+    """What the documentation says of an entry, its unit first, up to the first stop."""
+    text = meaning(section, entry, model)
+    said = re.split(r"[;:,]", plain(text.meaning))[0]
+    unit = text.unit.replace("³", "3").replace("²", "2")
+    return ", ".join(filter(None, (unit, said, more)))
+
+
+def _line(key: str, value: str, comment: str = "") -> str:
+    entry = f"{key:20s}{value};" if value else f"{key};"
+    return f"{entry:35s} // {comment}" if comment else entry
+
+
+def _word(name: str) -> str:
+    """A name as a keyword; one that is none is quoted, which makes it a regular expression."""
+    return name if re.fullmatch(r"[A-Za-z_][\w.:+-]*", name) else f'"{re.escape(name)}"'
+
+
+def _indented(lines: Sequence[str], by: int = 4) -> list[str]:
+    return [" " * by + line if line else "" for line in lines]
+
+
+def _dictionary(name: str, lines: Sequence[str]) -> str:
+    return "\n".join([name, "{", *_indented(lines), "}", ""])

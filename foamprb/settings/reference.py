@@ -1,0 +1,372 @@
+"""What the documentation says of the entries: made from the declarations that read them.
+
+``docs/settings.md`` (``tools/settings_page``), ``foamprb help`` and the comments of ``foamprb init`` all come
+from here. A test finds an entry that is declared without a :class:`~foamprb.dictionary.constraints.Meaning`.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import MISSING, fields, is_dataclass
+from types import NoneType
+from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
+
+from foamprb.cloud.forces.registry import FORCES
+from foamprb.cloud.injection.distribution import DISTRIBUTIONS
+from foamprb.cloud.injection.models import INJECTIONS
+from foamprb.cloud.injection.shapes import SHAPES
+from foamprb.cloud.patches import INTERACTIONS
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
+from foamprb.cloudfunctions.registry import FUNCTIONS
+from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
+from foamprb.dictionary.schema import Schema, allowed, rule_of
+from foamprb.dictionary.tree import Dictionary
+from foamprb.dictionary.values import READERS
+from foamprb.errors import InputError, suggestion
+from foamprb.settings import entries, patches
+
+__all__ = [
+    "SECTIONS",
+    "EntryText",
+    "Section",
+    "entries_of",
+    "explain",
+    "meaning",
+    "plain",
+    "tables",
+    "with_tables",
+]
+
+
+class EntryText(NamedTuple):
+    """What is said of one entry; texts are Markdown."""
+
+    section: str
+    """Name of the :class:`Section`."""
+    model: str
+    """The ``type`` that has the entry, if not all have it."""
+    name: str
+    """With the dictionaries that hold it below that of its section: ``integrationSchemes/shape``."""
+    unit: str
+    default: str
+    allowed: str
+    """What it may be, in the words of a message."""
+    meaning: str
+    why_idle: str = ""
+    """Why it has no effect, if so."""
+
+    @property
+    def path(self) -> str:
+        """From the top of the file, with the type in parentheses."""
+        model = f" ({self.model})" if self.model else ""
+        return "/".join(filter(None, (SECTIONS[self.section].path, self.name))) + model
+
+
+class Section(NamedTuple):
+    """A table of the page: the dictionary that it is about, and the schemas of its entries."""
+
+    path: str
+    schemas: Mapping[str, type[Schema]] = {}
+    """By the name of the dictionary within that of the section; ``""`` for its own."""
+    models: Mapping[str, type[Schema]] = {}
+    """By the word that ``type`` selects."""
+
+
+_CHOSEN: dict[str, type[Schema]] = {**FORCES, **SURROUNDINGS}
+
+SECTIONS: dict[str, Section] = {
+    "file": Section("", {"": entries.CloudProperties}),
+    "solution": Section("solution", {"": entries.Solution}),
+    "constantProperties": Section("constantProperties", {"": entries.ConstantProperties}),
+    "solid": Section("constantProperties/solid", {"": entries.Solid}),
+    "shape": Section("constantProperties/shape", models=SHAPES),
+    "distributions": Section("(distribution)", models=DISTRIBUTIONS),
+    "subModels": Section("subModels", {"": entries.SubModels}),
+    "particleForces": Section(
+        "subModels",
+        {"particleForces": entries.ParticleForces, **{f"particleForces/{k}": v for k, v in _CHOSEN.items()}},
+    ),
+    "injectionModels": Section("subModels/injectionModels/(name)", {"": entries.InjectionModel}),
+    "injections": Section("subModels/injectionModels/(name)", models=INJECTIONS),
+    "patchInteraction": Section(
+        "subModels",
+        {
+            "localInteractionCoeffs": patches.LocalInteraction,
+            "standardWallInteractionCoeffs": patches.StandardWallInteraction,
+            "reboundCoeffs": patches.ReboundFromAll,
+            "(any)Coeffs": patches.AnyInteraction,
+        },
+    ),
+    "interactions": Section("subModels/localInteractionCoeffs/patches/(pattern)", models=INTERACTIONS),
+    "cloudFunctions": Section("cloudFunctions/(name)", models=FUNCTIONS),
+}
+"""The tables of the page, by the names of their marks there; those of ``noEffect`` are about all."""
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Declarations
+
+
+def entries_of(name: str) -> tuple[EntryText, ...]:
+    """Return what is said of the entries of a section, those without effect included."""
+    section = SECTIONS[name]
+    found = [
+        text for prefix, schema in section.schemas.items() for text in _described(name, "", prefix, schema)
+    ]
+    if name == "solid":
+        found += [_text(name, "", key, hint, MISSING) for key, hint in entries.parameters().items()]
+    for model, schema in section.models.items():
+        found += _described(name, model, "", schema)
+    return tuple(found)
+
+
+def meaning(section: str, entry: str, model: str = "") -> EntryText:
+    """Return what is said of one entry; KeyError if no declaration has it."""
+    for text in entries_of(section):
+        if (text.name, text.model) == (entry, model):
+            return text
+    raise KeyError(f"{section}: {entry} {model}")
+
+
+def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[EntryText]:
+    hints = get_type_hints(schema, include_extras=True)
+    for field in fields(schema):
+        hint, name = hints[field.name], "/".join(filter(None, (prefix, field.name)))
+        own = [part for part in _parts(hint) if is_dataclass(part) and part not in READERS]
+        if not own or _note(hint, Meaning):
+            yield _text(section, model, name, hint, field.default)
+        for inner in own:
+            yield from _described(section, model, name, inner)
+
+
+def _text(section: str, model: str, name: str, hint: Any, default: Any) -> EntryText:
+    note, rule = _note(hint, Meaning), rule_of(hint)
+    if isinstance(rule, NoEffect):
+        return EntryText(section, model, name, "", "", "any", "no effect", rule.why)
+    unit, said = (note.unit, note.text) if note else ("", "")
+    may_be = allowed(hint).removeprefix("Allowed: ").removesuffix(".")
+    if isinstance(rule, Only):
+        value = (
+            str(rule.value).lower() if isinstance(rule.value, bool) else f"{rule.value}".removesuffix(".0")
+        )
+        said = f"accepted as `{value}` only: {rule.why}"
+    elif isinstance(rule, Choice) and sorted(rule.names) != sorted(re.findall(r"`(\w+)`", said)):
+        said = f"{said}: {', '.join(f'`{choice}`' for choice in rule.names)}".removeprefix(": ")
+    if Dictionary in get_args(hint) and rule is not None:
+        said += "; a number or a [distribution](#distributions)"
+    shown = note.default if note and note.default else _shown(default)
+    return EntryText(section, model, name, unit, shown, may_be, said)
+
+
+def _parts(hint: Any) -> Iterator[Any]:
+    """The types that a hint names, without its notes."""
+    if get_origin(hint) is Annotated:
+        yield from _parts(hint.__origin__)
+    elif get_args(hint) and not isinstance(hint, type):
+        for part in get_args(hint):
+            yield from _parts(part)
+    elif hint is not NoneType:
+        yield hint
+
+
+def _note(hint: Any, kind: type[Meaning]) -> Meaning | None:
+    """The note of a kind in a hint, at any depth."""
+    if get_origin(hint) is Annotated:
+        own = next((note for note in hint.__metadata__ if isinstance(note, kind)), None)
+        return own or _note(hint.__origin__, kind)
+    return next((note for part in get_args(hint) if (note := _note(part, kind))), None)
+
+
+def _shown(default: Any) -> str:
+    """A default as the page shows it."""
+    match default:
+        case bool():
+            return f"`{str(default).lower()}`"
+        case float() | int():
+            return f"{default:g}"
+        case str():
+            return f"`{default}`" if default else ""
+        case tuple():
+            return f"`({' '.join(f'{x:g}' if isinstance(x, float) else str(x) for x in default)})`"
+    return "required" if default is MISSING else ""
+
+
+def summary(schema: type) -> str:
+    """The first paragraph of a schema's docstring, as Markdown."""
+    text = inspect.cleandoc(schema.__doc__ or "").split("\n\n")[0]
+    return " ".join(text.replace("``", "`").split())
+
+
+# ---------------------------------------------------------------------------------------------------------
+# The page
+
+
+def tables() -> dict[str, str]:
+    """Return the tables of ``docs/settings.md``, in Markdown, by the names of their marks."""
+    made = {name: _models_table(name) if SECTIONS[name].models else _table(name) for name in SECTIONS}
+    return made | {"noEffect": _idle_table()}
+
+
+def with_tables(page: str) -> str:
+    """Return a page with the tables between its marks ``<!-- table NAME -->`` and ``<!-- end -->`` made anew.
+
+    Raises
+    ------
+    InputError
+        If the page lacks a table, or has the mark of one that does not exist.
+    """
+    made = tables()
+    marked = re.findall(r"<!-- table (\w+) -->", page)
+    if sorted(marked) != sorted(made):
+        raise InputError(f"the page has the tables {sorted(marked)}, not {sorted(made)}.")
+    return re.sub(
+        r"(<!-- table (\w+) -->\n).*?(<!-- end -->)",
+        lambda mark: f"{mark[1]}{made[mark[2]]}{mark[3]}",
+        page,
+        flags=re.DOTALL,
+    )
+
+
+def _row(*cells: str) -> str:
+    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |\n".replace("|  |", "| |")
+
+
+def _head(*cells: str) -> str:
+    return _row(*cells) + "|---" * len(cells) + "|\n"
+
+
+def _table(name: str) -> str:
+    shown = [text for text in entries_of(name) if not text.why_idle]
+    rows = [_row(f"`{t.name}`", t.unit, t.default, t.meaning) for t in shown]
+    if name == "particleForces":
+        found = {text.name for text in shown}
+        rows += [
+            _row(f"`particleForces/{force}`", "", "absent", summary(kind))
+            for force, kind in _CHOSEN.items()
+            if f"particleForces/{force}" not in found
+        ]
+        rows.sort(key=lambda row: row.split("`")[1])
+    return _head("entry", "unit", "default", "meaning") + "".join(rows)
+
+
+def _models_table(name: str) -> str:
+    rows = []
+    for model, schema in SECTIONS[name].models.items():
+        rows.append(_row(f"`{model}`", "", "", "", summary(schema)))
+        own = (text for text in entries_of(name) if text.model == model and not text.why_idle)
+        rows += [_row("", f"`{t.name}`", t.unit, t.default, t.meaning) for t in own]
+    return _head("`type`", "entry", "unit", "default", "meaning") + "".join(rows)
+
+
+def _idle_table() -> str:
+    rows = [
+        _row(f"`{text.path}`", text.why_idle)
+        for name in SECTIONS
+        for text in entries_of(name)
+        if text.why_idle
+    ]
+    return _head("entry", "why") + "".join(rows)
+
+
+# ---------------------------------------------------------------------------------------------------------
+# foamprb help
+
+
+def explain(word: str | None) -> list[str]:
+    """Return lines that say what an entry, a dictionary or a type is; without a word, what there is.
+
+    Raises
+    ------
+    InputError
+        If nothing has that name; with what was probably meant.
+    """
+    if word is None:
+        return _overview()
+    wanted = word.strip("/")
+    everything = [text for name in SECTIONS for text in entries_of(name)]
+    lines: list[str] = []
+    for text in everything:
+        full = "/".join(filter(None, (SECTIONS[text.section].path, text.name)))
+        if wanted == full or full.endswith(f"/{wanted}"):
+            lines += _entry_lines(text)
+    for name, section in SECTIONS.items():
+        if wanted in section.models:
+            lines += _model_lines(name, wanted)
+        if wanted in (name, section.path):
+            lines += _section_lines(name)
+    if wanted in _CHOSEN and not any(wanted in line for line in lines):
+        lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
+    if lines:
+        return lines[:-1]
+    names = {text.name.rpartition("/")[2] for text in everything if not text.why_idle}
+    names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *_CHOSEN}
+    close = suggestion(word, names)
+    question = (
+        close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists what there is."
+    )
+    raise InputError(f"no entry, dictionary or type '{word}'. {question}")
+
+
+def _overview() -> list[str]:
+    lines = [
+        "Entries of constant/softCloudProperties. More of an entry, a dictionary or a type: foamprb help NAME"
+    ]
+    for name, section in SECTIONS.items():
+        words: Sequence[str] = tuple(section.models) or tuple(
+            t.name for t in entries_of(name) if not t.why_idle
+        )
+        if name == "particleForces":
+            words = ("ellipsoidDrag", *_CHOSEN)
+        lines += ["", f"{name}{'  (types)' if section.models else ''}", *_wrapped(", ".join(words))]
+    return lines
+
+
+def _entry_lines(text: EntryText) -> list[str]:
+    facts = [("unit", text.unit), ("default", text.default), ("allowed", text.allowed)]
+    shown = [f"    {name:8s} {plain(value)}" for name, value in facts if value]
+    said = f"{text.meaning}: {text.why_idle}" if text.why_idle else text.meaning
+    return [text.path, *_wrapped(plain(said)), *shown, ""]
+
+
+def _model_lines(name: str, model: str) -> list[str]:
+    section = SECTIONS[name]
+    lines = [f"{section.path}: type {model}", *_wrapped(plain(summary(section.models[model])))]
+    return [*lines, *_list_lines([t for t in entries_of(name) if t.model == model]), ""]
+
+
+def _section_lines(name: str) -> list[str]:
+    section = SECTIONS[name]
+    lines = [section.path or "constant/softCloudProperties"]
+    if section.models:
+        return [
+            *lines,
+            *(f"    {model:24s} {plain(summary(kind))}" for model, kind in section.models.items()),
+            "",
+        ]
+    return [*lines, *_list_lines(entries_of(name)), ""]
+
+
+def _list_lines(found: Sequence[EntryText]) -> list[str]:
+    lines = []
+    for text in found:
+        if not text.why_idle:
+            unit = f", {text.unit}" if text.unit else ""
+            default = f" [{plain(text.default)}]" if text.default else ""
+            lines.append(f"    {text.name:24s} {plain(text.meaning)}{unit}{default}")
+    return lines
+
+
+def plain(markdown: str) -> str:
+    """The words of a text without its marks."""
+    return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "")
+
+
+def _wrapped(text: str) -> list[str]:
+    lines, words = [""], text.split()
+    for word in words:
+        if lines[-1] and len(lines[-1]) + len(word) > 100:
+            lines.append("")
+        lines[-1] = f"{lines[-1]} {word}".strip()
+    return [f"    {line}" for line in lines]

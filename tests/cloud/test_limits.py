@@ -1,0 +1,258 @@
+"""What fails a particle that the model no longer describes, and what ends a call of the compiled loop."""
+
+from __future__ import annotations
+
+import threading
+import time
+import warnings
+
+import numpy as np
+import pytest
+from device_cases import box_cloud, pipe_cloud
+
+from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.patches import Escape, Rebound, Stick
+from foamprb.cloud.reasons import explain
+from foamprb.cloud.state import REASONS, Particles, Reason, Status, spheres
+from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
+from foamprb.flow import walls
+
+OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
+
+
+def in_extension(Ca, limits=Limits(), dt=0.1, integrator="stokes"):  # noqa: B008
+    """Spheres in uniaxial extension of a shear rate of 1/s."""
+    p = spheres(np.zeros((len(Ca), 3)), d=1e-5, rho=1000.0, mu=1.0 / np.array(Ca))
+    flow = analytic.extension(1.0 / np.sqrt(3.0))
+    return Cloud(p, flow, OIL, (), dt, Models(integrator=integrator), 1, limits=limits)
+
+
+def reasons(cloud):
+    return [Reason(r) for r in cloud.particles.reason]
+
+
+def assert_same(a: Particles, b: Particles):
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+class TestStretch:
+    def test_beyond_the_steady_shapes_of_extension_a_body_is_stretched_to_the_limit(self):
+        """At Ca 10 it follows the fluid, at first faster, λ ∼ exp ε̇t; at 0.2 it comes to rest."""
+        cloud = in_extension([10.0, 0.2])
+        with pytest.warns(FailedParticlesWarning, match=r"1 of 2 particles failed.*beyond maxStretch"):
+            cloud.advance(300)
+        p = cloud.particles
+        assert [*p.status] == [Status.FAILED, Status.ACTIVE]
+        assert reasons(cloud) == [Reason.STRETCHED, Reason.NONE]
+        rate = 1.0 / np.sqrt(3.0)
+        assert np.log(100.0) - 0.5 < rate * p.t[0] < np.log(100.0) + 0.5
+        assert 50.0 < np.linalg.norm(p.F[0].reshape(3, 3), 2) <= 100.0
+        assert np.all(p.F[1] < 2.0)
+
+    def test_it_is_from_the_shape_at_rest(self):
+        p = spheres(np.zeros((1, 3)), d=1e-5, rho=1000.0, mu=1e6)
+        set_rest_shape(p, (40.0, 1.0, 1.0))
+        cloud = Cloud(p, analytic.shear(1.0), OIL, (), 0.1, Models(), 1, limits=Limits(max_stretch=2.0))
+        cloud.advance(10)
+        assert p.status[0] == Status.ACTIVE
+        assert np.linalg.norm(p.F[0].reshape(3, 3), 2) > 10.0
+
+    @pytest.mark.parametrize("integrator", INTEGRATORS)
+    def test_every_integrator_heeds_it(self, integrator):
+        cloud = in_extension([10.0], Limits(max_stretch=3.0), 1e-4, integrator)
+        cloud.particles.rho[:] = 1e12
+        cloud = Cloud(
+            cloud.particles, cloud.flow, OIL, (), 1e-2, cloud.models, 1, limits=Limits(max_stretch=3.0)
+        )
+        cloud.carry(700)
+        assert reasons(cloud) == [Reason.STRETCHED]
+        assert cloud.particles.t[0] > 1.0
+
+
+class TestSize:
+    def test_a_body_larger_than_the_duct_is_refused(self):
+        p = spheres(np.zeros((2, 3)), d=[1e-3, 10.0], rho=1000.0, mu=1.0)
+        walls = (Stick(), Escape(), Escape())
+        with pytest.raises(InputError, match=r"1 of 2 particles are too large.*0.3 m wide.* 1 is 5 m"):
+            Cloud(p, analytic.pipe(0.15, 1.0, 2.0), OIL, walls, 1e-3)
+
+    def test_one_that_grows_beyond_its_share_of_the_width_fails(self):
+        p = spheres(np.full((1, 3), (0.5, 0.1, 0.0)), d=0.02, rho=1000.0, mu=1e-3)
+        walls = (Rebound(), Escape(), Escape())
+        flow = analytic.pipe(0.15, 0.5, 100.0)
+        cloud = Cloud(p, flow, OIL, walls, 1e-2, Models(), 1, limits=Limits(max_size=0.1))
+        cloud.carry(1000)
+        assert reasons(cloud) == [Reason.TOO_LARGE]
+        assert 0.02 < 0.01 * np.linalg.norm(p.F[0].reshape(3, 3), 2) < 0.03
+
+    def test_the_width_is_that_between_walls_and_openings(self):
+        from mesh_shapes import block, box_patches
+
+        from foamprb.flow.mesh.mesh import build_mesh
+        from foamprb.flow.meshflow import MeshFlow
+
+        shape = block(2, 0.0)
+        mesh = build_mesh(shape, box_patches(shape))
+        mesh.points[:, 2] *= 0.01
+        nodes = np.zeros((len(mesh.nodes), 3))
+        flow = MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3)))
+        assert flow.width == pytest.approx(0.01)
+        names = [patch._replace(type="empty" if patch.name in ("floor", "lid") else "wall")
+                 for patch in mesh.patches]  # fmt: skip
+        object.__setattr__(mesh, "patches", tuple(names))
+        assert MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3))).width == pytest.approx(1.0)
+
+
+class TestCost:
+    def test_a_particle_that_needs_more_steps_than_it_may_fails(self):
+        for most, reason in ((3, Reason.SUB_STEPS), (1e6, Reason.NONE)):
+            cloud = in_extension([0.2], Limits(max_sub_steps=most), dt=1.0)
+            cloud.carry(1)
+            assert reasons(cloud) == [reason]
+            assert (cloud.particles.t[0] < 1.0) == (reason == Reason.SUB_STEPS)
+
+    def test_steps_are_counted_with_those_that_are_repeated(self):
+        cloud = in_extension([0.2], dt=1e-5)
+        cloud.carry(1)
+        assert cloud.particles.substeps[0] == 1
+        coarse = in_extension([0.2], dt=1.0)
+        coarse.carry(1)
+        assert coarse.particles.substeps[0] > 5
+
+
+class TestReasons:
+    def test_a_flow_that_is_no_number_is_the_reason(self):
+        for integrator in INTEGRATORS:
+            cloud = in_extension([0.2, 0.2], integrator=integrator)
+            p = cloud.particles
+            flow = analytic.linear(np.full((3, 3), np.nan))
+            cloud = Cloud(p, flow, OIL, (), 1e-4, cloud.models, 1)
+            cloud.carry(3)
+            assert reasons(cloud) == [Reason.FLOW_NOT_FINITE] * 2
+
+    def test_each_has_words_and_only_steps_of_fixed_size_blame_the_step(self):
+        assert set(REASONS) == set(Reason)
+        for reason in Reason:
+            for integrator in INTEGRATORS:
+                text = explain(reason, Models(integrator=integrator), Limits())
+                assert ("Δt beyond stability" in text) == (
+                    integrator == "paper"
+                    and reason in (Reason.NOT_FINITE, Reason.VOLUME_RATIO, Reason.NOT_CONVERGED)
+                )
+                assert "Newton" not in text or reason == Reason.NOT_CONVERGED
+
+    def test_a_solid_that_gives_way_is_no_fault_of_the_step(self):
+        """Saint Venant-Kirchhoff's has no resistance left at a stretch of 1/√3."""
+        p = spheres(np.zeros((1, 3)), d=1e-5, rho=1000.0, mu=1.0, poissons_ratio=0.3)
+        models = Models(material="saintVenantKirchhoff", integrator="rosenbrock")
+        cloud = Cloud(p, analytic.extension(-3.0), OIL, (), 0.01, models, 1)
+        cloud.carry(500)
+        assert reasons(cloud) == [Reason.VOLUME_RATIO]
+        text = explain(p.reason[0], models, cloud.limits)
+        assert "gives way when it is compressed" in text
+        assert "stability" not in text
+
+
+class TestWalls:
+    @pytest.mark.parametrize("integrator", INTEGRATORS)
+    def test_what_bodies_see_does_not_depend_on_how_far_walls_are_listed(self, integrator):
+        clouds = [box_cloud(integrator) for _ in range(3)]
+        # The default; a cell's width more; so little that it must grow.
+        clouds[1].reach, clouds[2].reach = 0.6, 1e-3
+        for cloud in clouds:
+            cloud.carry(12)
+            assert_same(cloud.particles, clouds[0].particles)
+        assert clouds[2].reach > 1e-2
+        assert Status.STUCK in clouds[0].particles.status
+
+    def test_where_lists_would_be_too_long_the_body_fails_and_no_other(self, monkeypatch):
+        cloud, whole = box_cloud("rosenbrock"), box_cloud("rosenbrock")
+        for c in (cloud, whole):
+            c.particles.mu[:], c.particles.lame[:] = 1e6, 1e8
+        cloud.carry(1)
+        whole.carry(12)
+        monkeypatch.setattr(walls, "_MOST_ENTRIES", 1)
+        cloud.particles.R[2] *= 1.5
+        cloud.carry(11)
+        assert cloud.particles.reason[2] == Reason.WALLS_TOO_MANY
+        others = [0, 1, 3, 4]
+        assert_same(cloud.particles.take(others), whole.particles.take(others))
+
+
+class TestStop:
+    def test_a_call_ends_within_a_step_and_goes_on_to_the_same_state(self):
+        """Two threads with seconds of work in one step; some blocks are done, others not."""
+
+        def cloud():
+            Ca = np.where(np.arange(320) < 160, 0.01, 4.0)
+            p = spheres(np.zeros((len(Ca), 3)), d=1e-5, rho=1000.0, mu=1.0 / Ca)
+            models = Models(integrator="stokes", tolerance=1e-9)
+            return Cloud(p, analytic.shear(1.0), OIL, (), 5.0, models, 2)
+
+        whole, parts = cloud(), cloud()
+        whole.carry(1)
+        parts.tracker.compile(parts.make_ready())
+        slow, count = 0.0, 0
+        while parts.step == 0:
+            count += 1
+            due = time.perf_counter() + 0.3 * count
+            parts.carry(1, lambda due=due: time.perf_counter() > due)
+            slow = max(slow, time.perf_counter() - due)
+        assert slow < 2.0
+        assert count > 1
+        assert_same(whole.particles, parts.particles)
+
+    def test_particles_that_are_ahead_wait_for_the_others(self):
+        for make in (pipe_cloud, box_cloud):
+            for integrator in INTEGRATORS:
+                whole, parts = make(integrator), make(integrator)
+                whole.carry(12)
+                parts.carry(3)
+                flow, _ = parts.load_flow(9)
+                rest = parts.particles
+                ahead = rest.take(np.arange(2))
+                parts.tracker.advance(flow, ahead, 3, 5, 1, parts.bounds)
+                for name, array in zip(Particles._fields, rest, strict=True):
+                    array[:2] = getattr(ahead, name)
+                parts.carry(2)
+                parts.carry(7)
+                assert_same(whole.particles, parts.particles)
+
+    def test_an_exception_in_the_thread_that_waits_ends_the_loop(self):
+        # Ellipsoids that tumble.
+        p = spheres(np.zeros((64, 3)), d=1e-5, rho=1000.0, mu=1e4)
+        set_rest_shape(p, (2.0, 1.0, 1.0))
+        models, limits = Models(integrator="stokes"), Limits(max_sub_steps=1e12)
+        cloud = Cloud(p, analytic.shear(1.0), OIL, (), 1e5, models, 1, limits=limits)
+
+        def stop():
+            raise KeyboardInterrupt
+
+        cloud.tracker.compile(cloud.make_ready())
+        started = time.perf_counter()
+        with pytest.raises(KeyboardInterrupt):
+            cloud.carry(1, stop)
+        assert time.perf_counter() - started < 2.0
+        assert threading.active_count() < 10
+        assert cloud.step == 0
+
+
+class TestModels:
+    def test_the_integrator_is_chosen_as_by_the_command_line(self):
+        assert Models().integrator == "auto"
+        p = spheres(np.zeros((1, 3)), d=1e-5, rho=1000.0, mu=1.0)
+        assert Cloud(p, analytic.shear(1.0), OIL, (), 0.1).models.integrator == "stokes"
+        heavy = spheres(np.zeros((1, 3)), d=1e-2, rho=1e5, mu=1.0)
+        assert Cloud(heavy, analytic.shear(100.0), OIL, (), 0.1).models.integrator == "rosenbrock"
+
+    def test_a_warning_becomes_an_exception_on_request(self):
+        cloud = in_extension([10.0])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", FailedParticlesWarning)
+            with pytest.raises(FailedParticlesWarning):
+                cloud.advance(300)

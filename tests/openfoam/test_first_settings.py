@@ -1,0 +1,44 @@
+"""foamprb init on OpenFOAM's tutorials: what it writes passes a dry run as it is."""
+
+from __future__ import annotations
+
+import gzip
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from foamprb.cli import main
+
+pytestmark = pytest.mark.openfoam
+
+TUTORIALS = Path("/usr/share/doc/openfoam-examples/examples/incompressible")
+MESHERS = {
+    "icoFoam/cavity/cavity": ["blockMesh"],
+    "icoFoam/elbow": ["fluentMeshToFoam", "elbow.msh"],
+    "simpleFoam/pitzDaily": ["blockMesh"],
+    "nonNewtonianIcoFoam/offsetCylinder": ["blockMesh"],
+    "boundaryFoam/boundaryLaunderSharma": ["blockMesh"],
+    "pisoFoam/RAS/cavity": ["blockMesh"],
+    "simpleFoam/pipeCyclic": ["blockMesh"],
+    "pimpleFoam/laminar/planarContraction": ["blockMesh"],
+}
+
+
+@pytest.mark.parametrize("name", MESHERS)
+def test_a_tutorial_passes_a_dry_run(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    case = tmp_path / "case"
+    if not (TUTORIALS / name).is_dir():
+        pytest.skip(f"no {name}")
+    shutil.copytree(TUTORIALS / name, case)
+    for zipped in case.rglob("*.gz"):
+        zipped.with_suffix("").write_bytes(gzip.decompress(zipped.read_bytes()))
+    if not (case / "0").exists():
+        shutil.copytree(case / "0.orig", case / "0")
+    subprocess.run(MESHERS[name], cwd=case, check=True, capture_output=True)
+    assert main(["init", "-case", str(case)]) == 0
+    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+    said = capsys.readouterr().out
+    assert "Warning : injection model" not in said
+    assert "particles                0" not in said

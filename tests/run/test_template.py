@@ -1,0 +1,144 @@
+"""What foamprb init writes: a dictionary that a run accepts, with what the case says."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from paths import PIPE
+
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.flow.base import Patch
+from foamprb.run.job import prepare
+from foamprb.run.template import FlowScales, _nice, diameter, times, write_template
+from foamprb.settings.patches import match_patches
+from foamprb.settings.reading import read_settings
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    """The pipe, without the settings of its particles."""
+    shutil.copytree(PIPE, tmp_path / "pipe", ignore=shutil.ignore_patterns("postProcessing", "soft*"))
+    return tmp_path / "pipe"
+
+
+def test_what_is_written_is_accepted_without_a_doubt(case, capsys):
+    assert main(["init", "-case", str(case)]) == 0
+    assert main(["run", "-dry-run", "-case", str(case)]) == 0
+    said = capsys.readouterr().out
+    assert "Warning" not in said
+    assert "particles                1000" in said
+
+
+def test_it_says_what_the_case_says(case):
+    text = write_template(case).read_text()
+    assert re.search(r"^ +patch +inlet; +// through which most fluid enters$", text, re.MULTILINE)
+    assert re.search(r"^ +wall +\{ type stick; \} // wall", text, re.MULTILINE)
+    assert re.search(r"^ +outlet +\{ type escape; \}$", text, re.MULTILINE)
+    assert "constant/g: (0 -9.81 0) m/s2" in text
+    assert re.search(r"// nu +\S+: that of constant/transportProperties", text)
+    assert len(text.splitlines()) < 110
+    assert max(map(len, text.splitlines())) <= 110
+
+
+def test_first_guesses_suit_the_flow(case):
+    """The pipe's mean speed and length, its cells and its shear rate."""
+    write_template(case)
+    settings = read_settings(case)
+    job = prepare(case)
+    flow, solution = job.cloud.flow, settings.solution
+    length = (flow.bounds[1] - flow.bounds[0]).max()
+    speed = max(abs(flow.arrays().nodes[:, 3:6]).ravel())
+    assert 1.0 < solution.endTime * speed / length < 20.0
+    assert solution.deltaT * speed < length / 50
+    assert solution.writeInterval * 50 == pytest.approx(solution.endTime)
+    job.cloud.advance(round(solution.endTime / solution.deltaT))
+    left = job.cloud.particles.status > 1
+    assert left.mean() > 0.5
+
+
+def test_nothing_is_ever_overwritten(case, capsys):
+    file = case / "constant/softCloudProperties"
+    file.write_text("mine")
+    assert main(["init", "-case", str(case)]) == 1
+    assert "is there already, and is left as it is" in capsys.readouterr().err
+    assert file.read_text() == "mine"
+
+
+def test_without_a_case_or_a_flow(tmp_path, case):
+    with pytest.raises(InputError, match="no such folder"):
+        write_template(tmp_path / "none")
+    for time in [path for path in case.iterdir() if path.name[0].isdigit()]:
+        shutil.rmtree(time)
+    with pytest.raises(InputError, match="has the solver been run"):
+        write_template(case)
+    assert not (case / "constant/softCloudProperties").exists()
+
+
+def test_a_fluid_of_another_model_gets_a_viscosity(case):
+    (case / "constant/transportProperties").write_text(
+        "transportModel CrossPowerLaw; CrossPowerLawCoeffs { nu0 nu0 [0 2 -1 0 0 0 0] 0.01; nuInf 1; }"
+    )
+    text = write_template(case).read_text()
+    assert "nu                  0.01;" in text
+    assert read_settings(case).fluid.nu == 0.01
+
+
+def test_a_fluid_that_depends_on_temperature_gets_one(case):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
+    )
+    assert re.search(r"TInf +300; +// K, temperature of the fluid", write_template(case).read_text())
+    assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
+
+
+def scales(**changed):
+    values = {"speed": 1.0, "step": 1e-3, "duration": 2.0, "shear": 10.0, "most_shear": 100.0, "cell": 1e-3,
+              "volume": 1e-3, "inlet": ""}  # fmt: skip
+    return FlowScales(**(values | changed))
+
+
+@pytest.mark.parametrize("step", [1e-9, 3e-4, 7.7e-3, 1.0])
+@pytest.mark.parametrize("duration", [1e-6, 0.37, 5e3])
+def test_times_are_multiples_of_each_other(step, duration):
+    dt, interval, end = times(scales(step=step, duration=duration))
+    assert interval / dt == pytest.approx(round(interval / dt))
+    assert end / interval == pytest.approx(50)
+    assert duration <= end * (1 + 1e-9)
+    assert end / dt <= 5000 * 2.51
+
+
+def test_times_of_a_fluid_at_rest():
+    assert times(scales(speed=0.0)) == (0.01, 0.02, 1.0)
+
+
+def test_the_diameter_keeps_the_reynolds_number_small():
+    for most in (1.0, 1e4, 1e7):
+        d = diameter(scales(most_shear=most), 1e-6)
+        assert most * d * d / 1e-6 <= 0.05 * (1 + 1e-9)
+        assert d <= 1e-5
+    assert diameter(scales(most_shear=0.0, cell=1e-6), 1e-6) == 2e-7
+
+
+def test_round_numbers():
+    assert [_nice(x, up=True) for x in (1.0, 1.1, 2.5, 6e-7)] == [1.0, 2.0, 5.0, 1e-6]
+    assert [_nice(x, up=False) for x in (1.0, 1.9, 9.9, 6e-7)] == [1.0, 1.0, 5.0, 5e-7]
+
+
+def test_patches_with_odd_names_and_many_walls_are_matched(case):
+    from foamprb.run.template import _patches
+
+    patches = [Patch("in(let)", "patch"), Patch("a", "cyclicAMI", "b"), Patch("front", "empty")]
+    patches += [Patch(f"wall{i}", "wall") for i in range(9)]
+    text = write_template(case).read_text()
+    inner = "\n".join(_patches(patches))
+    assert "wall                { type stick; } // all 9 walls" in inner
+    start, end = text.index("patches\n"), text.index(");", text.index("patches\n"))
+    changed = f"{text[:start]}patches\n(\n{inner}\n{text[end:]}"
+    (case / "constant/softCloudProperties").write_text(changed)
+    names = [type(i).__name__ for i in match_patches(read_settings(case).patches, patches, "file")]
+    assert names == ["Escape", "Escape", "Mirror", *["Stick"] * 9]
