@@ -37,6 +37,7 @@ Particles in a flow:
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
     WallLift            what walls send back of a soft particle near them
+    BrownianMotion      push by the fluid's molecules
     Stick               a patch that holds the particles that touch it
     Rebound             one from which they bounce off
     Escape              one through which they leave
@@ -69,6 +70,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
+    from foamprb.cloud.surroundings.brownian import BrownianMotion
     from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
     from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
@@ -86,6 +88,7 @@ if TYPE_CHECKING:
 __version__ = version("foamprb")
 
 _HOMES = {
+    "BrownianMotion": "foamprb.cloud.surroundings.brownian",
     "Cloud": "foamprb.cloud.cloud",
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
@@ -125,6 +128,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "BrownianMotion",
     "Cloud",
     "Division",
     "Escape",

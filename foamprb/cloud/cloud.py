@@ -103,6 +103,7 @@ class Cloud:
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
+        p.number[:] = np.arange(p.size)
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
         if self.models.integrator == "auto":

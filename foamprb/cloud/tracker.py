@@ -132,7 +132,7 @@ class Tracker:
         self.kernels, self.bindings = kernels, bindings
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
-            *(type(model).disturb for model in models.surroundings),
+            *(stage for model in models.surroundings for stage in type(model).stages()),
             *RARE,
             *LONG,
         )

@@ -30,7 +30,7 @@ class WindRows(NamedTuple):
 wind = offsets(WindRows)
 
 
-def look(_flow: Any, s: Scratch, i: int, step: int, _dt: float, _medium: Medium, coefficients: Any) -> None:
+def look(_flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any) -> None:
     s.block[wind.speed * LANES + i] = coefficients[0] * (step + 1)
     store3(s.block, wind.seen, i, load3(s.block, at.x, i))
 
@@ -61,7 +61,7 @@ class CalmRows(NamedTuple):
 class Calm(Surrounding):
     rows: ClassVar = CalmRows
     place: ClassVar = "calm"
-    look: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _dt, _medium, _coefficients: None)
+    look: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _rest, _medium, _coefficients: None)
     disturb: ClassVar = staticmethod(lambda _block, _medium, _share, _coefficients: None)
 
 

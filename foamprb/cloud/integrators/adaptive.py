@@ -248,7 +248,7 @@ def track_adaptive(
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
-            look_around(flow, scratch, i, current[i], dt, medium)
+            look_around(flow, scratch, i, current[i], start + (current[i] + 1) * dt - t, medium)
             store9(block, at.new_F, i, load9(block, at.F, i))
             size = min(block[at.h * LANES + i], longest_step(l_f))
             rest = start + (current[i] + 1) * dt - t
@@ -316,7 +316,7 @@ def track_adaptive(
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
-            look_around(flow, scratch, i, last - 1, dt, medium)
+            look_around(flow, scratch, i, last - 1, 0.0, medium)
     evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(len(members)):

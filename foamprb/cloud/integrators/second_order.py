@@ -184,7 +184,7 @@ def track_adaptive(
             _begin(block, i, h)
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
             store_fluid(block, i, u, l_f, u_t)
-            look_around(flow, scratch, i, current[i], dt, medium)
+            look_around(flow, scratch, i, current[i], start + (current[i] + 1) * dt - t, medium)
         if interrupted(scratch):
             return 0
         if moving == 0:
@@ -241,7 +241,7 @@ def track_adaptive(
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
-            look_around(flow, scratch, i, last - 1, dt, medium)
+            look_around(flow, scratch, i, last - 1, 0.0, medium)
     new_frames(block)
     integrals_stage(block)
     surround(block, medium, 0.0)

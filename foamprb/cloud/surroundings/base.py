@@ -25,12 +25,19 @@ class Surrounding:
     place: ClassVar[str]
     """Global name by which its functions know where its rows begin."""
     look: ClassVar[Callable[..., None]]
-    """``look(flow, s, i, step, dt, medium, coefficients)``: store what it needs to know around the particle
-    in lane i, before each step h, and once more at the end, in the tracking step of that number and size Δt,
-    s. The lane's x and t are those of the start of h."""
+    """``look(flow, s, i, step, rest, medium, coefficients)``: store what it needs to know around the particle
+    in lane i, before each step h, and once more at the end, in the tracking step of that number, of which as
+    much (s) is left. The lane's x and t are those of the start of h."""
+    prepare: ClassVar[Callable[..., None] | None] = None
+    """As ``disturb``, before that of any model: for what others ask of this one."""
     disturb: ClassVar[Callable[..., None]]
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
+
+    @classmethod
+    def stages(cls) -> tuple[Callable[..., None], ...]:
+        """What is compiled once for all flows."""
+        return (cls.disturb,) if cls.prepare is None else (cls.prepare, cls.disturb)
 
     @property
     def reach(self) -> float:

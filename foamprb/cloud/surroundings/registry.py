@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.wall_lift import WallLift
 
 __all__ = ["SURROUNDINGS"]
 
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "wallLift": WallLift,
+    "BrownianMotion": BrownianMotion,
 }
 """In the order in which those that are chosen act, whatever their order in the settings."""

@@ -1,7 +1,7 @@
 """The surroundings that a cloud has chosen, one after the other, as the loop of every integrator calls them.
 
-The names ``looks`` and ``disturbs`` are bound to these (:func:`compose`) when the loop is compiled. Without
-any model both do nothing, and cost nothing.
+The names ``looks``, ``prepares`` and ``disturbs`` are bound to these (:func:`compose`) when the loop is
+compiled. Without any model they do nothing, and cost nothing.
 """
 
 from __future__ import annotations
@@ -18,15 +18,17 @@ from foamprb.flow.base import Patch
 __all__ = ["coefficients", "compose", "look_around", "surround", "with_rows"]
 
 
-def look_around(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium) -> None:
+def look_around(flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium) -> None:
     """Let each model store what it needs to know around the particle in lane i.
 
     Parameters
     ----------
-    step, dt
-        Number and size, s, of the tracking step.
+    step
+        Number of the tracking step.
+    rest
+        How long it lasts from the lane's t on, s.
     """
-    looks(flow, s, i, step, dt, medium, medium.surroundings)
+    looks(flow, s, i, step, rest, medium, medium.surroundings)
 
 
 def surround(block: Any, medium: Medium, share: float) -> None:
@@ -37,11 +39,12 @@ def surround(block: Any, medium: Medium, share: float) -> None:
     share
         How far on the way from x to new_x the body is.
     """
+    prepares(block, medium, share, medium.surroundings)
     disturbs(block, medium, share, medium.surroundings)
 
 
 def no_look(
-    _flow: Any, _s: Scratch, _i: int, _step: int, _dt: float, _medium: Medium, _coefficients: Any
+    _flow: Any, _s: Scratch, _i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Nothing is looked for."""
 
@@ -71,12 +74,14 @@ def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> 
         return {}
     look: Callable[..., None] = no_look
     disturb: Callable[..., None] = no_disturbance
+    prepare: Callable[..., None] = no_disturbance
     found: dict[str, Any] = dict(_places(own, surroundings))
     for model in surroundings:
         look = bound(_look_and, others=look, model=type(model).look)
         disturb = bound(_disturb_and, others=disturb, model=type(model).disturb)
+        prepare = bound(_disturb_and, others=prepare, model=type(model).prepare or no_disturbance)
         found |= model.bindings(inertia)
-    return {**found, "looks": look, "disturbs": disturb}
+    return {**found, "looks": look, "prepares": prepare, "disturbs": disturb}
 
 
 def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
@@ -97,9 +102,11 @@ def _places(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple
     return places
 
 
-def _look_and(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium, coefficients: Any) -> None:
-    others(flow, s, i, step, dt, medium, coefficients[0])
-    model(flow, s, i, step, dt, medium, coefficients[1])
+def _look_and(
+    flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium, coefficients: Any
+) -> None:
+    others(flow, s, i, step, rest, medium, coefficients[0])
+    model(flow, s, i, step, rest, medium, coefficients[1])
 
 
 def _disturb_and(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
@@ -111,4 +118,5 @@ others: Any = no_look
 model: Any = no_look
 
 looks: Any = no_look
+prepares: Any = no_disturbance
 disturbs: Any = no_disturbance

@@ -15,7 +15,6 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_sphere as finger
 from foamprb.body.stokes import mobility, velocity_gradient
@@ -49,6 +48,7 @@ from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.resistance import resistances
 from foamprb.compile.link import link
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
@@ -73,6 +73,7 @@ class WallRows(NamedTuple):
     close: Annotated[int, Row(1, "", "steps begun near a wall", of="close", saved=True)]
     stresslet: Annotated[int, Row(9, "N m", "stresslet of the particle")]
     sent_back: Annotated[int, Row(9, "1/s", "velocity gradient that the walls send back")]
+    least_gap: Annotated[int, Row(1, "1", "least gap, in radii", 1.0)]
     wall_lift: Annotated[int, Row(3, "m/s", "velocity that they send back")]
     hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
 
@@ -81,14 +82,15 @@ near = offsets(WallRows)
 
 
 def look_for_walls(
-    flow: Any, s: Scratch, i: int, step: int, _dt: float, _medium: Medium, coefficients: Any
+    flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any
 ) -> None:
     """Put the walls around the particle in lane i into its rows, and count the step if one is close."""
-    cut_off, _, _, _, chosen = coefficients
+    cut_off, least_gap, _, _, chosen = coefficients
     block = s.block
     R = block[at.R * LANES + i]
     p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, chosen)
     store3(block, near.wall_distance, i, (min(p.h1, _FAR * R), min(p.h2, _FAR * R), min(p.h3, _FAR * R)))
+    block[near.least_gap * LANES + i] = least_gap
     store3(block, near.wall_normal, i, p.n1)
     store3(block, near.wall_normal + 3, i, p.n2)
     store3(block, near.wall_normal + 6, i, p.n3)
@@ -226,16 +228,17 @@ def no_thermal_force(_block: Any, _i: int) -> Vector:
     return 0.0, 0.0, 0.0
 
 
-def resistances(block: Any, i: int) -> Vector:
-    """Principal resistances K of lane i without walls, m."""
-    R, k = block[at.R * LANES + i], drag(load3(block, at.stretch, i), load_integrals(block, i))
-    return R * k[0], R * k[1], R * k[2]
-
-
 def hindrance_of(block: Any, i: int, wall: int, share: float, least_gap: float) -> Tensor:
     """W of one wall, in the particle frame; 0 if lane i does not have it."""
     there, n, h, gap = wall_at(block, i, wall, share, least_gap)
     return scale(there, hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap))
+
+
+def hindrance_at_start(block: Any, i: int) -> Tensor:
+    """W of all walls around lane i at the start of a step, in the particle frame."""
+    least_gap = block[near.least_gap * LANES + i]
+    W = add(hindrance_of(block, i, 0, 0.0, least_gap), hindrance_of(block, i, 1, 0.0, least_gap))
+    return add(W, hindrance_of(block, i, 2, 0.0, least_gap))
 
 
 def held_back(block: Any, i: int, medium: Medium) -> Vector:
@@ -313,7 +316,10 @@ class WallLift(Surrounding):
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
         """How the body's own motion is known."""
-        return {"body_gradient": moving_gradient if inertia else balanced_gradient}
+        motion: Mapping[str, Callable[..., Any]] = {
+            "body_gradient": moving_gradient if inertia else balanced_gradient
+        }
+        return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
 
     def refuses(self, inertia: bool, name: str) -> str:
         """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
