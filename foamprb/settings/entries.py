@@ -141,8 +141,8 @@ class Solution:
         float,
         Positive,
         Meaning(
-            "one whose longest semi-axis is a larger share of the flow's width fails; one that would start so "
-            "is an error",
+            "one whose longest semi-axis is a larger share of the flow's width fails; one that would start "
+            "so is an error",
             "1",
         ),
     ] = Limits.max_size
