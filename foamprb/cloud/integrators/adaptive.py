@@ -67,8 +67,8 @@ class StepRows(NamedTuple):
 
     start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
     second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
-    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, without its surroundings")]
-    start_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the start, likewise")]
+    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, as the flow has it")]
+    start_l: Annotated[int, Row(9, "1/s", "its gradient there")]
     start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
     start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
     middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
@@ -119,10 +119,17 @@ def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilatio
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², seen by what moves with v through the fluid that is in the block."""
+    """∂u/∂t + l·v, m/s², of the flow at the start, seen by what moves with v through it."""
     a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
-    c = dot_vector(load9(block, at.l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
+
+
+def end_acceleration(block: Any, i: int) -> Vector:
+    """Du/Dt of the fluid at the end of the step, m/s²."""
+    a, u = load3(block, during.end_ut, i), load3(block, during.end_u, i)
+    w = dot_vector(load9(block, during.end_l, i), u)
+    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
 
 
 def finish_path(block: Any, i: int, v: Vector) -> None:
@@ -175,14 +182,10 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
-def evaluate_shape(block: Any, medium: Medium, predicted: bool) -> None:
-    """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
-
-    Once before each slope; ``predicted`` says that the shape is not that at the start of the step.
-    """
+def evaluate_shape(block: Any) -> None:
+    """Frame, stretches and integrals of the shape that is in the block: once before each slope."""
     new_frames(block)
     integrals_stage(block)
-    surround(block, medium, predicted)
 
 
 def _host_of(flow: Any, host: int, x: Vector, goal: Vector) -> int:
@@ -284,13 +287,15 @@ def track_adaptive(
         if moving == 0:
             break
 
-        evaluate_shape(block, medium, False)
+        evaluate_shape(block)
+        surround(block, medium, False)
         predict(block, medium)
         for i in range(len(members)):
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch.host[i], block, i)
         first_slope(block, medium)
-        evaluate_shape(block, medium, True)
+        evaluate_shape(block)
+        surround(block, medium, True)
         second_slope(block, medium, enough)
         thirds = 0
         for i in range(len(members)):
@@ -299,7 +304,8 @@ def track_adaptive(
                 _sample_middle(flow, scratch.host[i], block, i)
         if thirds:
             last_argument(block, medium)
-            evaluate_shape(block, medium, True)
+            evaluate_shape(block)
+            surround(block, medium, True)
             third_slope(block, medium, enough)
         accept_stage(block, tolerance)
 
@@ -340,9 +346,9 @@ def track_adaptive(
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
-            store3(block, during.start_u, i, u)
             look_around(flow, scratch, i, last - 1, dt, medium)
-    evaluate_shape(block, medium, False)
+    evaluate_shape(block)
+    surround(block, medium, False)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
