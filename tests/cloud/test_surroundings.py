@@ -83,7 +83,7 @@ def test_a_model_changes_the_fluid_that_a_particle_feels(integrator):
 
 def test_a_model_acts_with_the_papers_integrator():
     p = spheres(np.zeros((3, 3)), d=2e-4, rho=1000.0, mu=1e-3)
-    models = Models(surroundings=(Wind(speed=1e-3),))
+    models = Models(integrator="paper", surroundings=(Wind(speed=1e-3),))
     cloud = Cloud(p, analytic.shear(1.0), WATER, (), 1e-2, models, threads=1)
     cloud.advance(1)
     assert p.v[:, 0] == pytest.approx(
