@@ -103,6 +103,8 @@ class Particles(NamedTuple):
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
     patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]
     host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
+    number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
+    close: Annotated[Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted")]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
 
     @property

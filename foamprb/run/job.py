@@ -164,7 +164,16 @@ def _models(settings: Settings, integrator: str) -> Models:
     tolerance = settings.solution.tolerance
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
-    return Models(settings.traction, settings.drag, solid, settings.touching, integrator, tolerance, forces)
+    return Models(
+        settings.traction,
+        settings.drag,
+        solid,
+        settings.touching,
+        integrator,
+        tolerance,
+        forces,
+        tuple(settings.surroundings.values()),
+    )
 
 
 def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:

@@ -342,7 +342,7 @@ class EllipsoidDrag:
 
 @dataclass(frozen=True, kw_only=True)
 class ParticleForces:
-    """``subModels/particleForces``, without those of :data:`foamprb.cloud.forces.registry.FORCES`."""
+    """``subModels/particleForces``, without those that the registries of forces and surroundings have."""
 
     ellipsoidDrag: Annotated[EllipsoidDrag, Meaning("drag; `ellipsoidDrag;` alone is enough")]
 

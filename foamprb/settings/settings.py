@@ -12,6 +12,7 @@ from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import Injection
 from foamprb.cloud.injection.shapes import Shape
 from foamprb.cloud.limits import Limits
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.dictionary.constraints import Vector3
 from foamprb.settings.patches import Rule, Touching
@@ -104,4 +105,5 @@ class Settings:
     patches: tuple[Rule, ...]
     functions: Mapping[str, CloudFunction]
     forces: Mapping[str, Force]
+    surroundings: Mapping[str, Surrounding]
     region: str = ""

@@ -12,7 +12,7 @@ import pytest
 from cloud_dictionary import CLOUD, Reader
 from paths import PIPE, ROOT
 
-from foamprb import PressureGradient, VirtualMass
+from foamprb import PressureGradient, VirtualMass, WallLift
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS, ManualInjection, PatchInjection
 from foamprb.cloud.injection.shapes import SHAPES
@@ -354,6 +354,18 @@ def test_forces(read: Reader) -> None:
     assert list(settings.forces.items()) == both
     with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
         read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
+
+
+def test_surroundings(read: Reader) -> None:
+    assert read().surroundings == {}
+    settings = read(
+        ("ellipsoidDrag;", 'ellipsoidDrag; wallLift { cutOff 20; mobility no; patches (wall "s.*"); }')
+    )
+    (model,) = settings.surroundings.values()
+    assert model == WallLift(cutOff=20.0, mobility=False, patches=("wall", "s.*"))
+    assert str(model) == "(cutOff 20, strain yes, mobility no, leastGap 0.01, patches (wall s.*))"
+    with pytest.raises(InputError, match=r"wallLift/cutOff is '1'. Allowed: a number > 2."):
+        read(("ellipsoidDrag;", "ellipsoidDrag; wallLift { cutOff 1; }"))
 
 
 def test_libs_must_be_files(read: Reader) -> None:
