@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import platform
 from importlib.metadata import version
 from pathlib import Path
@@ -42,7 +43,7 @@ def record_of(job: Job) -> dict[str, Any]:
     for index, injection in enumerate(settings.injections):
         g = groups(cloud, index)
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
-        ranges = {name: list(value) for name, value in g._asdict().items() if name != "n"} if g.n else {}
+        ranges = {name: _finite(value) for name, value in g._asdict().items() if name != "n"} if g.n else {}
         injections.append(
             {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
         )
@@ -79,6 +80,13 @@ def record_of(job: Job) -> dict[str, Any]:
         "functions": {name: type(function).__name__ for name, function in settings.functions.items()},
         "warnings": warnings,
     }
+
+
+def _finite(value: Any) -> Any:
+    """A number, or a range as a list of its ends; null, of which JSON knows, for what is no number."""
+    if isinstance(value, tuple):
+        return [_finite(end) for end in value]
+    return value if not isinstance(value, float) or math.isfinite(value) else None
 
 
 def _mesh(job: Job) -> dict[str, int]:

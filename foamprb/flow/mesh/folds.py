@@ -43,6 +43,8 @@ _FLAT = 1e-11
 _PULLS = 5
 # How far a line may have been shifted, in units of what counts as round-off.
 _HEALED = 1e3
+# How near to a plane a place is in it, in the same units.
+_FLUSH = 1e-4
 _MOST_CROSSINGS = 1_000_000
 _REACHED, _FAILED, _NONE = -1, -2, -1
 
@@ -172,6 +174,8 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
     k = 0 if abs(d[0]) == longest else 1 if abs(d[1]) == longest else 2
     # What lies nearer to x0 than this, in units of t, lies there but for round-off.
     room = TOLERANCE * np.sqrt(_squared_edge(flow, first)) / longest
+    # So does what lies in a plane that x0 is nearer to than this.
+    flush = _FLUSH * room * longest
     for attempt in range(_PULLS):
         origin = _pulled(flow, first, x0, 0.0 if attempt == 0 else 1e-14 * 100.0**attempt)
         tet, candidate, cell = first, _NONE, _NONE
@@ -187,8 +191,8 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
                     way, s = _crossing(flow, flow.rim[r], origin, d, k, x0)
                     if way > 0 and -room < s < leaving:
                         leaving, rim = s, flow.rim[r]
-                    elif way < 0 and room < s:
-                        entering = min(entering, s)
+                    elif way < 0 and room < s < entering and _height(flow, flow.rim[r], x0) > flush:
+                        entering = s
             if t >= entering and entering < min(leaving, 1.0):
                 return host, 0.0, _FAILED, _NONE
             if t >= leaving and leaving < 1.0:
@@ -204,7 +208,7 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
             if other < 0:
                 if t >= 1.0 - 1e-12:
                     return settle(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
-                if t < -room:
+                if t < -room and _height(flow, -1 - other, x0) > flush:
                     return host, 0.0, _FAILED, _NONE
                 return _left_by(flow, -1 - other, x0, d, t, room)
             tet = other
@@ -228,6 +232,13 @@ def _left_by(
     t = min(max(t, 0.0), 1.0)
     host = settle(flow, flow.triangle_tet[triangle], (x0[0] + t * d[0], x0[1] + t * d[1], x0[2] + t * d[2]))
     return host, t, flow.triangle_patch[triangle], triangle
+
+
+def _height(flow: MeshArrays, triangle: int, x: Vector) -> float:
+    """Distance of a place from the plane of a triangle of the boundary, m."""
+    n, a = flow.triangle_normals, flow.triangles[triangle, 0]
+    dx, dy, dz = x[0] - flow.nodes[a, 0], x[1] - flow.nodes[a, 1], x[2] - flow.nodes[a, 2]
+    return float(abs(n[triangle, 0] * dx + n[triangle, 1] * dy + n[triangle, 2] * dz))
 
 
 def _crossing(

@@ -233,7 +233,7 @@ def _deposition(given: _Given) -> Section | None:
         "Particles per area on the walls, in bins of about eight particles; edges of the geometry are lines.",
     )
     for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:6]:
-        how = "unrolled about its long axis" if own.across[1] == "around" else "in its plane"
+        how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
         drawn += given.figure(
             f"deposits-{name}", plots.unrolled(own), f"{name}, {how}: particles per area; dots are particles."
         )
@@ -381,7 +381,10 @@ def _what(given: _Given) -> Section:
             own["name"],
             own["type"],
             own["particles"],
-            *("–".join(f"{value:.3g}" for value in own[key]) if key in own else "" for key in names),
+            *(
+                "–".join("?" if end is None else f"{end:.3g}" for end in own[key]) if key in own else ""
+                for key in names
+            ),
         )
         for own in record["injections"]
     ]
