@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import shape_stokes_number, shear_rate
 from foamprb.cloud.reasons import explain
+from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
 from foamprb.compile.cache import cache_directory
 from foamprb.run.checks import Groups, doubts, groups
@@ -34,7 +36,7 @@ def describe(job: Job) -> list[str]:
     settings, cloud = job.settings, job.cloud
     _log_flow(job)
     log.info("Selecting tractionModel %s", settings.traction)
-    forces = {"ellipsoidDrag": settings.drag, **settings.forces}
+    forces = {"ellipsoidDrag": settings.drag, **settings.forces, **settings.surroundings}
     named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
     log.info("Selecting particleForces %s", named)
     log.info("Selecting solid %s", cloud.models.material)
@@ -44,6 +46,9 @@ def describe(job: Job) -> list[str]:
         number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
+    for model in cloud.models.surroundings:
+        for line in model.notes(cloud.particles, cloud.flow_arrays(), cloud.flow):
+            log.info("    %s", line)
     log.info("Selecting patchInteractionModel %s, touching by the %s",
              settings.interaction, settings.touching)  # fmt: skip
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
@@ -114,6 +119,7 @@ class RunLog:
         self._job = job
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
         self._failed = self._failures()
+        self._unstable = 0
 
     def begin(self) -> None:
         """Say that the time loop starts, and whether its loop over the particles has yet to be compiled."""
@@ -134,6 +140,7 @@ class RunLog:
         self._log_steps()
         self._log_clocks()
         self._log_failures()
+        self._log_unstable()
 
     def end(self, finished: bool) -> None:
         """Say what became of the particles, where the results are, and whether the run has ``finished``."""
@@ -172,6 +179,19 @@ class RunLog:
                         k, p.t[k], *p.x[k], explain(p.reason[k], cloud.models, cloud.limits))  # fmt: skip
         self._failed = failed
 
+    def _log_unstable(self) -> None:
+        """Say for how many particles the step is too long, if there are more than at any time before."""
+        cloud = self._job.cloud
+        if cloud.models.integrator != PAPER.name:
+            return
+        limits = longest_stable_steps(cloud.particles, cloud.medium.mu, cloud.dt, cloud.models.material)
+        beyond = int(np.isfinite(limits).sum())
+        if beyond > self._unstable:
+            self._unstable = beyond
+            log.warning("deltaT is up to %.3g times what the integrator paper is stable with for the shapes "
+                        "of %d particles: they are not as long as they should be. Take a deltaT below "
+                        "%.3g s, or rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
+
     def _log_fates(self) -> None:
         """Say how many particles met which fate, by patch; the numbers sum to those injected."""
         job = self._job
@@ -185,6 +205,9 @@ class RunLog:
                 at = np.count_nonzero((p.status == status) & (p.patch == index))
                 if at:
                     log.info("        %-20s %10d", name, at)
+        for model in job.cloud.models.surroundings:
+            for line in model.summary(p, job.cloud.dt):
+                log.info("    %s", line)
         if counts[Status.PENDING]:
             log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
         if job.cloud.recovered:

@@ -20,9 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.error_control import longest_step, path_error, step_factor
-from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
-from foamprb.body.surface_tension import no_stress as interface
-from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.tensor import Vector, dot_vector
 from foamprb.cloud.block import (
     ROWS,
     Medium,
@@ -67,8 +65,8 @@ class StepRows(NamedTuple):
 
     start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
     second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
-    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, without its surroundings")]
-    start_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the start, likewise")]
+    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, as the flow has it")]
+    start_l: Annotated[int, Row(9, "1/s", "its gradient there")]
     start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
     start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
     middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
@@ -87,11 +85,6 @@ _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
 
 
-def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
-    """μ_s and λ_s, Pa, and the third parameter of the solid."""
-    return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
-
-
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     """μ_f K_a/m, 1/s, with K_a in units of R."""
     R = block[at.R * LANES + i]
@@ -99,30 +92,18 @@ def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     return c * k[0], c * k[1], c * k[2]
 
 
-def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
-    """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
-    tau = kirchhoff(b_e, J, *solid(block, i))
-    s = interface(stretches, block[at.tension * LANES + i])
-    return (
-        tau[0] + s[0], tau[1], tau[2],
-        tau[3], tau[4] + s[1], tau[5],
-        tau[6], tau[7], tau[8] + s[2],
-    )  # fmt: skip
-
-
-def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
-    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
-    mu, lame, k = solid(block, i)
-    J = stretches[0] * stretches[1] * stretches[2]
-    squares = (b_e[0], b_e[4], b_e[8])
-    return elasticity(squares, J, mu, dilation * lame, k, block[at.tension * LANES + i])
-
-
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², seen by what moves with v through the fluid that is in the block."""
+    """∂u/∂t + l·v, m/s², of the flow at the start, seen by what moves with v through it."""
     a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
-    c = dot_vector(load9(block, at.l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
+
+
+def end_acceleration(block: Any, i: int) -> Vector:
+    """Du/Dt of the fluid at the end of the step, m/s²."""
+    a, u = load3(block, during.end_ut, i), load3(block, during.end_u, i)
+    w = dot_vector(load9(block, during.end_l, i), u)
+    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
 
 
 def finish_path(block: Any, i: int, v: Vector) -> None:
@@ -175,14 +156,14 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
-def evaluate_shape(block: Any, medium: Medium, predicted: bool) -> None:
+def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
 
-    Once before each slope; ``predicted`` says that the shape is not that at the start of the step.
+    Once before each slope; ``share`` says how far on the way to new_x the body is.
     """
     new_frames(block)
     integrals_stage(block)
-    surround(block, medium, predicted)
+    surround(block, medium, share)
 
 
 def _host_of(flow: Any, host: int, x: Vector, goal: Vector) -> int:
@@ -273,7 +254,7 @@ def track_adaptive(
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
-            look_around(flow, scratch, i, current[i], dt, medium)
+            look_around(flow, scratch, i, current[i], start + (current[i] + 1) * dt - t, medium)
             store9(block, at.new_F, i, load9(block, at.F, i))
             size = min(block[at.h * LANES + i], longest_step(l_f))
             rest = start + (current[i] + 1) * dt - t
@@ -284,13 +265,13 @@ def track_adaptive(
         if moving == 0:
             break
 
-        evaluate_shape(block, medium, False)
+        evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(len(members)):
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch.host[i], block, i)
         first_slope(block, medium)
-        evaluate_shape(block, medium, True)
+        evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
         thirds = 0
         for i in range(len(members)):
@@ -299,7 +280,7 @@ def track_adaptive(
                 _sample_middle(flow, scratch.host[i], block, i)
         if thirds:
             last_argument(block, medium)
-            evaluate_shape(block, medium, True)
+            evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
         accept_stage(block, tolerance)
 
@@ -341,8 +322,8 @@ def track_adaptive(
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
-            look_around(flow, scratch, i, last - 1, dt, medium)
-    evaluate_shape(block, medium, False)
+            look_around(flow, scratch, i, last - 1, 0.0, medium)
+    evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
