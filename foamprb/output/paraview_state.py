@@ -39,13 +39,16 @@ bodies = simple.TensorGlyph(
     Scalars=["POINTS", "taylorDeformation"],
     ExtractEigenvalues=0,
     LimitScalingByEigenvalues=0,
-    ScaleFactor=enlargement,
 )
 # Fewer facets for more bodies, so that a hundred thousand can be turned.
 count = cloud.GetDataInformation().GetNumberOfPoints()
 bodies.GlyphType.Radius = 1.0
 bodies.GlyphType.ThetaResolution = bodies.GlyphType.PhiResolution = 8 if count > 5000 else 24
+# ParaView chooses another factor when it makes the filter, also where it is given 1.
+bodies.UpdatePipeline(scene.AnimationTime)
+bodies.ScaleFactor = enlargement
 shown = simple.Show(bodies, view)
+bodies.ScaleFactor = enlargement
 simple.ColorBy(shown, ("POINTS", "taylorDeformation"))
 shown.SetScalarBarVisibility(view, True)
 

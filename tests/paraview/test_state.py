@@ -30,6 +30,7 @@ def test_the_state_shows_every_body_at_the_last_time(tmp_path: Path) -> None:
         f"simple.SaveData({str(tmp_path / 'bodies.vtp')!r}, simple.FindSource('bodies'))\n"
         f"simple.SaveScreenshot({str(tmp_path / 'shot.png')!r}, simple.GetActiveView())\n"
         "print('factor', simple.FindSource('bodies').ScaleFactor)\n"
+        "print('said', simple.FindSource('enlargement').Text)\n"
     )
     display = ["xvfb-run", "-a"] if shutil.which("xvfb-run") else []
     for _ in range(5):
@@ -40,7 +41,11 @@ def test_the_state_shows_every_body_at_the_last_time(tmp_path: Path) -> None:
         if done.returncode in (0, 1, 2):
             break
     assert done.returncode == 0, done.stderr
-    factor = float(done.stdout.split("factor ")[1])
+    factor = float(done.stdout.split("factor ")[1].split()[0])
+    assert f"bodies drawn {factor:.3g} times larger" in done.stdout
+    assert factor == pytest.approx(
+        max(1.0, 0.01 * np.ptp(moved.x[-1], axis=0).max() / moved.radius.max()), rel=0.01
+    )
     bodies = pyvista.read(tmp_path / "bodies.vtp").split_bodies()
     assert len(bodies) == 6
     middles = np.array([np.array(body.bounds).reshape(3, 2).mean(axis=1) for body in bodies])
