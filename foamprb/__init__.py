@@ -37,6 +37,8 @@ Particles in a flow:
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    WallLift            what walls send back of a soft particle near them
+    BrownianMotion      push by the fluid's molecules
     Stick               a patch that holds the particles that touch it
     Rebound             one from which they bounce off
     Escape              one through which they leave
@@ -69,6 +71,8 @@ if TYPE_CHECKING:
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
+    from foamprb.cloud.surroundings.brownian import BrownianMotion
+    from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
     from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
     from foamprb.flow import analytic
@@ -86,6 +90,7 @@ if TYPE_CHECKING:
 __version__ = version("foamprb")
 
 _HOMES = {
+    "BrownianMotion": "foamprb.cloud.surroundings.brownian",
     "Cloud": "foamprb.cloud.cloud",
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
@@ -106,6 +111,7 @@ _HOMES = {
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
     "VirtualMass": "foamprb.cloud.forces.virtual_mass",
+    "WallLift": "foamprb.cloud.surroundings.wall_lift",
     "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",
     "context": "foamprb.cloud.measures",
@@ -125,6 +131,7 @@ _HOMES = {
 }
 
 __all__ = [
+    "BrownianMotion",
     "Cloud",
     "Division",
     "Escape",
@@ -145,6 +152,7 @@ __all__ = [
     "Status",
     "Stick",
     "VirtualMass",
+    "WallLift",
     "add_material",
     "analytic",
     "context",

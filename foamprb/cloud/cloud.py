@@ -103,6 +103,7 @@ class Cloud:
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
+        p.number[:] = np.arange(p.size)
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
         if self.models.integrator == "auto":
@@ -111,6 +112,8 @@ class Cloud:
             )
             self.models = replace(self.models, integrator=automatic(number))
         check(self.models, tense)
+        for model in self.models.surroundings:
+            model.check(self.flow.patches)
         self._reach_grows = True
         self._refuse_large()
         self.tracker = Tracker(
@@ -122,6 +125,7 @@ class Cloud:
             self.start,
             shaped=bool((np.eye(3).ravel() != p.F0).any()),
             tense=tense,
+            patches=self.flow.patches,
         )
         self.executor: Executor = Threads()
         self.executor.take(self)
@@ -270,7 +274,7 @@ class Cloud:
     @property
     def _touchable(self) -> list[int]:
         """The patches that a body may touch."""
-        if self.models.touching == "centre":
+        if self.models.touching == "centre" and self._wanted_reach == 0.0:
             return []
         return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
 
@@ -282,7 +286,12 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Let the reach at the start be beyond what the longest particle sees."""
         if self.reach == 0.0:
-            self.reach = SEEN * _REACH_MARGIN * self.executor.longest()
+            self.reach = max(SEEN * _REACH_MARGIN, self._wanted_reach) * self.executor.longest()
+
+    @property
+    def _wanted_reach(self) -> float:
+        """Distance to which models want walls to be listed, in radii."""
+        return max((model.reach for model in self.models.surroundings), default=0.0)
 
     def _extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""

@@ -30,6 +30,7 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
+from foamprb.flow.base import Patch
 from foamprb.flow.meshflow import LONG
 
 __all__ = ["Models", "Outcome", "Tracker", "never"]
@@ -72,7 +73,7 @@ class Models:
     integrator: str = "auto"
     """``auto`` is chosen by a cloud, by its particles' largest shape Stokes number where they start."""
     tolerance: float = 1e-4
-    """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
+    """Largest error of a step of ``stokes`` and ``rosenbrock``; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
     """What acts on the barycentre beside drag."""
     surroundings: tuple[Surrounding, ...] = ()
@@ -92,6 +93,8 @@ class Tracker:
         As of a :class:`Cloud`.
     shaped, tense
         Whether some particle is no sphere at rest; whether some has surface tension.
+    patches
+        The flow's.
     """
 
     def __init__(
@@ -104,8 +107,9 @@ class Tracker:
         start: float,
         shaped: bool,
         tense: bool,
+        patches: Sequence[Patch] = (),
     ) -> None:
-        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense
+        self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches
         bindings = dict(kernels)
         if models.touching == "centre":
             bindings["gap"] = gap_free
@@ -124,18 +128,18 @@ class Tracker:
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         bindings |= integrator.bindings
         bindings |= compose(models.forces)
-        bindings |= surroundings.compose(integrator.layout, models.surroundings)
+        bindings |= surroundings.compose(integrator.layout, models.surroundings, integrator.inertia)
         self.kernels, self.bindings = kernels, bindings
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
-            *(type(model).disturb for model in models.surroundings),
+            *(stage for model in models.surroundings for stage in type(model).stages()),
             *RARE,
             *LONG,
         )
         self.table = _patch_table(interactions)
         self.medium = medium._replace(
             coefficients=coefficients(models.forces),
-            surroundings=surroundings.coefficients(models.surroundings),
+            surroundings=surroundings.coefficients(models.surroundings, patches),
         )
         self.dt, self.start = dt, start
         self.options = (models.tolerance,) if integrator.adaptive else ()
@@ -269,6 +273,10 @@ def check(models: Models, tense: bool) -> None:
     reason = integrator.refuses(models.traction, models.material, tense)
     if reason:
         raise InputError(f"the integrator {integrator.name} {reason}")
+    for model in models.surroundings:
+        reason = model.refuses(integrator.inertia, integrator.name)
+        if reason:
+            raise InputError(reason)
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

@@ -18,17 +18,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, Patch, PatchFaces, Tetrahedra
+from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra
 from foamprb.flow.pipes import (
     PipeArrays,
     WomersleyArrays,
     gap_pipe,
     normal_pipe,
+    planes_of_pipe,
     sample_pipe,
     sample_womersley,
     walk_pipe,
 )
 from foamprb.flow.sampling import sample_with
+from foamprb.flow.slits import SlitArrays, gap_slit, normal_slit, planes_of_slit, sample_slit, walk_slit
 
 _FREE = -1
 
@@ -60,6 +62,11 @@ def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float,
 def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """No wall is near."""
     return math.inf, _FREE, -1
+
+
+def walls_free(flow: Any, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """No wall is near."""
+    return NO_PLANES
 
 
 def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
@@ -362,6 +369,43 @@ def extension(rate: float) -> AnalyticFlow:
     return linear(np.diag([rate, -rate / 2, -rate / 2]))
 
 
+def shear_over_wall(rate: float) -> AnalyticFlow:
+    """Simple shear u₁ = γ̇ x₃, 1/s, over the wall x₃ = 0, the patch ``wall``."""
+    return _between(SlitArrays(math.inf, float(rate)), (Patch("wall", "wall"),))
+
+
+def slit(height: float, mean_velocity: float) -> AnalyticFlow:
+    """Poiseuille flow along x between walls at z = 0, the patch ``lower``, and z = height, ``upper``.
+
+    Parameters
+    ----------
+    height, mean_velocity
+        m and m/s; the shear rate at a wall is 6 U/height.
+    """
+    arrays = SlitArrays(float(height), 6.0 * mean_velocity / height)
+    return _between(arrays, (Patch("lower", "wall"), Patch("upper", "wall")))
+
+
+def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow:
+    def inside(points: Floats) -> NDArray[np.bool_]:
+        within: NDArray[np.bool_] = (points[:, 2] >= 0.0) & (points[:, 2] <= parameters.height)
+        return within
+
+    return AnalyticFlow(
+        parameters,
+        {
+            "sample": sample_slit,
+            "walk": walk_slit,
+            "gap": gap_slit,
+            "walls": planes_of_slit,
+            "normal": normal_slit,
+            "recover": recover_free,
+        },
+        patches,
+        inside,
+    )
+
+
 def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> AnalyticFlow:
     """Poiseuille flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
 
@@ -444,6 +488,7 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
             "sample": sample,
             "walk": walk_pipe,
             "gap": gap_pipe,
+            "walls": planes_of_pipe,
             "normal": normal_pipe,
             "recover": recover_free,
         },

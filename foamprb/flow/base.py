@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from foamprb.body.tensor import Vector
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -23,6 +26,21 @@ class Patch(NamedTuple):
     type: str
     neighbour: str = ""
     """The patch to which a particle goes on that meets this one, if the two are coupled."""
+
+
+class Planes(NamedTuple):
+    """Up to three walls: their distances, m, infinite if there is none, and unit normals into the fluid."""
+
+    h1: float
+    n1: Vector
+    h2: float
+    n2: Vector
+    h3: float
+    n3: Vector
+
+
+NO_PLANES = Planes(math.inf, (0.0, 0.0, 0.0), math.inf, (0.0, 0.0, 0.0), math.inf, (0.0, 0.0, 0.0))
+"""Where no wall is near."""
 
 
 class Caveat(str):
@@ -77,6 +95,8 @@ class Flow(Sampled, Protocol):
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall, infinite when none is near;
+    * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as
+      ``foamprb.flow.planes`` has them; a flow without walls need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;

@@ -17,11 +17,12 @@ from foamprb.flow.mesh.folds import FOLDED, grade, is_there, trace
 from foamprb.flow.mesh.interfaces import overlaps
 from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
 from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
 
-LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, seek)
+LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, planes_among, seek)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
@@ -118,6 +119,7 @@ class MeshFlow:
         "sample": sample,
         "walk": walk,
         "gap": gap,
+        "walls": walls,
         "normal": normal,
         "cross": cross,
         "recover": recover,

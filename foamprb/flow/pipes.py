@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from foamprb.body.ellipsoid import reach
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.flow.base import Floats
+from foamprb.flow.base import NO_PLANES, Floats, Planes
 
 
 class PipeArrays(NamedTuple):
@@ -98,3 +101,17 @@ def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
         return -1.0, 0.0, 0.0
     r = math.sqrt(x[1] * x[1] + x[2] * x[2]) + 1e-300
     return 0.0, -x[1] / r, -x[2] / r
+
+
+def planes_of_pipe(flow: PipeArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """The wall of a pipe where it is nearest, and opposite."""
+    if chosen[0] == 0:
+        return NO_PLANES
+    n = normal_pipe(flow, 0, x)
+    r = math.sqrt(x[1] * x[1] + x[2] * x[2])
+    near, far = flow.radius - r, flow.radius + r
+    return Planes(
+        near if near < cut else math.inf, n,
+        far if far < cut else math.inf, (-n[0], -n[1], -n[2]),
+        math.inf, (0.0, 0.0, 0.0),
+    )  # fmt: skip

@@ -17,11 +17,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import corners, interpolate, inward, shape
 from foamprb.flow.walk import cross as cross_mesh
@@ -81,6 +82,11 @@ def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[
     return gap_mesh(flow.mesh, host, x, F, R)
 
 
+def walls(flow: SeriesArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """:func:`foamprb.flow.planes.walls`."""
+    return walls_mesh(flow.mesh, host, x, cut, chosen)
+
+
 def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
     """:func:`foamprb.flow.walk.normal`."""
     return inward(flow.mesh, triangle)
@@ -128,6 +134,7 @@ class SeriesFlow:
         "sample": sample,
         "walk": walk,
         "gap": gap,
+        "walls": walls,
         "normal": normal,
         "cross": cross,
         "recover": recover,

@@ -261,14 +261,15 @@ class Device(Executor):
         """Begin to carry the particles through steps."""
         self._arrange(steps)
         tracker = self._cloud.tracker
-        arrays, rows = self._copy(flow), cuda.to_device(self._rows, stream=self._work)
+        arrays, medium = self._copy((flow, tracker.medium))
+        rows = cuda.to_device(self._rows, stream=self._work)
         if len(self._rows):
             self._track[_blocks(len(self._rows)), _THREADS, self._work](
-                arrays, self._table, tracker.medium, self._state, rows,
+                arrays, self._table, medium, self._state, rows,
                 self._cloud.step, steps, tracker.dt, tracker.start, tracker.options, self._cloud.bounds,
                 self._mended,
             )  # fmt: skip
-        self._in_use = arrays, rows
+        self._in_use = arrays, medium, rows
         self._begun = steps
 
     def _arrange(self, steps: int) -> None:

@@ -36,7 +36,7 @@ def describe(job: Job) -> list[str]:
     settings, cloud = job.settings, job.cloud
     _log_flow(job)
     log.info("Selecting tractionModel %s", settings.traction)
-    forces = {"ellipsoidDrag": settings.drag, **settings.forces}
+    forces = {"ellipsoidDrag": settings.drag, **settings.forces, **settings.surroundings}
     named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
     log.info("Selecting particleForces %s", named)
     log.info("Selecting solid %s", cloud.models.material)
@@ -46,6 +46,9 @@ def describe(job: Job) -> list[str]:
         number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
+    for model in cloud.models.surroundings:
+        for line in model.notes(cloud.particles, cloud.flow_arrays(), cloud.flow):
+            log.info("    %s", line)
     log.info("Selecting patchInteractionModel %s, touching by the %s",
              settings.interaction, settings.touching)  # fmt: skip
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
@@ -202,6 +205,9 @@ class RunLog:
                 at = np.count_nonzero((p.status == status) & (p.patch == index))
                 if at:
                     log.info("        %-20s %10d", name, at)
+        for model in job.cloud.models.surroundings:
+            for line in model.summary(p, job.cloud.dt):
+                log.info("    %s", line)
         if counts[Status.PENDING]:
             log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
         if job.cloud.recovered:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.registry import FORCES
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.grammar import read_dictionary
@@ -83,7 +85,7 @@ def read_settings(
         with mistakes:
             models = read_entries(entries.SubModels, sub_models, also=coefficient_names())
         with mistakes:
-            drag, forces = _forces(_section(sub_models, "particleForces"))
+            drag, forces, surroundings = _forces(_section(sub_models, "particleForces"))
             gravity = read_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0)
         with mistakes:
             patches, touching = read_patch_interaction(sub_models)
@@ -111,6 +113,7 @@ def read_settings(
         patches=patches,
         functions=functions,
         forces=forces,
+        surroundings=surroundings,
         region=region,
     )
 
@@ -122,18 +125,25 @@ def _section(dictionary: Dictionary, key: str) -> Dictionary:
     return dictionary.entries[key].dictionary()
 
 
-def _forces(dictionary: Dictionary) -> tuple[entries.EllipsoidDrag, dict[str, Force]]:
-    """Read ``particleForces { ellipsoidDrag { … } gravity; … }``: the drag, and the others by name."""
+def _forces(
+    dictionary: Dictionary,
+) -> tuple[entries.EllipsoidDrag, dict[str, Force], dict[str, Surrounding]]:
+    """Read ``particleForces { ellipsoidDrag { … } gravity; wallLift { … } … }``: drag, and others by name."""
     mistakes = Mistakes()
     with mistakes:
-        drag = read_entries(entries.ParticleForces, dictionary, also=FORCES).ellipsoidDrag
+        drag = read_entries(entries.ParticleForces, dictionary, also=(*FORCES, *SURROUNDINGS)).ellipsoidDrag
     forces: dict[str, Force] = {}
     for name, kind in FORCES.items():
         with mistakes:
             if name in dictionary.entries:
                 forces[name] = read_entry(dictionary, name, kind)
+    surroundings: dict[str, Surrounding] = {}
+    for name, model in SURROUNDINGS.items():
+        with mistakes:
+            if name in dictionary.entries:
+                surroundings[name] = read_entry(dictionary, name, model)
     mistakes.raise_any()
-    return drag, forces
+    return drag, forces, surroundings
 
 
 def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:

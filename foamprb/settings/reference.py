@@ -18,6 +18,7 @@ from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.injection.shapes import SHAPES
 from foamprb.cloud.patches import INTERACTIONS
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
 from foamprb.dictionary.schema import Schema, allowed, rule_of
@@ -73,6 +74,8 @@ class Section(NamedTuple):
     """By the word that ``type`` selects."""
 
 
+_CHOSEN: dict[str, type[Schema]] = {**FORCES, **SURROUNDINGS}
+
 SECTIONS: dict[str, Section] = {
     "file": Section("", {"": entries.CloudProperties}),
     "solution": Section("solution", {"": entries.Solution}),
@@ -83,7 +86,7 @@ SECTIONS: dict[str, Section] = {
     "subModels": Section("subModels", {"": entries.SubModels}),
     "particleForces": Section(
         "subModels",
-        {"particleForces": entries.ParticleForces, **{f"particleForces/{k}": v for k, v in FORCES.items()}},
+        {"particleForces": entries.ParticleForces, **{f"particleForces/{k}": v for k, v in _CHOSEN.items()}},
     ),
     "injectionModels": Section("subModels/injectionModels/(name)", {"": entries.InjectionModel}),
     "injections": Section("subModels/injectionModels/(name)", models=INJECTIONS),
@@ -241,7 +244,7 @@ def _table(name: str) -> str:
         found = {text.name for text in shown}
         rows += [
             _row(f"`particleForces/{force}`", "", "absent", summary(kind))
-            for force, kind in FORCES.items()
+            for force, kind in _CHOSEN.items()
             if f"particleForces/{force}" not in found
         ]
         rows.sort(key=lambda row: row.split("`")[1])
@@ -293,12 +296,12 @@ def explain(word: str | None) -> list[str]:
             lines += _model_lines(name, wanted)
         if wanted in (name, section.path):
             lines += _section_lines(name)
-    if wanted in FORCES and not any(wanted in line for line in lines):
-        lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(FORCES[wanted]))}", ""]
+    if wanted in _CHOSEN and not any(wanted in line for line in lines):
+        lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
     if lines:
         return lines[:-1]
     names = {text.name.rpartition("/")[2] for text in everything if not text.why_idle}
-    names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *FORCES}
+    names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *_CHOSEN}
     close = suggestion(word, names)
     question = (
         close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists what there is."
@@ -315,7 +318,7 @@ def _overview() -> list[str]:
             t.name for t in entries_of(name) if not t.why_idle
         )
         if name == "particleForces":
-            words = ("ellipsoidDrag", *FORCES)
+            words = ("ellipsoidDrag", *_CHOSEN)
         lines += ["", f"{name}{'  (types)' if section.models else ''}", *_wrapped(", ".join(words))]
     return lines
 

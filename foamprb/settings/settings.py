@@ -12,6 +12,7 @@ from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.models import Injection
 from foamprb.cloud.injection.shapes import Shape
 from foamprb.cloud.limits import Limits
+from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.dictionary.constraints import Vector3
 from foamprb.settings.patches import Rule, Touching
@@ -58,11 +59,15 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: μ_s, Pa, and ν_s, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m."""
+    """A particle's material: μ_s, Pa, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m.
+
+    How it yields to pressure is said by ν_s or by the bulk modulus, Pa; if by neither, it hardly does.
+    """
 
     type: str
     shear_modulus: float | Distribution
-    poissons_ratio: float
+    poissons_ratio: float | None = None
+    bulk_modulus: float | None = None
     reference_shear_rate: float | None = None
     parameter: float = 0.0
     viscosity: float | Distribution = 0.0
@@ -100,4 +105,5 @@ class Settings:
     patches: tuple[Rule, ...]
     functions: Mapping[str, CloudFunction]
     forces: Mapping[str, Force]
+    surroundings: Mapping[str, Surrounding]
     region: str = ""

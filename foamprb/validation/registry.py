@@ -17,6 +17,7 @@ from foamprb.validation import (
     tension,
     tumbling,
     viscoelastic,
+    walls,
 )
 from foamprb.validation.case import Case
 
@@ -36,6 +37,8 @@ CASES: dict[str, Case] = {
     "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
     "surfaceTension": Case("beyond the paper; surface tension", tension.drops),
     "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
+    "wallLift": Case("beyond the paper; walls", walls.lift),
+    "wallMobility": Case("beyond the paper; walls", walls.mobility),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", settling.settling),

@@ -12,7 +12,7 @@ import pytest
 from cloud_dictionary import CLOUD, Reader
 from paths import PIPE, ROOT
 
-from foamprb import PressureGradient, VirtualMass
+from foamprb import PressureGradient, VirtualMass, WallLift
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS, ManualInjection, PatchInjection
 from foamprb.cloud.injection.shapes import SHAPES
@@ -127,7 +127,17 @@ MISTAKES = [
         "poissonsRatio 0.5",
         "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5.",
     ),
-    ("poissonsRatio 0.4;", "", "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1"),
+    (
+        "poissonsRatio 0.4; shearModulus",
+        "youngsModulus",
+        "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1",
+    ),
+    ("poissonsRatio 0.4;", "bulkModulus 0;", "solid/bulkModulus is '0'. Allowed: a number > 0"),
+    (
+        "poissonsRatio 0.4;",
+        "poissonsRatio 0.4; bulkModulus 1e5;",
+        "constantProperties/solid gives poissonsRatio and bulkModulus. Allowed: one of",
+    ),
     ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
     ("neoHooke", "neoHook", "solid/type is 'neoHook'. Did you mean 'neoHooke'?"),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
@@ -344,6 +354,18 @@ def test_forces(read: Reader) -> None:
     assert list(settings.forces.items()) == both
     with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
         read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
+
+
+def test_surroundings(read: Reader) -> None:
+    assert read().surroundings == {}
+    settings = read(
+        ("ellipsoidDrag;", 'ellipsoidDrag; wallLift { cutOff 20; mobility no; patches (wall "s.*"); }')
+    )
+    (model,) = settings.surroundings.values()
+    assert model == WallLift(cutOff=20.0, mobility=False, patches=("wall", "s.*"))
+    assert str(model) == "(cutOff 20, strain yes, mobility no, leastGap 0.01, patches (wall s.*))"
+    with pytest.raises(InputError, match=r"wallLift/cutOff is '1'. Allowed: a number > 2."):
+        read(("ellipsoidDrag;", "ellipsoidDrag; wallLift { cutOff 1; }"))
 
 
 def test_libs_must_be_files(read: Reader) -> None:

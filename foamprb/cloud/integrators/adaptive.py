@@ -20,9 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.error_control import longest_step, path_error, step_factor
-from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
-from foamprb.body.surface_tension import no_stress as interface
-from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.tensor import Vector, dot_vector
 from foamprb.cloud.block import (
     ROWS,
     Medium,
@@ -87,35 +85,11 @@ _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
 
 
-def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
-    """μ_s and λ_s, Pa, and the third parameter of the solid."""
-    return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
-
-
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     """μ_f K_a/m, 1/s, with K_a in units of R."""
     R = block[at.R * LANES + i]
     c = mu_f / (4.0 / 3.0 * math.pi * R * R * block[at.rho * LANES + i])
     return c * k[0], c * k[1], c * k[2]
-
-
-def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
-    """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
-    tau = kirchhoff(b_e, J, *solid(block, i))
-    s = interface(stretches, block[at.tension * LANES + i])
-    return (
-        tau[0] + s[0], tau[1], tau[2],
-        tau[3], tau[4] + s[1], tau[5],
-        tau[6], tau[7], tau[8] + s[2],
-    )  # fmt: skip
-
-
-def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
-    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
-    mu, lame, k = solid(block, i)
-    J = stretches[0] * stretches[1] * stretches[2]
-    squares = (b_e[0], b_e[4], b_e[8])
-    return elasticity(squares, J, mu, dilation * lame, k, block[at.tension * LANES + i])
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
@@ -182,10 +156,14 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
-def evaluate_shape(block: Any) -> None:
-    """Frame, stretches and integrals of the shape that is in the block: once before each slope."""
+def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
+    """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
+
+    Once before each slope; ``share`` says how far on the way to new_x the body is.
+    """
     new_frames(block)
     integrals_stage(block)
+    surround(block, medium, share)
 
 
 def _host_of(flow: Any, host: int, x: Vector, goal: Vector) -> int:
@@ -276,7 +254,7 @@ def track_adaptive(
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
-            look_around(flow, scratch, i, current[i], dt, medium)
+            look_around(flow, scratch, i, current[i], start + (current[i] + 1) * dt - t, medium)
             store9(block, at.new_F, i, load9(block, at.F, i))
             size = min(block[at.h * LANES + i], longest_step(l_f))
             rest = start + (current[i] + 1) * dt - t
@@ -287,15 +265,13 @@ def track_adaptive(
         if moving == 0:
             break
 
-        evaluate_shape(block)
-        surround(block, medium, False)
+        evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(len(members)):
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch.host[i], block, i)
         first_slope(block, medium)
-        evaluate_shape(block)
-        surround(block, medium, True)
+        evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
         thirds = 0
         for i in range(len(members)):
@@ -304,8 +280,7 @@ def track_adaptive(
                 _sample_middle(flow, scratch.host[i], block, i)
         if thirds:
             last_argument(block, medium)
-            evaluate_shape(block)
-            surround(block, medium, True)
+            evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
         accept_stage(block, tolerance)
 
@@ -346,9 +321,9 @@ def track_adaptive(
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
-            look_around(flow, scratch, i, last - 1, dt, medium)
-    evaluate_shape(block)
-    surround(block, medium, False)
+            store3(block, during.start_u, i, u)
+            look_around(flow, scratch, i, last - 1, 0.0, medium)
+    evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)

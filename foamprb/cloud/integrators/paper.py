@@ -223,14 +223,14 @@ def track_block(
                 block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
                 u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
-                look_around(flow, scratch, i, n, dt, medium)
+                look_around(flow, scratch, i, n, block[at.dt * LANES + i], medium)
             elif status[i] == PENDING:
                 moving += 1
         if moving == 0 or interrupted(scratch):
             break
 
         renew_frames(block)
-        surround(block, medium, False)
+        surround(block, medium, 0.0)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):

@@ -52,17 +52,16 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import roscoe as traction
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces.total import acceleration
 from foamprb.cloud.integrators.adaptive import (
     STEP_ROWS,
-    conservative_stress,
     drag_rate,
     during,
     end_acceleration,
     fluid_acceleration,
     judge_difference,
     keep_frame,
-    solid_elasticity,
     track_adaptive,
 )
 from foamprb.cloud.integrators.base import Integrator
@@ -155,6 +154,8 @@ def first_inertial(block: Any, medium: Medium) -> None:
         turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
+        # l_s there, until A is known: the surroundings ask for it.
+        store9(block, at.new_A, i, from_frame(Q, add(L, shape[1])))
         store9(block, during.start_Q, i, Q)
         store3(block, own.first_stretch, i, stretches)
         store3(block, own.first_alpha, i, g.alpha)
@@ -251,9 +252,10 @@ def last_inertial(block: Any, medium: Medium) -> None:
         change, turning = load9(block, own.change, i), load9(block, own.turning, i)
         bend = _bend(block, i, medium, Q0)
         shape = end_argument(n, resolvent(n, h), h, start, change, bend, k, turning)
-        F = load9(block, at.new_F, i)
+        F, L = load9(block, at.new_F, i), from_frame(Q0, add(start[0], shape[1]))
         _set_shape(block, i, Q0, dot(Q0, load9(block, at.F, i)), shape)
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
+        store9(block, at.new_A, i, choose(third, L, load9(block, at.new_A, i)))
 
         rate, moving = (
             load3(block, own.rate, i),

@@ -36,10 +36,10 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.integrators.adaptive import (
     STEP_ROWS,
-    conservative_stress,
     drag_rate,
     during,
     end_acceleration,
@@ -47,7 +47,6 @@ from foamprb.cloud.integrators.adaptive import (
     fluid_acceleration,
     judge_difference,
     keep_frame,
-    solid_elasticity,
     track_adaptive,
 )
 from foamprb.cloud.integrators.base import Integrator

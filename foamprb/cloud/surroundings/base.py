@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from typing import Any, ClassVar
+
+from foamprb.cloud.state import Particles
+from foamprb.flow.base import Flow, Patch
 
 __all__ = ["Surrounding"]
 
@@ -22,20 +25,58 @@ class Surrounding:
     place: ClassVar[str]
     """Global name by which its functions know where its rows begin."""
     look: ClassVar[Callable[..., None]]
-    """``look(flow, s, i, step, dt, medium, coefficients)``: store what it needs to know around the particle
-    in lane i, before each step h, and once more at the end, in the tracking step of that number and size Δt,
-    s. The lane's x and t are those of the start of h."""
+    """``look(flow, s, i, step, rest, medium, coefficients)``: store what it needs to know around the particle
+    in lane i, before each step h, and once more at the end, in the tracking step of that number, of which as
+    much (s) is left. The lane's x and t are those of the start of h."""
+    prepare: ClassVar[Callable[..., None] | None] = None
+    """As ``disturb``, before that of any model: for what others ask of this one."""
     disturb: ClassVar[Callable[..., None]]
-    """``disturb(block, medium, predicted, coefficients)``: change the rows u and l of all lanes. The state of
-    the lanes is that of the start of h or, where ``predicted``, new_x and new_F; frames and integrals are
-    those of new_F in both."""
+    """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
+    x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
+
+    @classmethod
+    def stages(cls) -> tuple[Callable[..., None], ...]:
+        """What is compiled once for all flows."""
+        return (cls.disturb,) if cls.prepare is None else (cls.prepare, cls.disturb)
 
     @property
-    def coefficients(self) -> Any:
-        """What its functions read of the entries, a tuple of numbers."""
+    def reach(self) -> float:
+        """Distance to which it wants walls to be listed, in radii of a particle."""
+        return 0.0
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """What its functions read: a tuple of numbers and arrays, of the same types for any patches."""
         return ()
 
-    @property
-    def bindings(self) -> Mapping[str, Callable[..., Any]]:
-        """Functions of its own, by the names by which others call them."""
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """Functions by the names by which they are called, for an integrator with or without inertia."""
         return {}
+
+    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
+        """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
+        return ""
+
+    def check(self, patches: Sequence[Patch]) -> None:  # noqa: ARG002
+        """Raise InputError if its entries name what is not among the flow's patches."""
+        return
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
+        """What a user should read before a run, line by line; ``arrays`` are what the flow's kernels read."""
+        return ()
+
+    def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
+        """What a user should read after a run with steps Δt (s), line by line."""
+        return ()
+
+    def __str__(self) -> str:
+        """The entries, for the log: ``(cutOff 10, strain yes)``."""
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        named = [f"{name} {_written(value)}" for name, value in values if value is not None]
+        return f"({', '.join(named)})" if named else ""
+
+
+def _written(value: Any) -> str:
+    """An entry's value as a dictionary has it."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"

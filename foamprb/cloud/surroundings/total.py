@@ -1,7 +1,7 @@
 """The surroundings that a cloud has chosen, one after the other, as the loop of every integrator calls them.
 
-The names ``looks`` and ``disturbs`` are bound to these (:func:`compose`) when the loop is compiled. Without
-any model both do nothing, and cost nothing.
+The names ``looks``, ``prepares`` and ``disturbs`` are bound to these (:func:`compose`) when the loop is
+compiled. Without any model they do nothing, and cost nothing.
 """
 
 from __future__ import annotations
@@ -13,39 +13,43 @@ from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces.total import bound
 from foamprb.cloud.layout import Layout, end, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.flow.base import Patch
 
 __all__ = ["coefficients", "compose", "look_around", "surround", "with_rows"]
 
 
-def look_around(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium) -> None:
+def look_around(flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium) -> None:
     """Let each model store what it needs to know around the particle in lane i.
 
     Parameters
     ----------
-    step, dt
-        Number and size, s, of the tracking step.
+    step
+        Number of the tracking step.
+    rest
+        How long it lasts from the lane's t on, s.
     """
-    looks(flow, s, i, step, dt, medium, medium.surroundings)
+    looks(flow, s, i, step, rest, medium, medium.surroundings)
 
 
-def surround(block: Any, medium: Medium, predicted: bool) -> None:
+def surround(block: Any, medium: Medium, share: float) -> None:
     """Change the fluid's u and l as the particles feel them, of all lanes.
 
     Parameters
     ----------
-    predicted
-        Whether they are those at new_x, not at x.
+    share
+        How far on the way from x to new_x the body is.
     """
-    disturbs(block, medium, predicted, medium.surroundings)
+    prepares(block, medium, share, medium.surroundings)
+    disturbs(block, medium, share, medium.surroundings)
 
 
 def no_look(
-    _flow: Any, _s: Scratch, _i: int, _step: int, _dt: float, _medium: Medium, _coefficients: Any
+    _flow: Any, _s: Scratch, _i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
     """Nothing is looked for."""
 
 
-def no_disturbance(_block: Any, _medium: Medium, _predicted: bool, _coefficients: Any) -> None:
+def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """The fluid is felt as the flow has it."""
 
 
@@ -56,31 +60,35 @@ def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
     return layout(*own.parts, *_places(own, surroundings).values())
 
 
-def compose(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, Any]:
+def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
     """The functions of these models together, by the names to which they are bound, and where their rows are.
 
     Parameters
     ----------
     own
         Layout of the integrator's block without them.
+    inertia
+        Whether the integrator's solid has inertia.
     """
     if not surroundings:
         return {}
     look: Callable[..., None] = no_look
     disturb: Callable[..., None] = no_disturbance
+    prepare: Callable[..., None] = no_disturbance
     found: dict[str, Any] = dict(_places(own, surroundings))
     for model in surroundings:
         look = bound(_look_and, others=look, model=type(model).look)
         disturb = bound(_disturb_and, others=disturb, model=type(model).disturb)
-        found |= model.bindings
-    return {**found, "looks": look, "disturbs": disturb}
+        prepare = bound(_disturb_and, others=prepare, model=type(model).prepare or no_disturbance)
+        found |= model.bindings(inertia)
+    return {**found, "looks": look, "prepares": prepare, "disturbs": disturb}
 
 
-def coefficients(surroundings: Sequence[Surrounding]) -> tuple[Any, ...]:
+def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
     """The coefficients of these models as the functions of :func:`compose` read them: ((…, 1st), 2nd)."""
     nested: tuple[Any, ...] = ()
     for model in surroundings:
-        nested = nested, model.coefficients
+        nested = nested, model.coefficients(patches)
     return nested
 
 
@@ -94,18 +102,21 @@ def _places(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple
     return places
 
 
-def _look_and(flow: Any, s: Scratch, i: int, step: int, dt: float, medium: Medium, coefficients: Any) -> None:
-    others(flow, s, i, step, dt, medium, coefficients[0])
-    model(flow, s, i, step, dt, medium, coefficients[1])
+def _look_and(
+    flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium, coefficients: Any
+) -> None:
+    others(flow, s, i, step, rest, medium, coefficients[0])
+    model(flow, s, i, step, rest, medium, coefficients[1])
 
 
-def _disturb_and(block: Any, medium: Medium, predicted: bool, coefficients: Any) -> None:
-    others(block, medium, predicted, coefficients[0])
-    model(block, medium, predicted, coefficients[1])
+def _disturb_and(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    others(block, medium, share, coefficients[0])
+    model(block, medium, share, coefficients[1])
 
 
 others: Any = no_look
 model: Any = no_look
 
 looks: Any = no_look
+prepares: Any = no_disturbance
 disturbs: Any = no_disturbance

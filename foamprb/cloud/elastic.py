@@ -1,0 +1,35 @@
+"""What the solid and its surface tension resist with, of a lane of a block."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
+from foamprb.body.surface_tension import no_stress as interface
+from foamprb.body.tensor import Tensor, Vector
+from foamprb.cloud.block import at
+from foamprb.cloud.layout import LANES
+
+
+def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
+    """μ_s and λ_s, Pa, and the third parameter of the solid."""
+    return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
+
+
+def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
+    """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
+    tau = kirchhoff(b_e, J, *solid(block, i))
+    s = interface(stretches, block[at.tension * LANES + i])
+    return (
+        tau[0] + s[0], tau[1], tau[2],
+        tau[3], tau[4] + s[1], tau[5],
+        tau[6], tau[7], tau[8] + s[2],
+    )  # fmt: skip
+
+
+def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
+    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
+    mu, lame, k = solid(block, i)
+    J = stretches[0] * stretches[1] * stretches[2]
+    squares = (b_e[0], b_e[4], b_e[8])
+    return elasticity(squares, J, mu, dilation * lame, k, block[at.tension * LANES + i])

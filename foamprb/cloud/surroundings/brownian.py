@@ -1,0 +1,160 @@
+"""The molecules of the fluid, which push a particle and its shape at random.
+
+The formulas are those of :mod:`foamprb.body.brownian`. Force and stress are drawn once per tracking step,
+with the resistances of its start, and stay the same in space's axes while the particle answers with those of
+the moment.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from foamprb.body.brownian import (
+    BOLTZMANN,
+    deviates,
+    random_force,
+    random_stress,
+    response,
+    shape_resistance,
+)
+from foamprb.body.tensor import Vector, add, dot_vector, from_frame, scale, select, to_frame, vector_dot
+from foamprb.body.wall import hindered_resistance
+from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.resistance import no_hindrance as hindrance_by_walls
+from foamprb.cloud.surroundings.resistance import resistances
+from foamprb.dictionary.constraints import Bounds, Meaning, Positive
+from foamprb.flow.base import Flow, Patch
+
+__all__ = ["BrownianMotion"]
+
+_KIND = np.uint64(1)
+"""What tells these random numbers from others of the same seed."""
+
+
+class BrownianRows(NamedTuple):
+    """What the molecules do to a particle during a tracking step."""
+
+    number: Annotated[int, Row(1, "", "number in the cloud", of="number")]
+    drawn: Annotated[int, Row(1, "", "tracking step, from 1 on, for which numbers were drawn last")]
+    duration: Annotated[int, Row(1, "s", "how long the force lasts; 0 once it is known")]
+    three: Annotated[int, Row(3, "1", "normal deviates of the force")]
+    nine: Annotated[int, Row(9, "1", "those of the stress")]
+    thermal_force: Annotated[int, Row(3, "N", "force of the molecules")]
+    thermal_stress: Annotated[int, Row(9, "Pa", "their stress")]
+
+
+thermal = offsets(BrownianRows)
+
+
+def draw(_flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any) -> None:
+    """Draw the numbers of lane i for a tracking step, where it begins."""
+    block = s.block
+    if block[thermal.drawn * LANES + i] != step + 1.0 and rest > 0.0:
+        block[thermal.drawn * LANES + i] = step + 1.0
+        block[thermal.duration * LANES + i] = rest
+        number = np.uint64(block[thermal.number * LANES + i])
+        three, nine = deviates(number, np.uint64(step), (coefficients[1], _KIND))
+        store3(block, thermal.three, i, three)
+        store9(block, thermal.nine, i, nine)
+
+
+def know_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    """Force and stress of the lanes whose numbers are new."""
+    kT = coefficients[0]
+    new = 0
+    for i in range(LANES):
+        new += block[thermal.duration * LANES + i] > 0.0
+    if new == 0 or share > 0.0:
+        return
+    for i in range(LANES):
+        duration = block[thermal.duration * LANES + i]
+        fresh = duration > 0.0
+        size = np.sqrt(2.0 * kT * medium.mu / select(fresh, duration, 1.0))
+        Q, stretches, R = load9(block, at.Q, i), load3(block, at.stretch, i), block[at.R * LANES + i]
+        K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
+        f = vector_dot(random_force(K, size, load3(block, thermal.three, i)), Q)
+        volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
+        r = shape_resistance(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
+        T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i)))
+        g = load3(block, thermal.thermal_force, i)
+        store3(
+            block,
+            thermal.thermal_force,
+            i,
+            (select(fresh, f[0], g[0]), select(fresh, f[1], g[1]), select(fresh, f[2], g[2])),
+        )
+        store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
+        block[thermal.duration * LANES + i] = 0.0
+
+
+def push(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Let the fluid move and strain as it would have to, to push as the molecules do.
+
+    u + K⁻¹·f_B/μ_f, without walls: theirs is a part of what they hinder. The gradient is that whose traction
+    on the body at rest is the stress.
+    """
+    c = 1.0 / medium.mu
+    for i in range(LANES):
+        Q, k = load9(block, at.Q, i), resistances(block, i)
+        f, u = dot_vector(Q, load3(block, thermal.thermal_force, i)), load3(block, at.u, i)
+        v = vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q)
+        store3(block, at.u, i, (u[0] + v[0], u[1] + v[1], u[2] + v[2]))
+    if coefficients[2] > 0.0:
+        for i in range(LANES):
+            Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
+            T = to_frame(Q, load9(block, thermal.thermal_stress, i))
+            l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
+            store9(block, at.l, i, add(load9(block, at.l, i), from_frame(Q, l)))
+
+
+def force_of_molecules(block: Any, i: int) -> Vector:
+    """Of lane i, N."""
+    return load3(block, thermal.thermal_force, i)
+
+
+_SEED = Bounds(0.0, 2.0**32 - 1.0, False, False, "a whole number >= 0 and < 4294967296")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BrownianMotion(Surrounding):
+    """Push by the fluid's molecules: ``BrownianMotion { T 293.15; }``."""
+
+    T: Annotated[float, Positive, Meaning("temperature", "K")]
+    seed: Annotated[int, _SEED, Meaning("runs with the same seed have the same random numbers")] = 1
+    shape: Annotated[bool, Meaning("whether molecules turn and deform the particle as well")] = True
+
+    rows: ClassVar = BrownianRows
+    place: ClassVar = "thermal"
+    look: ClassVar = staticmethod(draw)
+    prepare: ClassVar = staticmethod(know_force)
+    disturb: ClassVar = staticmethod(push)
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """k_B T, J; the seed; whether the shape fluctuates."""
+        return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """Walls hold back what the molecules push, too."""
+        return {"thermal_force": force_of_molecules}
+
+    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
+        """Not with the paper's, which takes the resistances where its step starts."""
+        if integrator == "paper":
+            return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"
+        return ""
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
+        """How far molecules take the particles, and how much they deform them."""
+        if p.size == 0:
+            return ()
+        kT = BOLTZMANN * self.T
+        strain = np.sqrt(2.5 * kT / (p.mu * 4.0 / 3.0 * math.pi * p.R**3))
+        return (f"{'thermal strain':24s} {strain.min():.3g} to {strain.max():.3g}",)

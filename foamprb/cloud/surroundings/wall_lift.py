@@ -1,0 +1,355 @@
+"""What walls send back to a soft particle near them: lift, strain, and hindered motion.
+
+The formulas are those of :mod:`foamprb.body.wall`. The walls around a particle are looked for once before
+each step; within it they are planes.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.ellipsoid import reach
+from foamprb.body.material import finger_of_sphere as finger
+from foamprb.body.stokes import mobility, velocity_gradient
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    add,
+    dev,
+    dot,
+    dot_vector,
+    from_frame,
+    inverse,
+    scale,
+    select,
+    skew,
+    sym,
+    to_frame,
+    transpose,
+    vector_dot,
+)
+from foamprb.body.traction import disturbance
+from foamprb.body.wall import (
+    hindered_resistance,
+    hindrance,
+    stresslet_gradient,
+    stresslet_velocity,
+)
+from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.elastic import conservative_stress
+from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.resistance import resistances
+from foamprb.compile.link import link
+from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.analytic import walls_free as walls
+from foamprb.flow.base import WALLS, Floats, Flow, Patch
+
+__all__ = ["CLOSE", "WallLift"]
+
+CLOSE = 2.0
+"""Distance of the centre from a wall, in radii, within which the steps of a particle are counted."""
+_FAR = 1e9
+"""Distance of a wall that is not there, in radii, or in metres in a lane without a particle."""
+_REPEATS = 2
+
+
+class WallRows(NamedTuple):
+    """The walls around a particle, and what they send back."""
+
+    wall_distance: Annotated[int, Row(3, "m", "distances of the centre from up to three walls", _FAR)]
+    wall_normal: Annotated[int, Row(9, "1", "their unit normals into the fluid")]
+    counted: Annotated[int, Row(1, "", "tracking step, from 1 on, at which walls were last looked for")]
+    close: Annotated[int, Row(1, "", "steps begun near a wall", of="close", saved=True)]
+    stresslet: Annotated[int, Row(9, "N m", "stresslet of the particle")]
+    sent_back: Annotated[int, Row(9, "1/s", "velocity gradient that the walls send back")]
+    least_gap: Annotated[int, Row(1, "1", "least gap, in radii", 1.0)]
+    wall_lift: Annotated[int, Row(3, "m/s", "velocity that they send back")]
+    hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
+
+
+near = offsets(WallRows)
+
+
+def look_for_walls(
+    flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Put the walls around the particle in lane i into its rows, and count the step if one is close."""
+    cut_off, least_gap, _, _, chosen = coefficients
+    block = s.block
+    R = block[at.R * LANES + i]
+    p = walls(flow, s.host[i], load3(block, at.x, i), cut_off * R, chosen)
+    store3(block, near.wall_distance, i, (min(p.h1, _FAR * R), min(p.h2, _FAR * R), min(p.h3, _FAR * R)))
+    block[near.least_gap * LANES + i] = least_gap
+    store3(block, near.wall_normal, i, p.n1)
+    store3(block, near.wall_normal + 3, i, p.n2)
+    store3(block, near.wall_normal + 6, i, p.n3)
+    if block[near.counted * LANES + i] != step + 1.0:
+        block[near.counted * LANES + i] = step + 1.0
+        if min(p.h1, p.h2, p.h3) < CLOSE * R:
+            block[near.close * LANES + i] += 1.0
+
+
+def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    """Add what the walls send back of the particles' stresslets to u and l, and hold back what falls.
+
+    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition.
+    """
+    _, least_gap, strain, hindered, _ = coefficients
+    most = 0
+    for i in range(LANES):
+        h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
+        most = max(most, (h[0] < far) + (h[1] < far) + (h[2] < far))
+    if most == 0:
+        return
+    for i in range(LANES):
+        nothing = scale(0.0, load9(block, at.l, i))
+        store9(block, near.sent_back, i, nothing)
+        store9(block, near.hindrance, i, nothing)
+        store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
+        store9(block, near.stresslet, i, stresslet(block, i, medium, share, nothing))
+    for _ in range(_REPEATS):
+        for i in range(LANES):
+            store9(block, near.sent_back, i, scale(0.0, load9(block, at.l, i)))
+        for wall in range(most):
+            for i in range(LANES):
+                there, n, d, _ = wall_at(block, i, wall, share, least_gap)
+                E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+                store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), scale(there, E)))
+        for i in range(LANES):
+            E = load9(block, near.sent_back, i)
+            store9(block, near.stresslet, i, stresslet(block, i, medium, share, scale(strain, E)))
+    for wall in range(most):
+        for i in range(LANES):
+            there, n, d, _ = wall_at(block, i, wall, share, least_gap)
+            v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+            w = load3(block, near.wall_lift, i)
+            store3(block, near.wall_lift, i, (w[0] + there * v[0], w[1] + there * v[1], w[2] + there * v[2]))
+    if hindered > 0.0:
+        for wall in range(most):
+            for i in range(LANES):
+                W = hindrance_of(block, i, wall, share, least_gap)
+                store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
+        for i in range(LANES):
+            v = held_back(block, i, medium)
+            w = load3(block, near.wall_lift, i)
+            store3(block, near.wall_lift, i, (w[0] + v[0], w[1] + v[1], w[2] + v[2]))
+    for i in range(LANES):
+        h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
+        some = (h[0] < far) | (h[1] < far) | (h[2] < far)
+        l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
+        store9(block, at.l, i, choose(some, add(l, scale(strain, load9(block, near.sent_back, i))), l))
+        store3(
+            block,
+            at.u,
+            i,
+            (
+                select(some, u[0] + w[0], u[0]),
+                select(some, u[1] + w[1], u[1]),
+                select(some, u[2] + w[2], u[2]),
+            ),
+        )
+
+
+def wall_at(
+    block: Any, i: int, wall: int, share: float, least_gap: float
+) -> tuple[float, Vector, float, float]:
+    """1 if lane i has that wall, else 0; its normal, the distance of the centre from it and the gap, m.
+
+    The gap is no less than so many radii, and the distance agrees with it.
+    """
+    R, h = block[at.R * LANES + i], block[(near.wall_distance + wall) * LANES + i]
+    n = load3(block, near.wall_normal + 3 * wall, i)
+    there = select(h < 0.5 * _FAR * R, 1.0, 0.0)
+    if share > 0.0:
+        x, y = load3(block, at.x, i), load3(block, at.new_x, i)
+        h = h + share * ((y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2])
+    extent = reach(R, load9(block, at.new_F, i), n)
+    gap = np.maximum(h - extent, least_gap * R)
+    return there, n, gap + extent, gap
+
+
+def shape_of(block: Any, i: int) -> Tensor:
+    """Shape tensor R² F Fᵀ of lane i, m²."""
+    F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
+    return scale(R * R, dot(F, transpose(F)))
+
+
+def stresslet(block: Any, i: int, medium: Medium, share: float, E: Tensor) -> Tensor:
+    """S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m, with E (1/s) added to the gradient of the flow."""
+    Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
+    l_f = to_frame(Q, add(load9(block, at.l, i), E))
+    relative = add(l_f, scale(-1.0, body_gradient(block, i, medium, l_f, share)))
+    s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
+    R = block[at.R * LANES + i]
+    volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
+    return from_frame(Q, scale(volume * medium.mu, dev(sym(s))))
+
+
+def balanced_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
+    """l_s of a body without inertia in a flow with the gradient l_f, both in the particle frame, 1/s."""
+    Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
+    m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
+    b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
+    return velocity_gradient(m, scale(1.0 / medium.mu, tau), l_f)
+
+
+def moving_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
+    """l_s of a body with inertia, which is its state, in the particle frame, 1/s."""
+    Q = load9(block, at.Q, i)
+    if share > 0.0:
+        return to_frame(Q, load9(block, at.new_A, i))
+    return to_frame(Q, dot(load9(block, at.A, i), inverse(load9(block, at.F, i))))
+
+
+def load_of(block: Any, i: int, medium: Medium) -> Vector:
+    """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
+    Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
+    _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    a = (push[0] - inertia * Du_Dt[0], push[1] - inertia * Du_Dt[1], push[2] - inertia * Du_Dt[2])
+    R = block[at.R * LANES + i]
+    m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
+    return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
+
+
+def no_thermal_force(_block: Any, _i: int) -> Vector:
+    """Molecules do not push."""
+    return 0.0, 0.0, 0.0
+
+
+def hindrance_of(block: Any, i: int, wall: int, share: float, least_gap: float) -> Tensor:
+    """W of one wall, in the particle frame; 0 if lane i does not have it."""
+    there, n, h, gap = wall_at(block, i, wall, share, least_gap)
+    return scale(there, hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap))
+
+
+def hindrance_at_start(block: Any, i: int) -> Tensor:
+    """W of all walls around lane i at the start of a step, in the particle frame."""
+    least_gap = block[near.least_gap * LANES + i]
+    W = add(hindrance_of(block, i, 0, 0.0, least_gap), hindrance_of(block, i, 1, 0.0, least_gap))
+    return add(W, hindrance_of(block, i, 2, 0.0, least_gap))
+
+
+def held_back(block: Any, i: int, medium: Medium) -> Vector:
+    """What the walls take off the velocity relative to the fluid, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
+    Q, k = load9(block, at.Q, i), resistances(block, i)
+    f = dot_vector(Q, load_of(block, i, medium))
+    v = dot_vector(inverse(hindered_resistance(k, load9(block, near.hindrance, i))), f)
+    c = 1.0 / medium.mu
+    w = (c * (v[0] - f[0] / k[0]), c * (v[1] - f[1] / k[1]), c * (v[2] - f[2] / k[2]))
+    return vector_dot(w, Q)
+
+
+def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, chosen: NDArray[np.int8]) -> Floats:
+    """Distances of the particles from the nearest wall, in radii, (n,); infinite from ``cut_off`` on."""
+    nearest = np.empty(p.size)
+    link(_nearest_walls, flow.kernels)(arrays, p, cut_off, chosen, nearest)
+    return nearest
+
+
+def _nearest_walls(
+    flow: Any, p: Particles, cut_off: float, chosen: NDArray[np.int8], nearest: Floats
+) -> None:
+    for k in range(len(nearest)):
+        nearest[k] = math.inf
+        if p.host[k] >= 0:
+            x, R = (p.x[k, 0], p.x[k, 1], p.x[k, 2]), p.R[k]
+            found = walls(flow, p.host[k], x, cut_off * R, chosen)
+            nearest[k] = min(found.h1, found.h2, found.h3) / R
+
+
+body_gradient: Callable[..., Tensor] = balanced_gradient
+thermal_force: Callable[..., Vector] = no_thermal_force
+
+
+_MORE_THAN_CLOSE = Bounds(CLOSE, math.inf, True, True, f"a number > {CLOSE:g}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class WallLift(Surrounding):
+    """What walls send back of a soft particle: ``wallLift;`` or ``wallLift { cutOff 10; }``."""
+
+    cutOff: Annotated[
+        float, _MORE_THAN_CLOSE, Meaning("distance of the centre beyond which a wall does not count", "radii")
+    ] = 10.0
+    strain: Annotated[bool, Meaning("whether the gradient that walls send back deforms the particle")] = True
+    mobility: Annotated[bool, Meaning("whether walls hinder what settles; needs `stokes`")] = True
+    leastGap: Annotated[
+        float, Positive, Meaning("gap below which motion across is hindered no more: roughness", "radii")
+    ] = 0.01
+    patches: (
+        Annotated[Words, Meaning("patches that count: names, or patterns in quotes", "", "walls")] | None
+    ) = None
+
+    rows: ClassVar = WallRows
+    place: ClassVar = "near"
+    look: ClassVar = staticmethod(look_for_walls)
+    disturb: ClassVar = staticmethod(lift)
+
+    @property
+    def reach(self) -> float:
+        """Distance to which it wants walls to be listed, in radii."""
+        return self.cutOff
+
+    def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
+        """1 for each patch that counts, else 0."""
+        if self.patches is None:
+            return np.array([patch.type in WALLS for patch in patches], dtype=np.int8)
+        named = [any(re.fullmatch(p, patch.name) for p in self.patches) for patch in patches]
+        return np.array(named, dtype=np.int8)
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:
+        """What the functions read."""
+        strain, hindered = float(self.strain), float(self.mobility)
+        return self.cutOff, self.leastGap, strain, hindered, self.chosen(patches)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
+        """How the body's own motion is known."""
+        motion: Mapping[str, Callable[..., Any]] = {
+            "body_gradient": moving_gradient if inertia else balanced_gradient
+        }
+        return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
+
+    def refuses(self, inertia: bool, name: str) -> str:
+        """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
+        if self.mobility and inertia:
+            return (
+                f"wallLift/mobility is yes, which needs the integrator stokes, not {name}: "
+                "set mobility no, or integrationSchemes/shape stokes"
+            )
+        return ""
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:
+        """How far the particles are from the walls where they start."""
+        nearest = nearest_walls(p, arrays, flow, self.cutOff, self.chosen(flow.patches))
+        some = nearest[np.isfinite(nearest)]
+        beyond = len(nearest) - len(some)
+        lines = (
+            [f"{'distance to walls/radius':24s} {some.min():.4g} to {some.max():.4g}"] if len(some) else []
+        )
+        return [*lines, f"{'beyond cutOff':24s} {beyond}"]
+
+    def summary(self, p: Particles, dt: float) -> Sequence[str]:
+        """How often particles were close to a wall."""
+        steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
+        close, some = p.close.sum() / max(steps, 1.0), np.count_nonzero(p.close)
+        return [f"{f'steps within {CLOSE:g} radii of walls':36s} {close:.2%}, of {some} particles"]
+
+    def check(self, patches: Sequence[Patch]) -> None:
+        """Raise InputError if a pattern matches no patch."""
+        for pattern in self.patches or ():
+            if not any(re.fullmatch(pattern, patch.name) for patch in patches):
+                names = [patch.name for patch in patches]
+                text = f"wallLift/patches is {pattern}, which is no patch. {suggestion(pattern, names)}"
+                raise InputError(text.removesuffix("."))

@@ -1,0 +1,105 @@
+"""The walls around a point, each as a plane: what the images of a particle behind them are made of."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.tensor import Vector
+from foamprb.flow.base import NO_PLANES, Planes
+from foamprb.flow.mesh.arrays import MeshArrays
+from foamprb.flow.walk import inward, nearest_point
+
+_SAME_WALL = math.sqrt(0.5)
+_ON_EDGE = 1e-9
+
+
+def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """The walls around x that are nearer than ``cut`` (m).
+
+    A wall is a boundary triangle on which the perpendicular from x ends, or, if one is nearer than all those,
+    the point of an edge or a corner that is the nearest of all. Of those whose normals are within 45° of each
+    other, facets of one curved wall, the nearest counts; of more than three the three nearest.
+
+    Parameters
+    ----------
+    chosen
+        1 for each patch that counts, else 0.
+    """
+    cell = flow.tets[host, 0] - flow.n_points
+    begin, end = flow.near_start[cell], flow.near_start[cell + 1]
+    if begin == end:
+        return NO_PLANES
+    return planes_among(flow, begin, end, x, cut, chosen)
+
+
+def planes_among(
+    flow: MeshArrays, begin: int, end: int, x: Vector, cut: float, chosen: NDArray[np.int8]
+) -> Planes:
+    """Those among the wall triangles that are listed from ``begin`` to ``end``, as :func:`walls`."""
+    planes = NO_PLANES
+    nearest, towards = cut, (0.0, 0.0, 0.0)
+    nodes = flow.nodes
+    for k in range(begin, end):
+        triangle = flow.near[k]
+        if chosen[flow.triangle_patch[triangle]] == 0:
+            continue
+        a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
+        ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
+        n = inward(flow, triangle)
+        h = -_dot(n, ra)
+        # What lies behind a wall, or beyond the cut.
+        if h <= 0.0 or h >= cut:
+            continue
+        rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
+        rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
+        if _over(n, ra, rb, rc):
+            planes = _with(planes, h, n)
+        else:
+            p = nearest_point(ra, rb, rc)
+            distance = math.sqrt(_dot(p, p))
+            if distance < nearest:
+                nearest, towards = distance, (-p[0] / distance, -p[1] / distance, -p[2] / distance)
+    if nearest < cut and nearest < min(planes.h1, planes.h2, planes.h3):
+        planes = _with(planes, nearest, towards)
+    return planes
+
+
+def _over(n: Vector, a: Vector, b: Vector, c: Vector) -> bool:
+    """Whether the perpendicular from the origin to the plane of a triangle, with normal n, ends in it."""
+    p, q, r = _turn(n, a, b), _turn(n, b, c), _turn(n, c, a)
+    least = -_ON_EDGE * abs(p + q + r)
+    return bool((p >= least and q >= least and r >= least) or (p <= -least and q <= -least and r <= -least))
+
+
+def _turn(n: Vector, a: Vector, b: Vector) -> Any:
+    """n·(a × b)."""
+    return (
+        n[0] * (a[1] * b[2] - a[2] * b[1])
+        + n[1] * (a[2] * b[0] - a[0] * b[2])
+        + n[2] * (a[0] * b[1] - a[1] * b[0])
+    )
+
+
+def _with(planes: Planes, h: float, n: Vector) -> Planes:
+    """With one wall more, unless it is another facet of one that is there."""
+    h1, n1, h2, n2, h3, n3 = planes
+    if _dot(n, n1) > _SAME_WALL:
+        return Planes(h, n, h2, n2, h3, n3) if h < h1 else planes
+    if _dot(n, n2) > _SAME_WALL:
+        return Planes(h1, n1, h, n, h3, n3) if h < h2 else planes
+    if _dot(n, n3) > _SAME_WALL:
+        return Planes(h1, n1, h2, n2, h, n) if h < h3 else planes
+    # In the place of the farthest: where there is none is farther than any.
+    if h1 >= h2 and h1 >= h3:
+        return Planes(h, n, h2, n2, h3, n3) if h < h1 else planes
+    if h2 >= h3:
+        return Planes(h1, n1, h, n, h3, n3) if h < h2 else planes
+    return Planes(h1, n1, h2, n2, h, n) if h < h3 else planes
+
+
+def _dot(p: Vector, q: Vector) -> Any:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

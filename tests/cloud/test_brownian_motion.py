@@ -1,0 +1,130 @@
+"""Brownian motion in the loop: diffusion, equilibria, and numbers that depend on nothing but their number."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.stats import kstest
+
+from foamprb.body.brownian import BOLTZMANN
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Rebound
+from foamprb.cloud.state import set_rest_shape, spheres
+from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
+from foamprb.flow import analytic
+from foamprb.validation.references import wall as ref
+
+MU_F, R, T = 1e-3, 0.5e-6, 300.0
+KT = BOLTZMANN * T
+D = KT / (6.0 * np.pi * MU_F * R)
+WATER = Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))
+STILL = analytic.linear(np.zeros((3, 3)))
+STIFF = 1e4
+MOLECULES = (BrownianMotion(T=T),)
+
+
+def beads(n, mu=STIFF, rho=1000.0, height=0.0):
+    return spheres(np.tile([0.0, 0.0, height], (n, 1)), d=2.0 * R, rho=rho, mu=mu, poissons_ratio=0.4999)
+
+
+def carried(p, steps, dt, *, flow=STILL, medium=WATER, models=MOLECULES, threads=1,
+            integrator="stokes"):  # fmt: skip
+    chosen = Models(integrator=integrator, surroundings=models)
+    cloud = Cloud(p, flow, medium, [Rebound()] * len(flow.patches), dt, chosen, threads=threads)
+    cloud.advance(steps)
+    return p
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+def test_a_sphere_diffuses_as_einstein_says(integrator):
+    """Variance of each component to four times its standard error, √(2/n); no correlation."""
+    n, steps, dt = 4000, 5, 1e-3
+    p = carried(beads(n), steps, dt, integrator=integrator, models=(BrownianMotion(T=T, shape=False),))
+    moments = p.x.T @ p.x / n / (2.0 * D * steps * dt)
+    np.testing.assert_allclose(moments, np.eye(3), atol=4.0 * np.sqrt(2.0 / n))
+    assert np.abs(p.x.mean(axis=0)).max() < 4.0 * np.sqrt(2.0 * D * steps * dt / n)
+
+
+@pytest.mark.parametrize("ratio", [3.0, 1.0 / 3.0])
+def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
+    n, dt = 4000, 1e-4
+    p = beads(n)
+    set_rest_shape(p, (ratio, 1.0, 1.0))
+    axis = p.F.reshape(-1, 3, 3)[:, :, 0] / np.linalg.norm(p.F.reshape(-1, 3, 3)[:, :, 0], axis=1)[:, None]
+    carried(p, 1, dt)
+    along, across = ref.perrin_translation(ratio)
+    variances = (p.x**2).mean(axis=0) / (2.0 * D * dt)
+    tolerance = 4.0 * np.sqrt(2.0 / n)
+    assert variances == pytest.approx([1.0 / along, 1.0 / across, 1.0 / across], rel=tolerance)
+    # The image of the rest shape's axis has turned.
+    _, turns = ref.perrin_rotation(ratio)
+    new = p.F.reshape(-1, 3, 3)[:, :, 0]
+    new /= np.linalg.norm(new, axis=1)[:, None]
+    rotation = KT / (8.0 * np.pi * MU_F * R**3) / turns
+    tilted = ((new - axis)[:, 1:] ** 2).mean(axis=0) / (2.0 * rotation * dt)
+    assert tilted == pytest.approx([1.0, 1.0], rel=1.5 * tolerance)
+
+
+def test_heights_over_a_wall_come_to_boltzmanns():
+    """With the hindered mobility, whose drift lets heights come to exp(−W h/kT) and no other distribution."""
+    n = 1500
+    rho = 1000.0 + KT / (R * 9.81 * 4.0 / 3.0 * np.pi * R**3)
+    heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
+    p = beads(n, rho=rho)
+    random = np.random.default_rng(3)
+    # At equilibrium, in which it is to stay: gaps over R are exponential.
+    p.x[:, 2] = R * (1.0 + random.exponential(1.0, n))
+    dt = 2e-3 * R**2 / D
+    models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
+    carried(p, 500, dt, flow=analytic.shear_over_wall(0.0), medium=heavy, models=models)
+    gaps = p.x[:, 2] / R - 1.0
+    assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
+    assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3
+
+
+def test_shapes_come_to_their_weight():
+    """Mean stored energy of 5/2 kT, of five shears, and a little less as they are not small."""
+    n, mu = 1000, 50.0
+    p = beads(n, mu=mu)
+    dt = 0.1 * 1.5 * MU_F / mu
+    carried(p, 100, dt)
+    F = p.F.reshape(-1, 3, 3)
+    energy = 0.5 * mu * (np.einsum("nij,nij->n", F, F) - 3.0) * 4.0 / 3.0 * np.pi * R**3 / KT
+    expected = ref.mean_shape_energy(KT / (mu * 4.0 / 3.0 * np.pi * R**3))
+    assert expected == pytest.approx(2.5, rel=0.01)
+    assert energy.mean() == pytest.approx(expected, rel=4.0 * np.sqrt(0.4 / n) + 0.03)
+
+
+def test_numbers_depend_on_the_particle_and_the_step_alone():
+    """Not on the threads, nor on how steps are taken in turns, nor on the seed of others."""
+    whole = carried(beads(100), 6, 1e-4)
+    threads = carried(beads(100), 6, 1e-4, threads=3)
+    assert np.array_equal(whole.x, threads.x)
+    p = beads(100)
+    cloud = Cloud(p, STILL, WATER, (), 1e-4,
+                  Models(integrator="stokes", surroundings=(BrownianMotion(T=T),)), threads=1)  # fmt: skip
+    for _ in range(3):
+        cloud.advance(2)
+    assert np.array_equal(whole.x, p.x)
+    assert np.array_equal(whole.F, p.F)
+    other = carried(beads(100), 6, 1e-4, models=(BrownianMotion(T=T, seed=2),))
+    assert abs(np.corrcoef(other.x[:, 0], whole.x[:, 0])[0, 1]) < 0.4
+
+
+def test_a_first_step_that_is_short_has_the_variance_of_its_length():
+    n, dt = 3000, 1e-3
+    p = beads(n)
+    p.t0[:] = 0.75 * dt
+    carried(p, 1, dt, models=(BrownianMotion(T=T, shape=False),))
+    assert (p.x**2).mean() / (2.0 * D * 0.25 * dt) == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / 3.0 / n))
+
+
+def test_the_papers_integrator_is_refused():
+    with pytest.raises(
+        InputError, match="BrownianMotion needs the integrator stokes or rosenbrock, not paper"
+    ):
+        carried(beads(1), 1, 1e-4, integrator="paper")

@@ -1,0 +1,287 @@
+"""Soft particles near walls, carried by the loop: lift, slip, hindered settling, and which walls are seen."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches, pipe, pipe_patches
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Escape, Rebound, Stick
+from foamprb.cloud.state import concatenate, spheres
+from foamprb.cloud.surroundings.wall_lift import WallLift, nearest_walls
+from foamprb.cloud.tracker import Models
+from foamprb.compile.link import link
+from foamprb.errors import InputError
+from foamprb.flow import analytic
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.planes import walls
+from foamprb.validation.references import wall as ref
+
+R, RATE, MU_F = 1e-6, 100.0, 1e-3
+OIL = Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))
+STILL = analytic.shear_over_wall(0.0)
+
+
+def particles(heights, Ca=0.1, rho=1000.0):
+    x = [(0.0, 0.0, h * R) for h in np.atleast_1d(heights)]
+    return spheres(x, d=2.0 * R, rho=rho, mu=MU_F * RATE / np.asarray(Ca), poissons_ratio=0.4999)
+
+
+def carried(p, steps, *, model=None, medium=OIL, flow=None, integrator="stokes", dt=0.02 / RATE, **more):
+    flow = flow or analytic.shear_over_wall(RATE)
+    model = (model if model is not None else WallLift(cutOff=1000.0),)
+    models = Models(integrator=integrator, surroundings=model, **more)
+    Cloud(p, flow, medium, [Rebound()] * len(flow.patches), dt, models, threads=1).advance(steps)
+    return p
+
+
+def lift_coefficient(p):
+    return p.v[:, 2] * p.x[:, 2] ** 2 / (RATE * R**3)
+
+
+def test_a_soft_body_far_above_a_wall_in_shear_rises_as_its_stresslet_says():
+    """To (R/h)², 4e-4 at 50R, of the next order."""
+    Ca = np.array([0.01, 0.1, 0.2, 0.4, 1.0])
+    p = carried(particles([50.0] * len(Ca), Ca), 1200)
+    expected = [ref.lift_coefficient(c) for c in Ca]
+    assert lift_coefficient(p) == pytest.approx(expected, rel=2.5e-3)
+    assert expected[0] == pytest.approx(225.0 / 224.0 * 0.01, rel=1e-3)
+
+
+def test_its_height_grows_with_the_cube_root_of_time():
+    start, steps = 20.0, 20000
+    p = carried(particles(start, Ca=0.4), steps, dt=0.1 / RATE)
+    risen = p.x[0, 2] / R - start
+    expected = ref.lifted_height(start, ref.lift_coefficient(0.4), 0.1 * steps) - start
+    assert expected > 1.5
+    # 5/3 (R/h)² of the point stresslet is not there.
+    assert risen == pytest.approx(expected, rel=0.01)
+
+
+def test_a_stiff_sphere_lags_behind_the_shear():
+    """By (5/16) γ̇ R³/h², from its stresslet 10/3 π μ γ̇ R³."""
+    p = carried(particles(20.0, Ca=1e-3), 20, dt=1e-2 / RATE)
+    lag = RATE * p.x[0, 2] - p.v[0, 0]
+    assert lag == pytest.approx(5.0 / 16.0 * RATE * R / 20.0**2, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("h", "tolerance"), [(10.0, 2e-3), (5.0, 4e-3), (3.0, 1e-2), (2.0, 0.04), (1.5, 0.08)]
+)
+def test_lift_and_rates_are_those_of_the_stokes_flow_around_the_body(h, tolerance):
+    """In the shape that it has after a time, against the method of fundamental solutions."""
+    Ca = 0.1
+    p = carried(particles(h, Ca), 200)
+    F = p.F[0].reshape(3, 3)
+    height = p.x[0, 2] / R
+    body = ref.Ellipsoid(F, height).free_motion(F @ F.T / Ca, ref.SHEAR_OVER_WALL)
+    assert p.v[0, 2] / (RATE * R) == pytest.approx(body.v[2], rel=tolerance)
+    l = p.A[0].reshape(3, 3) @ np.linalg.inv(F) / RATE
+    np.testing.assert_allclose(l, body.l, atol={3.0: 2e-3, 2.0: 0.01, 1.5: 0.03}.get(h, 1e-3))
+
+
+def settling_speed():
+    return 2.0 / 9.0 * R**2 * 1000.0 * 9.81 / MU_F
+
+
+@pytest.mark.parametrize("h", [10.0, 3.0, 1.5, 1.1])
+def test_a_stiff_sphere_settles_towards_a_wall_as_brenner_says(h):
+    heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
+    p = carried(particles(h, 1e-4, rho=2000.0), 20, medium=heavy, flow=STILL, dt=1e-6)
+    assert -p.v[0, 2] * ref.brenner_drag(h) == pytest.approx(settling_speed(), rel=6e-3)
+
+
+@pytest.mark.parametrize(("h", "drag"), ref.GOLDMAN_COX_BRENNER)
+def test_a_stiff_sphere_settles_along_a_wall_as_goldman_cox_and_brenner_say(h, drag):
+    """Within 1.5 %: theirs may turn not, this one may."""
+    along = Medium(MU_F, 1000.0, (9.81, 0.0, 0.0))
+    p = carried(particles(h, 1e-4, rho=2000.0), 20, medium=along, flow=STILL, dt=1e-6)
+    assert p.v[0, 0] * drag == pytest.approx(settling_speed(), rel=0.015)
+
+
+def test_without_mobility_it_settles_as_if_alone():
+    heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
+    p = carried(particles(1.5, 1e-4, rho=2000.0), 20, medium=heavy, flow=STILL, dt=1e-6,
+                model=WallLift(mobility=False))  # fmt: skip
+    assert -p.v[0, 2] == pytest.approx(settling_speed(), rel=1e-3)
+
+
+def test_lift_is_the_same_with_a_little_inertia():
+    """As small as here, γ̇ τ of 1e-5, and of a body that is incompressible but for 1e-4."""
+    p, q = (
+        carried(particles(4.0), 100, integrator=name, model=WallLift(mobility=False))
+        for name in ("stokes", "rosenbrock")
+    )
+    assert p.v[0, 2] == pytest.approx(q.v[0, 2], rel=2e-3)
+
+
+def test_lift_is_the_same_with_both_integrators_with_inertia():
+    size = 50.0 * R
+    found = []
+    for name, dt in (("rosenbrock", 2e-4), ("paper", 2e-5)):
+        p = spheres([(0.0, 0.0, 4.0 * size)], d=2.0 * size, rho=1000.0, mu=MU_F * RATE / 0.1,
+                    poissons_ratio=0.4999)  # fmt: skip
+        carried(p, round(0.02 / dt), integrator=name, dt=dt, model=WallLift(mobility=False))
+        found.append((p.x[0, 2], p.v[0, 2]))
+    assert found[0][0] - 4.0 * size > 0.005 * size
+    assert found[1][0] - 4.0 * size == pytest.approx(found[0][0] - 4.0 * size, rel=0.02)
+    assert found[1][1] == pytest.approx(found[0][1], rel=0.02)
+
+
+def test_mobility_wants_an_integrator_without_inertia():
+    with pytest.raises(InputError, match=r"wallLift/mobility is yes.*stokes, not rosenbrock.*mobility no"):
+        carried(particles(4.0), 1, integrator="rosenbrock")
+
+
+def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
+    """To the last bit, whatever others are in its block, and in any order."""
+    far = particles([30.0, 31.0, 500.0])
+    alone = Cloud(particles([30.0, 31.0, 500.0]), analytic.shear_over_wall(RATE), OIL, [Stick()], 1e-4,
+                  Models(integrator="stokes"), threads=1)  # fmt: skip
+    alone.advance(20)
+    near = particles(np.linspace(1.2, 9.0, 50))
+    p = carried(concatenate([near, far]), 20, model=WallLift(), dt=1e-4)
+    q = carried(concatenate([far.take(slice(None)), near.take(slice(None))]), 0, model=WallLift(), dt=1e-4)
+    assert q.size == 53
+    for name in ("x", "v", "F", "A"):
+        assert np.array_equal(getattr(p, name)[-3:], getattr(alone.particles, name)), name
+    heights = np.linspace(1.2, 9.0, 50)
+    one_by_one = np.concatenate([carried(particles(h), 20, model=WallLift(), dt=1e-4).x for h in heights[:3]])
+    assert np.array_equal(p.x[:3], one_by_one)
+
+
+def test_steps_close_to_a_wall_are_counted():
+    p = carried(particles([1.5, 3.0]), 7, model=WallLift())
+    assert p.close.tolist() == [7, 0]
+    lines = WallLift().summary(p, 0.02 / RATE)
+    assert "50.00%, of 1 particles" in lines[0]
+
+
+def test_a_body_between_two_walls_is_pushed_to_the_middle():
+    flow = analytic.slit(8.0 * R, RATE * 8.0 * R / 6.0)
+    p = carried(particles([2.5, 4.0, 5.5]), 100, flow=flow)
+    assert p.v[0, 2] > 0.0
+    assert p.v[1, 2] == pytest.approx(0.0, abs=1e-6 * p.v[0, 2])
+    assert p.v[2, 2] == pytest.approx(-p.v[0, 2], rel=1e-6)
+
+
+# --- Which walls are seen -----------------------------------------------------------------------------------
+
+
+def still(mesh):
+    return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+
+
+def look(flow, x, cut, chosen):
+    """The walls around points, as lists of (h, n)."""
+    names = [index for index, yes in enumerate(chosen) if yes]
+    arrays = flow.arrays(cut, names)
+    kernel = link(flow.kernels["walls"])
+    hosts = flow.locate(np.asarray(x))
+    found = []
+    for point, host in zip(x, hosts, strict=True):
+        p = kernel(arrays, host, tuple(point), cut, np.array(chosen, dtype=np.int8))
+        found.append([(h, n) for h, n in (p[0:2], p[2:4], p[4:6]) if h < np.inf])
+    return found
+
+
+@pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra", "polyhedra"])
+def test_walls_of_a_box_are_its_faces(kind):
+    grid = block(4, kind=kind)
+    flow = still(build_mesh(grid, box_patches(grid)))
+    chosen = [patch.type == "wall" for patch in flow.patches]
+    random = np.random.default_rng(0)
+    x = random.uniform(0.02, 0.98, (100, 3))
+    for point, found in zip(x, look(flow, x, 0.3, chosen), strict=True):
+        planes = [(point[0], (1, 0, 0)), (1 - point[0], (-1, 0, 0)), (point[1], (0, 1, 0)),
+                  (1 - point[1], (0, -1, 0)), (point[2], (0, 0, 1))]  # fmt: skip
+        expected = sorted((h, n) for h, n in planes if h < 0.3)
+        assert [h for h, _ in sorted(found)] == pytest.approx([h for h, _ in expected], abs=1e-6)
+        for (_, n), (_, m) in zip(sorted(found), expected, strict=True):
+            assert n == pytest.approx(m, abs=1e-6)
+
+
+def test_the_wall_of_a_pipe_is_one_where_it_is_near():
+    grid = pipe(8)
+    flow = still(build_mesh(grid, pipe_patches(grid)))
+    chosen = [patch.type == "wall" for patch in flow.patches]
+    random = np.random.default_rng(1)
+    r, angle = 1.0 - random.uniform(0.05, 0.3, 50), random.uniform(0, 2 * np.pi, 50)
+    x = np.stack([random.uniform(0.2, 0.8, 50), r * np.cos(angle), r * np.sin(angle)], axis=1)
+    for point, found in zip(x, look(flow, x, 0.5, chosen), strict=True):
+        ((h, n),) = found
+        radius = np.hypot(*point[1:])
+        assert h == pytest.approx(1.0 - radius, abs=0.03)
+        assert np.dot(n[1:], -point[1:]) / radius > 0.97
+    exact = analytic.pipe(1.0, 1.0)
+    ((one, other),) = look(exact, x[:1], 5.0, [1, 0, 0])
+    assert one[0] + other[0] == pytest.approx(2.0)
+    assert np.array(one[1]) == pytest.approx(-np.array(other[1]))
+
+
+def test_an_edge_is_a_wall_where_no_face_is_as_near():
+    """An L-shaped channel: two blocks of a box of 2 × 2 are solid on the right above."""
+    from mesh_shapes import grid as make_grid
+
+    points, cells = [], []
+    for origin in ((0, 0, 0), (1, 0, 0), (0, 1, 0)):
+        part = block(3, perturbation=0.0)
+        first = sum(len(q) for q in points)
+        points.append(np.asarray(part.points) + origin)
+        cells.append(part.cells.reshape(-1, 9)[:, 1:] + first)
+    points, cells = np.concatenate(points), np.concatenate(cells)
+    _, unique, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
+    shape = make_grid(points[unique], [(12, place.reshape(-1)[cells])])
+    flow = still(build_mesh(shape, box_patches(shape)))
+    chosen = [patch.name == "sides" for patch in flow.patches]
+    x = np.array([[0.8, 0.9, 0.5], [0.95, 0.5, 0.5]])
+    (edge,), face = look(flow, x, 0.25, chosen)
+    assert edge[0] == pytest.approx(np.hypot(0.2, 0.1))
+    assert edge[1] == pytest.approx((-0.2 / edge[0], -0.1 / edge[0], 0.0))
+    assert face == []
+
+
+def test_only_chosen_patches_count():
+    grid = block(4)
+    flow = still(build_mesh(grid, box_patches(grid)))
+    names = [patch.name for patch in flow.patches]
+    assert WallLift(patches=("floor",)).chosen(flow.patches).tolist() == [name == "floor" for name in names]
+    assert WallLift(patches=("s.*",)).chosen(flow.patches).tolist() == [name == "sides" for name in names]
+    with pytest.raises(InputError, match=re.escape("wallLift/patches is flor, which is no patch.")):
+        WallLift(patches=("flor",)).check(flow.patches)
+
+
+def test_distances_are_told_in_radii():
+    p = particles([3.0, 50.0])
+    p.host[:] = 0
+    flow = analytic.shear_over_wall(RATE)
+    near = nearest_walls(p, flow.arrays(1.0, [0]), flow, 10.0, np.array([1], dtype=np.int8))
+    assert near.tolist() == pytest.approx([3.0, np.inf])
+    assert WallLift().notes(p, flow.arrays(1.0, [0]), flow)[-1].split() == ["beyond", "cutOff", "1"]
+
+
+def test_walls_are_seen_from_a_mesh_as_from_a_half_space():
+    """A cloud on a mesh with one wall, against the flow in closed form."""
+    grid = block(4, perturbation=0.0)
+    mesh = build_mesh(grid, box_patches(grid))
+    nodes = np.asarray(mesh.nodes)
+    u = np.stack([RATE * nodes[:, 2], 0 * nodes[:, 0], 0 * nodes[:, 0]], axis=1)
+    l = np.tile([[0.0, 0.0, RATE], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], (len(nodes), 1, 1))
+    flow = MeshFlow(mesh, u, l)
+    p = spheres([[0.5, 0.5, 0.06]], d=0.04, rho=1000.0, mu=MU_F * RATE / 0.1)
+    q = spheres([[0.5, 0.5, 0.06]], d=0.04, rho=1000.0, mu=MU_F * RATE / 0.1)
+    models = Models(integrator="stokes", surroundings=(WallLift(patches=("floor",), cutOff=8.0),))
+    rules = [Escape() if patch.type == "patch" else Stick() for patch in flow.patches]
+    Cloud(p, flow, OIL, rules, 1e-4, models, threads=1).advance(20)
+    same = Models(integrator="stokes", surroundings=(WallLift(cutOff=8.0),))
+    Cloud(q, analytic.shear_over_wall(RATE), OIL, [Stick()], 1e-4, same, threads=1).advance(20)
+    assert p.x == pytest.approx(q.x, rel=1e-9)
+    assert p.x[0, 2] > 0.06
+    assert (
+        walls(flow.arrays(0.16, [0, 1, 2]), p.host[0], tuple(p.x[0]), 0.01, np.ones(3, np.int8)).h1 == np.inf
+    )
