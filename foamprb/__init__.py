@@ -7,6 +7,7 @@ From a case to its results, as ``foamprb run`` goes:
     prepare             read a case and place its particles
     Job                 what ``prepare`` returns: the settings and the cloud of a run
     execute             advance a job's cloud to its end time and write the results
+    open_run            the results of a run: tables, snapshots, paths
     InputError          a mistake in the input; its message says where, and what is allowed
     RunStopped          a run that ended early; its message says why, and how to go on
 
@@ -84,6 +85,7 @@ if TYPE_CHECKING:
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
     from foamprb.settings.fluid import read_medium
+    from foamprb.view.opened import open_run
 
 __version__ = version("foamprb")
 
@@ -116,6 +118,7 @@ _HOMES = {
     "execute": "foamprb.run.loop",
     "log_ratio": "foamprb.body.tensor",
     "measure": "foamprb.cloud.measures",
+    "open_run": "foamprb.view.opened",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_medium": "foamprb.settings.fluid",
@@ -156,6 +159,7 @@ __all__ = [
     "execute",
     "log_ratio",
     "measure",
+    "open_run",
     "prepare",
     "read_case",
     "read_medium",

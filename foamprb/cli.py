@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import foamprb
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
-from foamprb.view.command import declare, view
+from foamprb.view.command import declare, declare_report, report, view
 
 if TYPE_CHECKING:
     from foamprb.flow.read.source import Source
@@ -28,6 +28,9 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}. Try: {self.prog} -help")
+
+
+_LONGEST_WORD = 4096
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -53,11 +56,12 @@ def _parser() -> argparse.ArgumentParser:
     run = command("run", "track the particles of constant/softCloudProperties")
     info = command("info", "say what a case holds")
     viewing = command("view", "show the bodies of a run: a page for any browser")
+    reporting = command("report", "write a page of what was run and what came of it")
     validate = command("validate", "compare with independent solutions")
     helping = command("help", "say what an entry, a dictionary or a type of the settings is")
     command("compile", "compile the particle loops, so that no run has to")
     helping.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
-    for reading in (init, run, info, viewing):
+    for reading in (init, run, info, viewing, reporting):
         reading.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         reading.add_argument("--decomposed", action="store_true", help="read the processor folders")
         reading.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
@@ -74,6 +78,7 @@ def _parser() -> argparse.ArgumentParser:
             "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
         )
     declare(viewing)
+    declare_report(reporting)
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -178,6 +183,10 @@ def _view(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return view(arguments, _source(arguments))
 
 
+def _report(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    return report(arguments, _source(arguments))
+
+
 def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
@@ -202,6 +211,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "run": _run,
     "info": _info,
     "view": _view,
+    "report": _report,
     "validate": _validate,
     "help": _help,
     "compile": _compile,
@@ -280,7 +290,9 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
     except (InputError, RunStopped, RankError, OSError) as error:
         if "--debug" in words:
             raise
-        print(f"--> foamprb Error : {error}", file=sys.stderr)
+        # A word as long as that is no word, and hides the message.
+        words = re.sub(rf"\S{{{_LONGEST_WORD},}}", lambda word: f"{word[0][:60]}...", str(error))
+        print(f"--> foamprb Error : {words}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)

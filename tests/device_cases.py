@@ -83,7 +83,7 @@ def mended_cloud():
     flow = analytic.shear(100.0)
     flow.kernels = flow.kernels | {"walk": walk_fails, "recover": recover_everywhere}
     p = spheres(np.zeros((3, 3)), d=5e-6, rho=2560.0, mu=1.0)
-    return Cloud(p, flow, AIR, (), 1e-5, Models(), 1)
+    return Cloud(p, flow, AIR, (), 1e-5, Models(integrator="paper"), 1)
 
 
 def states(device):

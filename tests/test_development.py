@@ -65,7 +65,7 @@ def test_the_changes_of_the_page_for_developers_do_what_it_says(changed: Path, t
     case = copy_of_pipe(tmp_path)
     edit(case, r"endTime\s+\S+;", "endTime 0.002;")
     edit(case, r"writeInterval\s+\S+;", "writeInterval 0.001;")
-    edit(case, r"shape\s+paper;", "shape stokesEuler;")
+    edit(case, r"shape\s+paper;", "shape stokesTwo;")
     edit(case, r"type\s+neoHooke;", "type fung; stiffening 2;")
     edit(case, r"\bgravity;", "uniformForce { ax 1000; }")
     edit(case, r"\nonePoint\n\{[\s\S]*?\n\}\n", "")
@@ -99,7 +99,7 @@ def test_the_changes_of_the_page_for_developers_do_what_it_says(changed: Path, t
     # The solid: its derivatives are those of its energy.
     assert "Selecting solid fung" in log
     assert found["derivatives"] == pytest.approx(found["rates"], rel=1e-6, abs=1e-6)
-    assert "Selecting integrationScheme stokesEuler: without inertia, first order" in log
+    assert "Selecting integrationScheme stokesTwo: without inertia, second order" in log
     # The cloud function.
     table = (case / "postProcessing/softCloud/box/extent.csv").read_text().splitlines()
     assert table[0] == "time,xMin,yMin,zMin,xMax,yMax,zMax"

@@ -265,15 +265,13 @@ def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step:
 
 
 def second_order(
-    n: Stiffness, whole: Resolvent, h: Scalar, rate: Pair, change: Tensor, slope: Pair
-) -> tuple[Pair, Pair, Pair]:
-    """Ω and change of l_s of order 2, and the parts of them that the fluid's gradient and the slope have."""
+    n: Stiffness, whole: Resolvent, h: Scalar, rate: Pair, change: Tensor, slope: Pair, share: Scalar
+) -> tuple[Pair, Pair]:
+    """Ω and change of l_s of order 2, and the part of them by the slope and a share of the fluid's change."""
     zero = scale(0.0, change)
     nothing = (zero, zero)
-    first = respond(n, whole, h, rate, nothing, nothing)
-    fluid = respond(n, whole, h, nothing, (zero, change), nothing)
-    own = respond(n, whole, h, nothing, slope, nothing)
-    return combine(1.0, first, 1.0, combine(1.0, fluid, 1.0, own)), fluid, own
+    two = respond(n, whole, h, rate, combine(1.0, slope, 1.0, (zero, change)), nothing)
+    return two, respond(n, whole, h, nothing, combine(1.0, slope, share, (zero, change)), nothing)
 
 
 def last_argument(

@@ -1,32 +1,22 @@
-"""Second-order linearly implicit steps of the shape: with the solid's inertia, or without.
+"""What is stiff in a deforming body: its elasticity, and with inertia the traction by its own deformation.
 
-The method is ROS2 (Verwer, Spee, Blom & Hundsdorfer 1999): for y' = f(y), with γ = 1 + 1/√2,
-
-    (1 − γhJ) k₁ = f(y),   (1 − γhJ) k₂ = f(y + h k₁) − 2 k₁,   y' = y + h (3 k₁ + k₂)/2.
-
-The deformation gradient is advanced as dF/dt = l F with slopes k of l, F' = exp(h k)·F, so that a turning
-body turns and is not stretched by the step.
-
-It is of second order whatever J is, and L-stable as far as J is the Jacobian. Here J holds what is stiff: the
-solid's elasticity, and with inertia also the traction's dependence on the body's own rate of deformation.
-In the particle frame, with the off-diagonal components of the elastic stretch left out, it couples only
-components ij and ji, and the three ii, so that the equations are solved in closed form. The difference
-h (k₁ + k₂)/2 of the two orders is the error estimate.
+Both are linear in a small change of the state, and make up the J of the integrators
+(:mod:`foamprb.body.exponential_runge_kutta`, :mod:`foamprb.body.inertial_runge_kutta`), which are of order 3
+whatever J is. In the particle frame, with the off-diagonal components of the elastic stretch left out, J
+couples only components ij and ji, and the three ii.
 
 All tensors are components in the particle frame Q of the step's start, unless said otherwise.
 """
 
 from __future__ import annotations
 
-from math import sqrt
 from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
-from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, inverse
+from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector
 
-GAMMA = 1.0 + 1.0 / sqrt(2.0)
 _DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
 
 
@@ -180,7 +170,7 @@ def solve_pair(
 
 
 class Stiffness(NamedTuple):
-    """The Jacobian of the inertial shape at the start of a step; see :func:`solve_inertial`."""
+    """The J of the inertial shape at the start of a step (:mod:`foamprb.body.inertial_runge_kutta`)."""
 
     b: Vector
     """λ_a²."""
@@ -251,39 +241,3 @@ def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
         q[2] * X[1] + q[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],
         p[6] * X[2] + p[7] * X[6], p[2] * X[5] + p[3] * X[7], d[2],
     )  # fmt: skip
-
-
-def solve_inertial(n: Stiffness, gh: Scalar, r: Tensor) -> Tensor:
-    """Y in Y b − γh T(Y) + (γh)² E(Y) = r, T the traction's and E the elastic part of the Jacobian.
-
-    Parameters
-    ----------
-    n
-        The Jacobian.
-    gh
-        γh, s.
-    r
-        Right side, a rate of l_s times b, 1/s².
-    """
-    gh2 = gh * gh
-    t, e = n.traction, n.elastic
-    M = (
-        n.b[0] - gh * t[0] + gh2 * e[0], gh2 * e[1] - gh * t[1], gh2 * e[2] - gh * t[2],
-        gh2 * e[3] - gh * t[3], n.b[1] - gh * t[4] + gh2 * e[4], gh2 * e[5] - gh * t[5],
-        gh2 * e[6] - gh * t[6], gh2 * e[7] - gh * t[7], n.b[2] - gh * t[8] + gh2 * e[8],
-    )  # fmt: skip
-    d = dot_vector(inverse(M), (r[0], r[4], r[8]))
-    (p, q), (f, h) = n.traction_pairs, n.elastic_pairs
-    Y23, Y32 = solve_pair(
-        n.b[2] - gh * p[0] + gh2 * f[0], gh2 * f[1] - gh * p[1],
-        gh2 * f[2] - gh * p[2], n.b[1] - gh * p[3] + gh2 * f[3], r[5], r[7],
-    )  # fmt: skip
-    Y13, Y31 = solve_pair(
-        n.b[2] - gh * p[4] + gh2 * f[4], gh2 * f[5] - gh * p[5],
-        gh2 * f[6] - gh * p[6], n.b[0] - gh * p[7] + gh2 * f[7], r[2], r[6],
-    )  # fmt: skip
-    Y12, Y21 = solve_pair(
-        n.b[1] - gh * q[0] + gh2 * h[0], gh2 * h[1] - gh * q[1],
-        gh2 * h[2] - gh * q[2], n.b[0] - gh * q[3] + gh2 * h[3], r[1], r[3],
-    )  # fmt: skip
-    return (d[0], Y12, Y13, Y21, d[1], Y23, Y31, Y32, d[2])

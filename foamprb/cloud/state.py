@@ -12,6 +12,7 @@ from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.compressibility import lame_from_bulk_modulus
 from foamprb.body.material import lame_parameter
 
 Array: TypeAlias = NDArray[Any]
@@ -174,6 +175,7 @@ def spheres(
     rho: Any,
     mu: Any,
     poissons_ratio: float = 0.499,
+    bulk_modulus: Any = None,
     k: Any = 0.0,
     eta: Any = 0.0,
     gamma: Any = 0.0,
@@ -190,12 +192,19 @@ def spheres(
         surface tension (N/m) and time of injection (s), one for all or (n,).
     poissons_ratio
         Of the solid, below ½.
+    bulk_modulus
+        Of the solid, Pa, one for all or (n,), in place of Poisson's ratio. The softer the solid, the more it
+        is compressed if that is given; :func:`foamprb.body.compressibility.sufficient_bulk_modulus` keeps the
+        volume.
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x
     p.R[:] = np.asarray(d) / 2.0
     p.rho[:], p.mu[:], p.k[:], p.eta[:], p.gamma[:] = rho, mu, k, eta, gamma
-    p.lame[:] = lame_parameter(p.mu, poissons_ratio)
+    if bulk_modulus is None:
+        p.lame[:] = lame_parameter(p.mu, poissons_ratio)
+    else:
+        p.lame[:] = lame_from_bulk_modulus(np.asarray(bulk_modulus, dtype=float), p.mu)
     p.t0[:] = p.t[:] = t0
     return p
 

@@ -73,7 +73,7 @@ class Models:
     integrator: str = "auto"
     """``auto`` is chosen by a cloud, by its particles' largest shape Stokes number where they start."""
     tolerance: float = 1e-4
-    """Largest error of a step of the second-order integrators; infinite for steps of fixed size."""
+    """Largest error of a step of ``stokes`` and ``rosenbrock``; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
     """What acts on the barycentre beside drag."""
     surroundings: tuple[Surrounding, ...] = ()

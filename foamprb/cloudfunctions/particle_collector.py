@@ -5,20 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud
+from foamprb.cloudfunctions.crossings import crossings
 from foamprb.cloudfunctions.rows import close_ended, masses, names_of, open_rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Only, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.output.tables import write_table
 
 __all__ = ["ParticleCollector"]
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -71,17 +69,11 @@ class ParticleCollector:
         p = cloud.particles
         rows = open_rows(memory, p)
         e = np.array(self.normal) / math.hypot(*self.normal)
-        heights = [(x - self.origin) @ e for x in (memory["x"][rows], p.x[rows])]
-        crossed = (heights[0] < 0.0) != (heights[1] < 0.0)
-        at = rows[crossed]
+        found = crossings(memory, p, rows, np.array(self.origin), e)
+        at, x = found.rows, found.x
         (D,) = cloud.measure(rows, "taylorDeformation")
-        h = p.t[at] - memory["t"][at]
-        ends = [(memory["x"][at], h[:, None] * memory["v"][at]), (p.x[at], h[:, None] * p.v[at])]
-        s = _root(*((x - self.origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
-        x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
-        sense = np.where(heights[1][crossed] < 0.0, -1.0, 1.0)
-        D_there = memory["D"][at] + s * (D[crossed] - memory["D"][at])
-        new = np.column_stack([at, memory["t"][at] + s * h, x, sense, D_there, masses(p, at)])
+        D_there = memory["D"][at] + found.share * (D[found.among] - memory["D"][at])
+        new = np.column_stack([at, found.time, x, found.sense, D_there, masses(p, at)])
         if self.radius is not None:
             aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
             new = new[np.linalg.norm(aside, axis=1) <= self.radius]
@@ -121,19 +113,3 @@ class ParticleCollector:
              "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
              "mass": total, "massFlowRate": rate},
         )  # fmt: skip
-
-
-def _hermite(s: Any, x0: Any, x1: Any, m0: Any, m1: Any) -> Any:
-    """Return the value at s of the cubic from x0 with slope m0 at s = 0 to x1 with slope m1 at s = 1."""
-    r = 1.0 - s
-    return r * r * ((1.0 + 2.0 * s) * x0 + s * m0) + s * s * ((1.0 + 2.0 * r) * x1 - r * m1)
-
-
-def _root(x0: Floats, x1: Floats, m0: Floats, m1: Floats) -> Floats:
-    """Return a root of the cubic of :func:`_hermite` between ends of different sign, by bisection."""
-    low, high = np.zeros(len(x0)), np.ones(len(x0))
-    for _ in range(53):
-        middle = 0.5 * (low + high)
-        same = (_hermite(middle, x0, x1, m0, m1) < 0.0) == (x0 < 0.0)
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return 0.5 * (low + high)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from foamprb.dictionary.files import existing, has_both_forms
-from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, unquoted
+from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
@@ -177,7 +177,7 @@ class _Parser:
         self.spent = spent
         self.tokens = list(_tokens(source, text))
         self.position = 0
-        self.files = (*including, source.path.resolve())
+        self.files = (*including, real(source.path))
 
     def fill(self, dictionary: Dictionary, opened: _Token | None = None) -> None:
         """Read entries into a dictionary, up to its closing brace or the end of the file."""
@@ -348,7 +348,7 @@ class _Parser:
         if self.spent.files > MOST_FILES:
             raise self.mistake(name, f"is the file after {MOST_FILES} others that are included.")
         text = _read_text(path, self.spent, lambda why: self.mistake(name, f"cannot be included: {why}."))
-        if path.resolve() in self.files:
+        if real(path) in self.files:
             raise self.mistake(name, "includes itself.")
         if len(self.files) > MOST_NESTED:
             raise self.mistake(name, f"is included too deeply: by more than {MOST_NESTED} files.")
@@ -359,7 +359,7 @@ class _Parser:
         """Replace a leading tag for a folder of the case."""
         for tag, folder in _CASE_FOLDERS.items():
             if name.startswith(tag):
-                return f"{self.source.case.resolve() / folder}{name.removeprefix(tag)}"
+                return f"{real(self.source.case) / folder}{name.removeprefix(tag)}"
         return name
 
     def in_etc(self, name: _Token) -> Path:
@@ -392,7 +392,7 @@ class _Parser:
 
     def mistake(self, token: _Token, what: str) -> InputError:
         """Return the error for a token; of what is included from outside the case, nothing is shown."""
-        if len(self.files) > 1 and not self.files[-1].is_relative_to(self.source.case.resolve()):
+        if len(self.files) > 1 and not self.files[-1].is_relative_to(real(self.source.case)):
             return self.source.mistake(token.line, "this is no dictionary; it was included.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
@@ -9,10 +10,15 @@ from pathlib import Path
 
 from foamprb.dictionary.mistakes import Mistake
 
-__all__ = ["DICTIONARY_TEXT", "Dictionary", "DictionaryList", "Entry", "Source", "Stream", "unquoted"]
+__all__ = ["DICTIONARY_TEXT", "Dictionary", "DictionaryList", "Entry", "Source", "Stream", "real", "unquoted"]
 
 DICTIONARY_TEXT = "a dictionary { … }"
 """How a message calls a dictionary."""
+
+
+def real(path: Path) -> Path:
+    """Where a path leads; as far as it can be followed, if a link leads to itself."""
+    return Path(os.path.realpath(path))
 
 
 @dataclass(frozen=True)
@@ -23,7 +29,7 @@ class Source:
     case: Path
 
     def __str__(self) -> str:
-        path, case = self.path.resolve(), self.case.resolve()
+        path, case = real(self.path), real(self.case)
         return str(path.relative_to(case) if path.is_relative_to(case) else self.path)
 
     def mistake(self, line: int, what: str, *, missing: str = "", meant: Iterable[str] = ()) -> Mistake:

@@ -12,15 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.mesh.folds import FOLDED, grade, is_there, trace
 from foamprb.flow.mesh.interfaces import overlaps
-from foamprb.flow.mesh.locator import MeshArrays, build_tree, cell_boxes, locate, no_mesh
+from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
-from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall
+from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
 
-LONG: tuple[Callable[..., Any], ...] = (follow, nearest_wall, planes_among, locate)
+LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, planes_among, seek)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
@@ -73,6 +75,25 @@ def _width(mesh: Mesh) -> float:
     return float(extents[areas > _FACING * areas.sum()].min())
 
 
+def _folds(
+    mesh: Mesh, nodes: Floats, boxes: Floats, tree: tuple[Floats, Ints]
+) -> tuple[NDArray[np.uint8], Ints, Ints]:
+    """``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
+    folds = np.zeros(mesh.n_cells, dtype=np.uint8)
+    folded = np.empty((mesh.inverted, 6))
+    n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
+    start, rim = np.zeros(mesh.n_cells + 1, dtype=np.int32), np.empty(0, dtype=np.int32)
+    if n > 0:
+        folds[np.diff(pairs_near(boxes, tree, folded[:n])[0]) > 0] = FOLDED
+        corners = mesh.points[mesh.triangles]
+        targets = np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1)
+        where, triangles = pairs_near(boxes, tree, targets)
+        counts = np.diff(where)
+        rim = triangles[np.repeat(folds == FOLDED, counts)]
+        np.cumsum(np.where(folds == FOLDED, counts, 0), out=start[1:])
+    return folds, start, rim
+
+
 _AT_ONCE = 1 << 20
 """Tetrahedra of which the volumes are computed at once."""
 
@@ -123,7 +144,7 @@ class MeshFlow:
         if mesh.inverted:
             self.notes += (
                 f"{mesh.inverted} of {len(mesh.tets)} tetrahedra are inverted: the mesh has cells "
-                "far from convex there, and paths through them are less certain.",
+                "far from convex there, and paths through them take longer.",
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
         self.width = _width(mesh)
@@ -133,7 +154,9 @@ class MeshFlow:
         nodes[:, 6:15] = l.reshape(-1, 9)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
-        self._tree = build_tree(cell_boxes(mesh))
+        boxes = cell_boxes(mesh)
+        self._tree = build_tree(boxes)
+        folds, rim_start, rim = _folds(mesh, nodes, boxes, self._tree)
         across, partners = _across(mesh)
         self._arrays = MeshArrays(
             nodes=nodes,
@@ -150,6 +173,9 @@ class MeshFlow:
             across=across,
             partners=partners,
             motions=_motions(mesh),
+            folds=folds,
+            rim_start=rim_start,
+            rim=rim,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
         )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
 from foamprb.flow.base import NO_PLANES, Planes
-from foamprb.flow.mesh.locator import MeshArrays
+from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.walk import inward, nearest_point
 
 _SAME_WALL = math.sqrt(0.5)

@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra
-from foamprb.flow.mesh.locator import MeshArrays, locate, no_mesh
+from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh

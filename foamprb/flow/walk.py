@@ -13,7 +13,9 @@ import numpy as np
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.locator import TOLERANCE, MeshArrays, frame, locate, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
+from foamprb.flow.mesh.folds import SOUND, trace
+from foamprb.flow.mesh.locator import locate, seek
 
 REACHED = -1
 FAILED = -2
@@ -81,32 +83,38 @@ def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, floa
         ``(tetrahedron of x1, 1, −1, −1)`` when x1 was reached; ``(last tetrahedron, fraction of the segment,
         patch, boundary triangle)`` when the boundary was crossed there; patch −2 when the walk failed.
     """
-    if holds(flow, host, x1):
+    if holds(flow, host, x1) and is_sound(flow, host):
         return host, 1.0, REACHED, NO_TRIANGLE
     return follow(flow, host, x0, x1)
 
 
 def holds(flow: MeshArrays, tet: int, x: Vector) -> bool:
-    """Whether a tetrahedron holds x, to round-off."""
+    """Whether a sound tetrahedron holds x, to round-off."""
     origin, c1, c2, c3, volume = frame(flow, tet)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
-    sign = -1.0 if volume < 0.0 else 1.0
-    return min(sign * w0, sign * w1, sign * w2, sign * w3) >= -TOLERANCE * abs(volume)
+    return min(w0, w1, w2, w3) >= -TOLERANCE * volume
+
+
+def is_sound(flow: MeshArrays, tet: int) -> bool:
+    """Whether the cell of a tetrahedron is one that paths may take as it is."""
+    return flow.folds[flow.tets[tet, 0] - flow.n_points] == SOUND  # type: ignore[no-any-return]
 
 
 def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Follow the segment from x0, in the tetrahedron ``host``, to x1, through the faces on its way.
 
     A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which
-    does not drift however many faces are crossed. In a tetrahedron turned inside out the path runs backwards,
-    so that it comes out where the mesh unfolds again. A path that circles about an edge or a vertex is begun
-    anew from a start moved towards the middle of the host by 1e-8 of its size, then by more.
+    does not drift however many faces are crossed. A path that circles about an edge or a vertex is begun anew
+    from a start moved towards the middle of the host by 1e-8 of its size, then by more. One that comes into a
+    cell that is flat or folded is left to :func:`foamprb.flow.mesh.folds.trace`.
 
     Returns
     -------
     As :func:`walk`.
     """
     tets, neighbours, nodes = flow.tets, flow.neighbours, flow.nodes
+    if not is_sound(flow, host):
+        return find_thread(flow, host, x0, x1)
     for attempt in range(_ATTEMPTS):
         nudge = 0.0 if attempt == 0 else 1e-10 * 100.0**attempt
         a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
@@ -117,23 +125,21 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
         for _ in range(_MOST_CROSSINGS):
             origin, c1, c2, c3, volume = frame(flow, tet)
             end = weights(origin, c1, c2, c3, volume, x1)
-            sign = -1.0 if volume < 0.0 else 1.0
-            slack = -TOLERANCE * abs(volume)
-            if min(sign * end[0], sign * end[1], sign * end[2], sign * end[3]) >= slack:
+            slack = -TOLERANCE * volume
+            if min(end[0], end[1], end[2], end[3]) >= slack:
                 return tet, 1.0, REACHED, NO_TRIANGLE
             begin = weights(origin, c1, c2, c3, volume, start)
             face, fraction, first = -1, 0.0, np.inf
             for k in range(4):
-                w0, w1 = sign * begin[k], sign * end[k]
-                fall = sign * (w0 - w1)
-                if fall <= 0.0 or (sign > 0.0 and w1 >= slack):
+                w0, w1 = begin[k], end[k]
+                if w0 <= w1 or w1 >= slack:
                     continue
                 other = neighbours[tet, k]
                 if other >= 0 and other == came_from:
                     continue
                 s = w0 / (w0 - w1)
                 # Where a path touches the rim of a wall, the way inside is preferred.
-                rank = sign * s + (0.0 if other >= 0 else TOLERANCE)
+                rank = s + (0.0 if other >= 0 else TOLERANCE)
                 if rank < first:
                     face, fraction, first = k, s, rank
             if face < 0:
@@ -148,7 +154,19 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
                 break
             progress = max(progress, fraction)
             tet, came_from = other, tet
-    return host, 0.0, FAILED, NO_TRIANGLE
+            if not is_sound(flow, tet):
+                return find_thread(flow, host, x0, x1)
+    return find_thread(flow, host, x0, x1)
+
+
+def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """:func:`foamprb.flow.mesh.folds.trace`, from another tetrahedron that holds x0 if it fails."""
+    found, fraction, patch, triangle = trace(flow, host, x0, x1)
+    if patch == FAILED:
+        other = seek(flow, x0, (x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]))
+        if other >= 0:
+            return trace(flow, other, x0, x1)
+    return found, fraction, patch, triangle
 
 
 def recover(flow: MeshArrays, x: Vector) -> int:

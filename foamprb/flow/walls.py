@@ -13,7 +13,7 @@ from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.locator import MeshArrays
+from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
 
@@ -163,6 +163,17 @@ def near_walls(
     near = np.empty(total, dtype=np.int32)
     meet(*tree, boxes, targets, names, _MOST_ENTRIES, start[:-1].copy(), near)
     return start, near
+
+
+def pairs_near(boxes: Floats, tree: tuple[Floats, Ints], targets: Floats) -> tuple[Ints, Ints]:
+    """Which of the boxes ``targets`` (n, 6) meet each cell's: start (n_cells + 1,), and their numbers."""
+    start, names = np.zeros(len(boxes) + 1, dtype=np.int32), np.arange(len(targets), dtype=np.int32)
+    meet, most, counts = link(_meetings), np.iinfo(np.int64).max - 1, np.zeros(len(boxes), dtype=np.int32)
+    total = meet(*tree, boxes, targets, names, most, counts, np.empty(0, dtype=np.int32))
+    np.cumsum(counts, out=start[1:])
+    found = np.empty(total, dtype=np.int32)
+    meet(*tree, boxes, targets, names, most, start[:-1].copy(), found)
+    return start, found
 
 
 def _meetings(

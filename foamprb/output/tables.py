@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
@@ -14,6 +15,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from foamprb.errors import InputError
 from foamprb.output.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
@@ -55,6 +57,39 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
         file.write(",".join(map(_cell, arrays)) + "\n")
         for rows in _chunks(list(arrays.values())):
             file.write("\n".join(map(",".join, rows)) + "\n")
+
+
+def read_table(path: Path) -> dict[str, NDArray[Any]]:
+    """Read what :func:`write_table` has written.
+
+    Returns
+    -------
+    The columns (n,) by name, in order: whole numbers (int64), numbers (float64), or words.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, or is no such table.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise InputError(f"{path}: not a readable table ({error}).") from error
+    if not rows or any(len(row) != len(rows[0]) for row in rows):
+        raise InputError(f"{path}: not a table: its lines have different numbers of columns.")
+    names, *lines = rows
+    return {name: _typed([line[i] for line in lines]) for i, name in enumerate(names)}
+
+
+def _typed(words: list[str]) -> NDArray[Any]:
+    """Numbers, if all words are."""
+    for kind in (np.int64, np.float64):
+        try:
+            return np.array(words, dtype=str).astype(kind)
+        except ValueError:
+            continue
+    return np.array(words, dtype=str)
 
 
 def _as_column(name: str, column: Column) -> NDArray[Any]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -34,7 +35,7 @@ from foamprb.flow.series import SeriesFlow
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
 from foamprb.settings.reading import read_settings
-from foamprb.settings.settings import InjectionSettings, Settings, Solution
+from foamprb.settings.settings import InjectionSettings, Settings, Solid, Solution
 
 log = logging.getLogger("foamprb")
 
@@ -280,7 +281,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.mu[:] = values(stiffness, solid.shear_modulus, "stiffness")
     p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
     p.gamma[:] = values(given.get("surfaceTension"), solid.surface_tension, "surfaceTension")
-    p.lame[:], p.k[:] = lame_parameter(p.mu, solid.poissons_ratio), solid.parameter
+    p.k[:] = solid.parameter
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
@@ -293,7 +294,18 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     if rate is None:
         rate = shear_rate_at(flow, p, start_of_injection(injection.model, flow))
     p.Ca[:] = medium.mu * rate / p.mu
+    p.lame[:] = _lame(solid, p.mu, medium.mu * float(np.max(rate, initial=0.0)))
     return p
+
+
+def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArray[np.float64]:
+    """λ_s, Pa, of particles with the shear moduli μ_s, Pa, and the largest viscous stress around them, Pa."""
+    if solid.poissons_ratio is not None:
+        return np.asarray(lame_parameter(mu, solid.poissons_ratio))
+    bulk = solid.bulk_modulus
+    return np.asarray(
+        lame_from_bulk_modulus(sufficient_bulk_modulus(mu, viscous_stress) if bulk is None else bulk, mu)
+    )
 
 
 def _random(*names: str) -> np.random.Generator:

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import shape_stokes_number, shear_rate
 from foamprb.cloud.reasons import explain
+from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
 from foamprb.compile.cache import cache_directory
 from foamprb.run.checks import Groups, doubts, groups
@@ -117,6 +119,7 @@ class RunLog:
         self._job = job
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
         self._failed = self._failures()
+        self._unstable = 0
 
     def begin(self) -> None:
         """Say that the time loop starts, and whether its loop over the particles has yet to be compiled."""
@@ -137,6 +140,7 @@ class RunLog:
         self._log_steps()
         self._log_clocks()
         self._log_failures()
+        self._log_unstable()
 
     def end(self, finished: bool) -> None:
         """Say what became of the particles, where the results are, and whether the run has ``finished``."""
@@ -174,6 +178,19 @@ class RunLog:
             log.warning("particle %d failed at t = %.6g s, position (%g %g %g): %s.",
                         k, p.t[k], *p.x[k], explain(p.reason[k], cloud.models, cloud.limits))  # fmt: skip
         self._failed = failed
+
+    def _log_unstable(self) -> None:
+        """Say for how many particles the step is too long, if there are more than at any time before."""
+        cloud = self._job.cloud
+        if cloud.models.integrator != PAPER.name:
+            return
+        limits = longest_stable_steps(cloud.particles, cloud.medium.mu, cloud.dt, cloud.models.material)
+        beyond = int(np.isfinite(limits).sum())
+        if beyond > self._unstable:
+            self._unstable = beyond
+            log.warning("deltaT is up to %.3g times what the integrator paper is stable with for the shapes "
+                        "of %d particles: they are not as long as they should be. Take a deltaT below "
+                        "%.3g s, or rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
 
     def _log_fates(self) -> None:
         """Say how many particles met which fate, by patch; the numbers sum to those injected."""

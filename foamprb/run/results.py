@@ -24,6 +24,7 @@ from foamprb.output.manifest import Manifest
 from foamprb.output.pvd import Series, files_of, read_pvd
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
+from foamprb.run.record import RECORD, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
@@ -227,6 +228,8 @@ class Results:
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [self._series.pvd, self._fates, self._failures]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
+        self._manifest.expect([folder / RECORD])
+        write_record(folder / RECORD, self._job)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Take up what a checkpoint holds, and remove the files of later times."""
@@ -250,7 +253,13 @@ class Results:
         snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
-        kept = {self._series.pvd, *snapshots, *tables, *self._checkpoints.files().values()}
+        kept = {
+            job.folder / RECORD,
+            self._series.pvd,
+            *snapshots,
+            *tables,
+            *self._checkpoints.files().values(),
+        }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder, (file for file in kept if file.exists()))
 

@@ -30,6 +30,8 @@ NAME = "softCloudProperties"
 PARTICLES = 1000
 """About as many as the first run releases."""
 _TIMES, _MOST_STEPS = 50, 5000
+_CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
+"""Of a first stiffness, at the mean shear rate and the largest: an extension may tear softer bodies apart."""
 _TEMPERATURE = 300.0
 """Where the viscosity depends on it, K."""
 
@@ -105,7 +107,7 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
     step, interval, end = times(scales)
     d = diameter(scales, fluid.nu)
     rate = scales.shear or 1.0
-    modulus = _rounded(10.0 * fluid.rho * fluid.nu * rate)
+    modulus = _rounded(fluid.rho * fluid.nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
     parts = [
         _HEAD.format(name=NAME),
         _dictionary(

@@ -194,7 +194,26 @@ class Solid:
         ]
         | None
     ) = None
-    poissonsRatio: Annotated[float, PoissonsRatio, Meaning("Poisson's ratio", "1", "required")] | None = None
+    bulkModulus: (
+        Annotated[
+            float,
+            Positive,
+            Meaning(
+                "bulk modulus; the default keeps the volume to 10⁻⁴ at the largest γ̇ at release",
+                "Pa",
+                "10⁴ max(μ_s, μ_f γ̇)",
+            ),
+        ]
+        | None
+    ) = None
+    poissonsRatio: (
+        Annotated[
+            float,
+            PoissonsRatio,
+            Meaning("Poisson's ratio, in place of `bulkModulus`", "1", "with `youngsModulus` required"),
+        ]
+        | None
+    ) = None
     shearModulus: (
         Annotated[float, Positive, Meaning("shear modulus", "Pa", _ONE_OF_THESE)] | Dictionary | None
     ) = None
@@ -238,6 +257,9 @@ class Solid:
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 """The entries of a solid of which one gives its stiffness."""
+
+COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
+"""The entries of a solid of which one at most says how it yields to pressure."""
 
 
 def parameters() -> dict[str, Any]:

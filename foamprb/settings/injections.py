@@ -125,7 +125,7 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     if not places:
         raise constant.missing(
             "solid",
-            f"Allowed: {DICTIONARY_TEXT} with type, poissonsRatio and one of {', '.join(entries.STIFFNESS)}, "
+            f"Allowed: {DICTIONARY_TEXT} with type and one of {', '.join(entries.STIFFNESS)}, "
             "here or in every injection model.",
         )
     mistakes = Mistakes()
@@ -133,8 +133,9 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     for place in places:
         with mistakes:
             own = _solid_entries(place.entries["solid"].dictionary())
-            if own.keys() & set(entries.STIFFNESS):
-                combined = {key: value for key, value in combined.items() if key not in entries.STIFFNESS}
+            for one_of in (entries.STIFFNESS, entries.COMPRESSIBILITY):
+                if own.keys() & set(one_of):
+                    combined = {key: value for key, value in combined.items() if key not in one_of}
             combined |= own
     # Only what is there can tell what else is needed.
     mistakes.raise_any()
@@ -143,7 +144,8 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     stiffness = combined.keys() & set(entries.STIFFNESS)
     if not stiffness:
         mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(entries.STIFFNESS)}."))
-    for key in ("type", "poissonsRatio", *(["referenceShearRate"] if "Ca" in stiffness else [])):
+    needed = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
+    for key in ("type", *(needed[key] for key in stiffness if key in needed)):
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
     parameters = entries.parameters()
@@ -161,7 +163,8 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     return Solid(
         type=combined["type"],
         shear_modulus=_shear_modulus(combined | quantities, fluid),
-        poissons_ratio=combined["poissonsRatio"],
+        poissons_ratio=combined.get("poissonsRatio"),
+        bulk_modulus=combined.get("bulkModulus"),
         reference_shear_rate=combined.get("referenceShearRate"),
         parameter=combined[parameter.entry] if parameter else 0.0,
         viscosity=quantities["viscosity"],
@@ -180,13 +183,12 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
         with mistakes:
             if name in dictionary.entries:
                 found[name] = read_entry(dictionary, name, hint)
-    stiffness = [key for key in entries.STIFFNESS if key in dictionary.entries]
-    if len(stiffness) > 1:
-        mistakes.add(
-            dictionary.mistake(
-                f"gives {' and '.join(stiffness)}. Allowed: one of {', '.join(entries.STIFFNESS)}."
+    for one_of in (entries.STIFFNESS, entries.COMPRESSIBILITY):
+        given = [key for key in one_of if key in dictionary.entries]
+        if len(given) > 1:
+            mistakes.add(
+                dictionary.mistake(f"gives {' and '.join(given)}. Allowed: one of {', '.join(one_of)}.")
             )
-        )
     mistakes.raise_any()
     return found | {key: value for key, value in read.items() if value is not None}
 

@@ -59,11 +59,15 @@ class Fluid:
 
 @dataclass(frozen=True)
 class Solid:
-    """A particle's material: μ_s, Pa, and ν_s, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m."""
+    """A particle's material: μ_s, Pa, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m.
+
+    How it yields to pressure is said by ν_s or by the bulk modulus, Pa; if by neither, it hardly does.
+    """
 
     type: str
     shear_modulus: float | Distribution
-    poissons_ratio: float
+    poissons_ratio: float | None = None
+    bulk_modulus: float | None = None
     reference_shear_rate: float | None = None
     parameter: float = 0.0
     viscosity: float | Distribution = 0.0

@@ -13,6 +13,8 @@ from scipy.interpolate import CubicSpline
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces.gravity import Gravity
+from foamprb.cloud.forces.pressure_gradient import PressureGradient
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
@@ -98,7 +100,9 @@ def track(table: Axis, integrator: str) -> Track:
     start[:, 0] = table.start
     p = spheres(start, d=DIAMETER, rho=RHO, mu=list(MODULI.values()), poissons_ratio=0.499999)
     p.v[:, 0] = table.u[0]
-    models = Models(integrator=integrator, tolerance=1e-6)
+    # The beads are as dense as the liquid: without its pressure gradient they would lag behind it.
+    forces = (Gravity(), PressureGradient())
+    models = Models(integrator=integrator, tolerance=1e-6, forces=forces)
     medium = Medium(MU_F, RHO, (0.0, 0.0, 0.0))
     cloud = Cloud(p, axis_flow(table), medium, (), 1e-5, models, threads=1)
     end = table.start + (len(table.u) - 2) * table.spacing

@@ -237,7 +237,7 @@ def soft(quick: bool) -> Outcome:
             for drag, value in differences.items()
         ),
     ]
-    rows += _second_order()
+    rows += _of_third_order()
     ends = np.array([CAPILLARY[0], CAPILLARY[-1]])
     curves += [
         Curve(ends, np.full(2, fall.x[-1, 0] / DIAMETER), "rigid sphere", "guide"),
@@ -267,8 +267,8 @@ def soft(quick: bool) -> Outcome:
     return Outcome(rows, figures, remarks)
 
 
-def _second_order() -> list[Row]:
-    """Landing distances with the second-order integrators."""
+def _of_third_order() -> list[Row]:
+    """Landing distances with the integrators of order 3(2)."""
     rows = []
     Ca = np.array([1e-4, *SHOWN])
     for integrator in ("rosenbrock", "stokes"):

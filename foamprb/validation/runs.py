@@ -71,7 +71,7 @@ def unit_cloud(
         gamma=tension,
     )
     set_rest_shape(p, ratios, axes)
-    return Cloud(p, flow, Medium(1.0, rho, REST), (), dt, models or Models(), threads=1)
+    return Cloud(p, flow, Medium(1.0, rho, REST), (), dt, models or Models(integrator="paper"), threads=1)
 
 
 def advance_to(cloud: Cloud, t: float) -> None:

@@ -1,4 +1,4 @@
-"""The command ``foamprb view``: its options, and what each of them asks for."""
+"""The commands ``foamprb view`` and ``foamprb report``: their options, and what each of them asks for."""
 
 from __future__ import annotations
 
@@ -76,6 +76,29 @@ def view(arguments: argparse.Namespace, source: Source) -> int:
     path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
     if not arguments.noBrowser and sys.stdout.isatty():
         open_in_browser(path)
+    return 0
+
+
+def declare_report(parser: argparse.ArgumentParser) -> None:
+    """Add the options of ``foamprb report``, besides those that say where the flow is."""
+    add = parser.add_argument
+    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
+    add("--paths", metavar="IDS", help="particles whose D is drawn over time, 3,17,20 [some of all]")
+    add("--noBrowser", action="store_true", help="write the page, do not open it")
+
+
+def report(arguments: argparse.Namespace, source: Source) -> int:
+    """Write the report that the options ask for; the exit status."""
+    from foamprb.view.report.report import write_report
+    from foamprb.view.show import open_in_browser
+
+    words = (arguments.paths or "").replace(",", " ").split()
+    if not all(word.isascii() and word.isdigit() for word in words):
+        raise InputError(f"-paths {arguments.paths}: numbers of particles are needed, such as 3,17,20.")
+    target = write_report(arguments.case, arguments.output, arguments.cloud, source, [int(w) for w in words])
+    if not arguments.noBrowser and sys.stdout.isatty():
+        open_in_browser(target)
     return 0
 
 

@@ -35,6 +35,9 @@ def recover_nowhere(flow, x):
     return -1
 
 
+PAPER = Models(integrator="paper")
+
+
 def modulus(Ca):
     return AIR.mu * WALL_RATE / np.asarray(Ca)
 
@@ -42,9 +45,8 @@ def modulus(Ca):
 def pipe_cloud(Ca, dt=2e-5, x=(0.0, -1.65e-3, 0.0), wall=None, length=0.3, touching="ellipsoid", **options):
     Ca = np.atleast_1d(Ca)
     p = spheres(np.tile(x, (len(Ca), 1)), d=D, rho=2560.0, mu=modulus(Ca))
-    models = Models(
-        touching=touching, **{k: options.pop(k) for k in ("drag", "traction", "integrator") if k in options}
-    )
+    chosen = {k: options.pop(k) for k in ("drag", "traction", "integrator") if k in options}
+    models = Models(touching=touching, **({"integrator": "paper"} | chosen))
     flow = analytic.pipe(RADIUS, MEAN, length)
     return Cloud(p, flow, AIR, (wall or Stick(), Escape(), Escape()), dt, models, **options)
 
@@ -161,7 +163,7 @@ class TestBookkeeping:
         clouds = []
         for _ in range(2):
             p = spheres(np.zeros((2, 3)), d=D, rho=2560.0, mu=modulus([0.1, 0.7]))
-            clouds.append(Cloud(p, analytic.shear(500.0), AIR, (), 2e-5))
+            clouds.append(Cloud(p, analytic.shear(500.0), AIR, (), 2e-5, PAPER))
         compiled, plain = clouds
         compiled.advance(5)
         table = PatchTable(np.empty(0, dtype=np.int8), np.empty(0), np.empty(0))
@@ -217,7 +219,7 @@ class TestBookkeeping:
         flow = analytic.shear(100.0)
         flow.kernels = {**flow.kernels, "walk": walk or walk_fails, "recover": recover}
         p = spheres([[0.0, 1e-3, 0.0]], d=D, rho=2560.0, mu=modulus(0.1))
-        return Cloud(p, flow, AIR, (), 2e-5)
+        return Cloud(p, flow, AIR, (), 2e-5, PAPER)
 
 
 class TestWalls:
@@ -227,7 +229,7 @@ class TestWalls:
         p.v[:] = v
         medium = Medium(mu, 1e-9, (0.0, 0.0, 0.0))
         interactions = (interaction, Escape(), Escape())
-        return Cloud(p, analytic.pipe(RADIUS, 0.0, 1.0), medium, interactions, 1e-5)
+        return Cloud(p, analytic.pipe(RADIUS, 0.0, 1.0), medium, interactions, 1e-5, PAPER)
 
     @pytest.mark.parametrize(("e", "mu"), [(1.0, 0.0), (0.6, 0.3), (0.0, 1.0)])
     def test_rebound_keeps_the_restituted_velocity(self, e, mu):
@@ -288,7 +290,9 @@ class TestBody:
         rho = stokes * 15 * mu_f / R**2
         p = spheres(np.zeros((len(Ca), 3)), d=2 * R, rho=rho, mu=mu_f / Ca, poissons_ratio=nu)
         dt = dt_over_tau * stokes
-        return Cloud(p, flow, Medium(mu_f, rho, (0.0, 0.0, 0.0)), (), dt, Models(traction=traction))
+        return Cloud(
+            p, flow, Medium(mu_f, rho, (0.0, 0.0, 0.0)), (), dt, Models(traction=traction, integrator="paper")
+        )
 
     def in_shear(self, cloud):
         """D, b/a, c/a, θ in degrees and |ω_s3|, with c the axis along the vorticity."""
@@ -381,7 +385,7 @@ class TestBody:
     def test_sphere_settles_with_stokes_velocity(self):
         """v = 2/9 (ρ_s − ρ_f) g R²/μ_f."""
         p = spheres([[0.0, 0.0, 0.0]], d=D, rho=2560.0, mu=modulus(1e-4))
-        cloud = Cloud(p, analytic.linear(np.zeros((3, 3))), AIR, (), 2e-5)
+        cloud = Cloud(p, analytic.linear(np.zeros((3, 3))), AIR, (), 2e-5, PAPER)
         cloud.advance(1000)
         expected = 2 / 9 * (2560.0 - AIR.rho) * 9.81 * (D / 2) ** 2 / AIR.mu
         # The weight of the fluid column squeezes nothing: far pressure is zero, J stays 1.
@@ -391,7 +395,7 @@ class TestBody:
         """K v = (ρ_s − ρ_f) vol g along each axis of a body that a stiff solid keeps in shape."""
         p = spheres(np.zeros((1, 3)), d=D, rho=2560.0, mu=modulus(0.2))
         rate = 300.0
-        cloud = Cloud(p, analytic.extension(rate), AIR, (), 1e-5)
+        cloud = Cloud(p, analytic.extension(rate), AIR, (), 1e-5, PAPER)
         cloud.advance(2000)
         axes = np.linalg.norm(p.F.reshape(3, 3), axis=1)
         K = np.array(oberbeck(tuple(axes), integrals(tuple(axes)))) * D / 2

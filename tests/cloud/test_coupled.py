@@ -33,7 +33,7 @@ def linear(mesh, l, u0=(0.0, 0.0, 0.0)):
 
 
 def tracked(particles, flow, interactions, steps):
-    cloud = Cloud(particles, flow, AIR, interactions, 1e-3, Models(), threads=1)
+    cloud = Cloud(particles, flow, AIR, interactions, 1e-3, Models(integrator="paper"), threads=1)
     cloud.advance(steps)
     return cloud
 
@@ -161,7 +161,7 @@ def test_a_wedge_is_left_on_one_side_and_entered_on_the_other():
     x, v = np.array([[0.5, 0.0, 0.4]]), np.array([[-1.0, 0.1, 0.2]])
     p = moving(x, v)
     p.rho[:] = 1e13
-    cloud = Cloud(p, flow, AIR, actions(flow), 1e-2, Models(), threads=1)
+    cloud = Cloud(p, flow, AIR, actions(flow), 1e-2, Models(integrator="paper"), threads=1)
     radii = []
     for step in range(90):
         cloud.advance(1)

@@ -24,7 +24,7 @@ from foamprb import (
     spheres,
 )
 from foamprb.body.slip import balanced_slip, first_order_slip
-from foamprb.cloud.block import ROWS, at, store3
+from foamprb.cloud.block import ROWS, at
 from foamprb.cloud.forces.base import Force, Inputs
 from foamprb.cloud.forces.registry import FORCES
 from foamprb.cloud.forces.total import coefficients, compose, pushes_on
@@ -80,10 +80,9 @@ def test_slip_is_that_of_maxey_and_riley_to_first_order(with_pressure):
     forces = (Gravity(), VirtualMass(Cvm=0.5), *([PressureGradient()] if with_pressure else []))
     block = np.zeros(ROWS * LANES)
     block[at.rho * LANES] = RHO
-    store3(block, at.DuDt, 0, DU_DT)
     medium = Medium(MU_F, RHO_F, G, coefficients(forces))
     bound = FunctionType(pushes_on.__code__, pushes_on.__globals__ | compose(forces))
-    steady, push, inertia = bound(block, 0, medium, 1.1)
+    steady, push, inertia = bound(block, 0, medium, 1.1, DU_DT)
     np.testing.assert_allclose(steady, summed(*forces, Du_Dt=(0.0, 0.0, 0.0))[0], rtol=1e-14)
     rate, l = 40.0, np.array([[0.0, 3.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]])
     rates = (rate, rate, rate)

@@ -37,7 +37,9 @@ def flying(flow, interactions, x, v, dt):
     """A heavy sphere in nearly nothing, whose centre alone meets walls, after one step."""
     p = spheres([x], d=1e-3, rho=1e6, mu=1e3)
     p.v[:] = v
-    cloud = Cloud(p, flow, NOTHING, interactions, dt, Models(touching="centre"), threads=1)
+    cloud = Cloud(
+        p, flow, NOTHING, interactions, dt, Models(touching="centre", integrator="paper"), threads=1
+    )
     cloud.advance(1)
     return cloud
 
@@ -118,7 +120,9 @@ def test_the_body_behind_a_mirror_is_the_mirror_image():
         p.v[:] = (0.1, 0.0, -1.0)
         p.F0[:] = rest.ravel()
         sides = [Mirror() if patch.type == "symmetryPlane" else Rebound() for patch in domain.patches]
-        Cloud(p, domain, NOTHING, sides, 0.02, Models(touching="centre"), threads=1).advance(20)
+        Cloud(
+            p, domain, NOTHING, sides, 0.02, Models(touching="centre", integrator="paper"), threads=1
+        ).advance(20)
         bodies.append((p.F0[0].reshape(3, 3), p.F[0].reshape(3, 3)))
     mirror = np.diag([1.0, 1.0, -1.0])
     (rest_there, F_there), (rest_free, F_free) = bodies

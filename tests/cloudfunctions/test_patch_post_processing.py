@@ -45,7 +45,14 @@ def test_who_hits_when_and_in_what_shape(tmp_path):
 
 def test_touching_by_the_centre(tmp_path):
     cloud = pipe_cloud()
-    centre = Cloud(cloud.particles, cloud.flow, AIR, cloud.interactions, cloud.dt, Models(touching="centre"))
+    centre = Cloud(
+        cloud.particles,
+        cloud.flow,
+        AIR,
+        cloud.interactions,
+        cloud.dt,
+        Models(touching="centre", integrator="paper"),
+    )
     observe(centre, PatchPostProcessing(("wall",), maxStoredParcels=3), tmp_path)
     rows = table(tmp_path / "f/wall.csv")
     assert len(rows) == 3

@@ -89,7 +89,9 @@ def test_a_wedge_has_the_gradient_of_the_axisymmetric_flow(tool, cases):
     radii = np.linspace(1e-5, 1.9e-3, 50)
     p = spheres(np.column_stack([np.full(50, 1e-3), radii, np.zeros(50)]), d=1e-5, rho=1000.0, mu=1.0)
     actions = tool.interactions(flow, Rebound())
-    cloud = Cloud(p, flow, Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0)), actions, 1e-5, Models(), threads=1)
+    cloud = Cloud(
+        p, flow, Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0)), actions, 1e-5, Models(integrator="paper"), threads=1
+    )
     cloud.advance(2000)
     assert np.all(p.status != Status.FAILED)
     # A hundredth of the half thickness: the triangles of the faces are not symmetric about the plane.
@@ -221,7 +223,12 @@ def test_a_baffle_has_two_sides(tool, cases):
     p = spheres(x, d=5e-6, rho=1000.0, mu=1.0)
     p.v[:] = (0.5, 0.0, 0.0)
     cloud = Cloud(
-        p, flow, Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0)), tool.interactions(flow, Rebound()), 1e-5, Models()
+        p,
+        flow,
+        Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0)),
+        tool.interactions(flow, Rebound()),
+        1e-5,
+        Models(integrator="paper"),
     )
     cloud.advance(5)
     assert p.x[0, 0] < 0.005

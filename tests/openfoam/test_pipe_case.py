@@ -83,7 +83,7 @@ def test_on_the_fine_mesh_the_quasi_rigid_particle_lands_within_half_a_percent(t
     particles = spheres(start, d=D, rho=2560.0, mu=mu * 923.8 / 1e-4)
     walls = [Stick() if patch.type == "wall" else Escape() for patch in flow.patches]
     air = Medium(mu, 1.208, (0.0, -9.81, 0.0))
-    cloud = Cloud(particles, flow, air, walls, 2e-5, Models(touching="centre"))
+    cloud = Cloud(particles, flow, air, walls, 2e-5, Models(touching="centre", integrator="paper"))
     cloud.advance(15_000)
     assert particles.status[0] == Status.STUCK
     assert particles.x[0, 0] / D == pytest.approx(8989, rel=5e-3)

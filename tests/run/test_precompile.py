@@ -60,7 +60,9 @@ def test_one_that_is_stopped_leaves_nothing_to_wait_for(tmp_path, monkeypatch):
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(compiling, "_parts", {})
     monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
-    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    tracker = Tracker(
+        Models(integrator="paper"), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False
+    )
     precompiler = Precompiler(tracker, MeshFlow)
     precompiler.stop()
     precompiler.wait()
@@ -72,7 +74,9 @@ def test_one_that_cannot_start_costs_nothing_but_its_help(tmp_path, monkeypatch)
     monkeypatch.setattr(compiling, "_parts", {})
     monkeypatch.setattr("foamprb.run.precompile.available_threads", lambda: 2)
     monkeypatch.setattr("foamprb.run.precompile.sys.executable", "/bin/false")
-    tracker = Tracker(Models(), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    tracker = Tracker(
+        Models(integrator="paper"), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False
+    )
     precompiler = Precompiler(tracker, MeshFlow)
     precompiler.wait()
     assert not tracker.compiled

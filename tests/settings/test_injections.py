@@ -51,6 +51,7 @@ def test_an_injection_models_solid_replaces_entries_of_the_clouds(read: Reader) 
     assert solid(common + "Ca 1;", "shearModulus 7;") == pytest.approx((7.0, 0.4, 100.0))
     assert solid(common + "Ca 1;", "poissonsRatio 0.25;") == pytest.approx((100.0 * mu, 0.25, 100.0))
     assert solid(common, "Ca 2; referenceShearRate 50;") == pytest.approx((25.0 * mu, 0.4, 50.0))
+    assert solid(common + "Ca 1;", "bulkModulus 3;") == pytest.approx((100.0 * mu, None, 100.0))
     with pytest.raises(InputError, match="injectionModels/inlet/solid/referenceShearRate is missing"):
         solid("poissonsRatio 0.4; shearModulus 5;", "Ca 2;")
     with pytest.raises(InputError, match="injectionModels/inlet/solid gives shearModulus and youngsModulus"):

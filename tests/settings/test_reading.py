@@ -127,7 +127,17 @@ MISTAKES = [
         "poissonsRatio 0.5",
         "solid/poissonsRatio is '0.5'. Allowed: a number > -1 and < 0.5.",
     ),
-    ("poissonsRatio 0.4;", "", "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1"),
+    (
+        "poissonsRatio 0.4; shearModulus",
+        "youngsModulus",
+        "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1",
+    ),
+    ("poissonsRatio 0.4;", "bulkModulus 0;", "solid/bulkModulus is '0'. Allowed: a number > 0"),
+    (
+        "poissonsRatio 0.4;",
+        "poissonsRatio 0.4; bulkModulus 1e5;",
+        "constantProperties/solid gives poissonsRatio and bulkModulus. Allowed: one of",
+    ),
     ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
     ("neoHooke", "neoHook", "solid/type is 'neoHook'. Did you mean 'neoHooke'?"),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),

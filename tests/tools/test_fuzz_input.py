@@ -30,7 +30,7 @@ def test_damaged_input_ends_in_a_message_or_a_correct_run(tool, tmp_path):
     assert not failures, "\n".join(failures)
     assert sum(outcomes.values()) == 60
     seen = {kind for _, kind in outcomes}
-    assert seen == {"message", "run"}
+    assert seen == {"message", "run", "other"}
 
 
 def test_a_failure_is_seen(tool, tmp_path):
@@ -40,3 +40,13 @@ def test_a_failure_is_seen(tool, tmp_path):
     assert answer["outcome"] == "silent"
     assert "the input had (8, 27, 23)" in answer["text"]
     assert tool.attempt(tmp_path / "none", "", (8, 27, 24))["outcome"] == "message"
+
+
+def test_another_result_without_a_warning_is_seen_where_the_files_show_the_damage(tool):
+    sound = {"outcome": "run", "result": "abc 1", "notes": ["a"]}
+    other = {"outcome": "run", "result": "abd 1", "notes": ["a"]}
+    assert tool.compared(sound, sound, True) == sound
+    assert tool.compared(other, sound, True)["outcome"] == "silent"
+    assert tool.compared(other, sound, False)["outcome"] == "other"
+    assert tool.compared({**other, "notes": ["a", "b"]}, sound, True)["outcome"] == "other"
+    assert tool.compared({"outcome": "message"}, sound, True) == {"outcome": "message"}

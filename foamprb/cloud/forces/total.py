@@ -35,13 +35,14 @@ def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector,
     return scale_vector(1.0 / inertia, push), inertia
 
 
-def pushes_on(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector, Vector, Scalar]:
-    """Forces on lane i, m/s², in a fluid that is not accelerated and in this one; and what resists them.
+def pushes_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> tuple[Vector, Vector, Scalar]:
+    """Forces on lane i, m/s², in a fluid that is not accelerated and in one with Du/Dt; what resists them.
 
     The arguments of :func:`foamprb.body.slip.balanced_slip`.
     """
     inputs = inputs_of(block, i, medium, J)
-    push, inertia = pushes(inputs, medium.coefficients)
+    moved = Inputs(inputs.J, inputs.rho, Du_Dt, inputs.medium)
+    push, inertia = pushes(moved, medium.coefficients)
     still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), inputs.medium)
     steady, _ = pushes(still, medium.coefficients)
     return steady, push, inertia

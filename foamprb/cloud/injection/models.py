@@ -374,7 +374,7 @@ def release(model: Injection, flow: Flow, random: np.random.Generator, read: Rea
 
 
 def given_shear_modulus(
-    given: Mapping[str, Floats], poissons_ratio: float, mu: float, shear_rate: float | None
+    given: Mapping[str, Floats], poissons_ratio: float | None, mu: float, shear_rate: float | None
 ) -> Floats | None:
     """Return the shear moduli μ_s that a file gives, (n,), Pa; None if it gives no stiffness.
 
@@ -383,14 +383,14 @@ def given_shear_modulus(
     given
         Columns of the file: ``shearModulus``, ``youngsModulus`` (2(1 + ν_s) μ_s) or ``Ca`` (μ_f γ̇/μ_s).
     poissons_ratio
-        ν_s.
+        ν_s, which ``youngsModulus`` needs.
     mu, shear_rate
         Viscosity μ_f of the fluid, Pa s, and γ̇, 1/s, to which Ca refers.
 
     Raises
     ------
     InputError
-        If there are several of these columns, or no shear rate for ``Ca``.
+        If there are several of these columns, or none of what ``Ca`` or ``youngsModulus`` needs.
     """
     names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in given]
     if len(names) > 1:
@@ -399,13 +399,17 @@ def given_shear_modulus(
         raise InputError(
             "the file of positions gives Ca, which needs the entry referenceShearRate of the solid."
         )
+    if "youngsModulus" in names and poissons_ratio is None:
+        raise InputError(
+            "the file of positions gives youngsModulus, which needs the entry poissonsRatio of the solid."
+        )
     if not names:
         return None
     column = given[names[0]]
     with np.errstate(over="ignore"):
         if names == ["Ca"]:
             return np.asarray(mu * (shear_rate or 0.0) / column)
-        return 0.5 * column / (1.0 + poissons_ratio) if names == ["youngsModulus"] else column
+        return 0.5 * column / (1.0 + (poissons_ratio or 0.0)) if names == ["youngsModulus"] else column
 
 
 INJECTIONS: dict[str, type[Injection]] = {

@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.error_control import longest_step, path_error, step_factor
-from foamprb.body.exponential_runge_kutta import NODE
 from foamprb.body.tensor import Vector, dot_vector
 from foamprb.cloud.block import (
     ROWS,
@@ -66,8 +65,8 @@ class StepRows(NamedTuple):
 
     start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
     second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
-    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, without its surroundings")]
-    start_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid at the start, likewise")]
+    start_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the start, as the flow has it")]
+    start_l: Annotated[int, Row(9, "1/s", "its gradient there")]
     start_a: Annotated[int, Row(3, "m/s2", "acceleration ∂u/∂t + l·v at the start")]
     start_v: Annotated[int, Row(3, "m/s", "velocity of the barycentre at the start")]
     middle_l: Annotated[int, Row(9, "1/s", "velocity gradient of the fluid in the middle of the step")]
@@ -94,10 +93,17 @@ def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², seen by what moves with v through the fluid that is in the block."""
+    """∂u/∂t + l·v, m/s², of the flow at the start, seen by what moves with v through it."""
     a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
-    c = dot_vector(load9(block, at.l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
+
+
+def end_acceleration(block: Any, i: int) -> Vector:
+    """Du/Dt of the fluid at the end of the step, m/s²."""
+    a, u = load3(block, during.end_ut, i), load3(block, during.end_u, i)
+    w = dot_vector(load9(block, during.end_l, i), u)
+    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
 
 
 def finish_path(block: Any, i: int, v: Vector) -> None:
@@ -265,7 +271,7 @@ def track_adaptive(
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch.host[i], block, i)
         first_slope(block, medium)
-        evaluate_shape(block, medium, NODE)
+        evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
         thirds = 0
         for i in range(len(members)):

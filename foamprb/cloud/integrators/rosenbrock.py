@@ -1,6 +1,8 @@
-"""The integrator ``rosenbrock``: with inertia of the solid, of second order.
+"""The integrator ``rosenbrock``: with inertia of the solid, of order 3(2), linearly implicit.
 
-The formulas are those of :mod:`foamprb.body.rosenbrock`. The shape's unknowns are F and l_s = A F⁻¹.
+The formulas are those of :mod:`foamprb.body.inertial_runge_kutta` and :mod:`foamprb.body.inertial_path`.
+The shape's unknowns are F and l_s = A F⁻¹. Vectors and tensors of a step are components in the particle
+frame of its start.
 """
 
 from __future__ import annotations
@@ -11,9 +13,28 @@ import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
+from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
+from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
+from foamprb.body.inertial_path import Motion, first_motion, fluid_changes, last_motion
+from foamprb.body.inertial_path import respond as respond_in_path
+from foamprb.body.inertial_path import second_order as path_of_second_order
+from foamprb.body.inertial_path import slope as slope_of_path
+from foamprb.body.inertial_path import third_order as path_of_third_order
+from foamprb.body.inertial_runge_kutta import (
+    Pair,
+    combine,
+    fluid_change,
+    resolvent,
+    turning_acceleration,
+)
+from foamprb.body.inertial_runge_kutta import first_argument as quarter_argument
+from foamprb.body.inertial_runge_kutta import last_argument as end_argument
+from foamprb.body.inertial_runge_kutta import second_order as of_second_order
+from foamprb.body.inertial_runge_kutta import slope as slope_of
+from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_sphere as finger
 from foamprb.body.material import viscous_stress
-from foamprb.body.rosenbrock import GAMMA, Stiffness, elastic_response, inertial_stiffness, solve_inertial
+from foamprb.body.rosenbrock import Stiffness, inertial_stiffness
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -21,31 +42,43 @@ from foamprb.body.tensor import (
     det,
     dot,
     dot_vector,
-    exponential,
     from_frame,
     inverse,
-    reciprocals,
     scale,
+    select,
     to_frame,
     transpose,
     vector_dot,
 )
 from foamprb.body.traction import roscoe as traction
-from foamprb.cloud.block import BLOCK_STAGES, Medium, at, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces.total import acceleration
-from foamprb.cloud.integrators.adaptive import drag_rate
+from foamprb.cloud.integrators.adaptive import (
+    STEP_ROWS,
+    drag_rate,
+    during,
+    end_acceleration,
+    fluid_acceleration,
+    judge_difference,
+    keep_frame,
+    track_adaptive,
+)
 from foamprb.cloud.integrators.base import Integrator
-from foamprb.cloud.integrators.second_order import SECOND_ORDER_ROWS, finish, largest, slope, track_adaptive
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 
 
 class StiffnessRows(NamedTuple):
-    """What stage 2 needs of stage 1 beside the :class:`SlopeRows`, the :class:`Stiffness` included."""
+    """What a stage needs of those before it: the state at the start, and how stiff it is."""
 
-    kv: Annotated[int, Row(3, "m/s2", "slope of the velocity")]
-    kL: Annotated[int, Row(9, "1/s2", "slope of the body's velocity gradient l_s")]
-    rate: Annotated[int, Row(3, "1/s", "rates of drag along the axes of the frame")]
+    first_stretch: Annotated[int, Row(3, "1", "stretches at the start")]
+    first_alpha: Annotated[int, Row(3, "1", "α₀, β₀, γ₀ of them")]
+    first_ring: Annotated[int, Row(3, "1", "α₀°, β₀°, γ₀° of them")]
+    first_star: Annotated[int, Row(3, "1", "α₀*, β₀*, γ₀* of them")]
+    first_chi: Annotated[int, Row(1, "1", "χ of them")]
+    b_e: Annotated[int, Row(9, "1", "elastic b_e")]
+    l_s: Annotated[int, Row(9, "1/s", "the body's velocity gradient")]
+    l_t: Annotated[int, Row(9, "1/s2", "its rate")]
     b: Annotated[int, Row(3, "1", "λ_a²")]
     traction: Annotated[int, Row(9, "1/s", "how the traction's normal stresses resist stretching")]
     traction_first: Annotated[int, Row(9, "1/s", "how its shear stresses do, 23 and 13")]
@@ -53,144 +86,383 @@ class StiffnessRows(NamedTuple):
     elastic: Annotated[int, Row(9, "1/s2", "how the elastic normal stresses resist strain")]
     elastic_first: Annotated[int, Row(9, "1/s2", "how the elastic shear stresses do, 23 and 13")]
     elastic_second: Annotated[int, Row(9, "1/s2", "the same, 12")]
+    change: Annotated[int, Row(9, "1/s2", "change of dl_s/dt by that of the fluid's gradient over the step")]
+    turning: Annotated[int, Row(9, "1/s3", "rate of change of dl_s/dt by turning")]
+    Omega: Annotated[int, Row(9, "1", "Ω of the shape that is evaluated")]
+    dl: Annotated[int, Row(9, "1/s", "change of l_s there")]
+    slope_Omega: Annotated[int, Row(9, "1/s", "slope of what is not stiff of dΩ/dt, per step")]
+    slope_l: Annotated[int, Row(9, "1/s2", "the same of dl_s/dt")]
+    second_Omega: Annotated[int, Row(9, "1", "Ω of order 2")]
+    second_l: Annotated[int, Row(9, "1/s", "change of l_s of order 2")]
+    rate: Annotated[int, Row(3, "1/s", "rates of drag")]
+    first_v: Annotated[int, Row(3, "m/s", "velocity")]
+    first_vt: Annotated[int, Row(3, "m/s2", "its rate")]
+    drag_change: Annotated[int, Row(3, "m/s2", "change of the drag by that of the fluid's velocity")]
+    drag_bend: Annotated[int, Row(3, "m/s2", "the part of it quadratic in time")]
+    dx: Annotated[int, Row(3, "m", "way to the place that is evaluated")]
+    dv: Annotated[int, Row(3, "m/s", "change of v there")]
+    slope_v: Annotated[int, Row(3, "m/s2", "slope of what is not stiff of dv/dt, per step")]
+    second_x: Annotated[int, Row(3, "m", "way of order 2")]
+    second_v: Annotated[int, Row(3, "m/s", "change of v of order 2")]
 
 
-own = offsets(StiffnessRows, SECOND_ORDER_ROWS)
+own = offsets(StiffnessRows, STEP_ROWS)
+
+
+def predict_inertial(block: Any, medium: Medium) -> None:
+    """Velocity and its rate at the start, and where they lead while the drag lasts."""
+    for i in range(LANES):
+        h, Q = block[at.dt * LANES + i], load9(block, at.Q, i)
+        v, x = load3(block, at.v, i), load3(block, at.x, i)
+        v_t, rate = _acceleration(block, i, medium, v)
+        a_u = dot_vector(Q, fluid_acceleration(block, i, v))
+        start = (dot_vector(Q, v), dot_vector(Q, v_t))
+        none = (0.0 * h, 0.0 * h, 0.0 * h)
+        by_fluid = (h * rate[0] * a_u[0], h * rate[1] * a_u[1], h * rate[2] * a_u[2])
+        way, _ = respond_in_path(rate, h, start, (none, by_fluid), (none, none))
+        way = vector_dot(way, Q)
+        store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
+        # The parabola from the start with the velocity v to that place.
+        f = 2.0 / (h * h)
+        bend = (f * (way[0] - h * v[0]), f * (way[1] - h * v[1]), f * (way[2] - h * v[2]))
+        store3(block, during.start_v, i, v)
+        store3(block, during.start_a, i, bend)
+        store3(block, own.rate, i, rate)
+        store3(block, own.first_v, i, start[0])
+        store3(block, own.first_vt, i, start[1])
 
 
 def first_inertial(block: Any, medium: Medium) -> None:
-    """Stage 1 with inertia: slopes at the start of the step, and the state that they predict.
+    """The state at the start, how stiff it is, and the state at a quarter of the step.
 
     The shape's unknowns are F and l_s = A F⁻¹, with dF/dt = l_s F and dl_s/dt = Ȧ F⁻¹ − l_s l_s: the traction
     depends on l_s, so that what is stiff in l_s does not reappear in F.
     """
     for i in range(LANES):
-        h = block[at.dt * LANES + i]
-        gh = GAMMA * h
+        h, c = block[at.dt * LANES + i], _inertia(block, i)
         Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
-        c = _inertia(block, i)
-        l_s = dot(A, inverse(F))
-        L, G = to_frame(Q, l_s), dot(Q, F)
-        b, b_e = dot(G, transpose(G)), finger(G, load9(block, at.M, i))
-        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, b_e)
+        # The flow's, and with what the surroundings do to it.
+        l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
+        G, L = dot(Q, F), to_frame(Q, dot(A, inverse(F)))
+        b_e = finger(G, load9(block, at.M, i))
+        l_t, tau = _shape_rate(block, i, medium.mu, L, G, b_e)
         e = solid_elasticity(block, i, stretches, b_e, 1.0)
         n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
-        r = add(W, scale(-1.0, dot(dot(L, L), b)))
-        Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, L))))
-        kL = from_frame(Q, Y)
-        kF = add(l_s, scale(gh, kL))
+        dl = add(l_end, scale(-1.0, l))
+        change = fluid_change(stretches, g, c, medium.mu, to_frame(Q, dl))
+        turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
+        shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
+        _set_shape(block, i, Q, G, shape)
+        # l_s there, until A is known: the surroundings ask for it.
+        store9(block, at.new_A, i, from_frame(Q, add(L, shape[1])))
+        store9(block, during.start_Q, i, Q)
+        store3(block, own.first_stretch, i, stretches)
+        store3(block, own.first_alpha, i, g.alpha)
+        store3(block, own.first_ring, i, g.ring)
+        store3(block, own.first_star, i, g.star)
+        block[own.first_chi * LANES + i] = g.chi
+        store9(block, own.b_e, i, b_e)
+        store9(block, own.l_s, i, L)
+        store9(block, own.l_t, i, l_t)
         _store_stiffness(block, i, n)
-        store9(block, own.kL, i, kL)
-        store9(block, slope.kF, i, kF)
-        store9(block, at.new_A, i, add(l_s, scale(h, kL)))
-        store9(block, at.new_F, i, dot(exponential(scale(h, kF)), F))
+        store9(block, own.change, i, change)
+        store9(block, own.turning, i, turning)
 
-        v, x = load3(block, at.v, i), load3(block, at.x, i)
-        a, rate = _acceleration(block, i, medium, Q, drag(stretches, g), v, det(F))
-        kv = _damped(Q, rate, gh, a)
-        kx = (v[0] + gh * kv[0], v[1] + gh * kv[1], v[2] + gh * kv[2])
-        store3(block, own.kv, i, kv)
-        store3(block, slope.kx, i, kx)
-        store3(block, at.new_v, i, (v[0] + h * kv[0], v[1] + h * kv[1], v[2] + h * kv[2]))
-        store3(block, at.new_x, i, (x[0] + h * kx[0], x[1] + h * kx[1], x[2] + h * kx[2]))
-        store9(block, slope.start_Q, i, Q)
-        store3(block, own.rate, i, rate)
+        v, u, u_end = load3(block, at.v, i), load3(block, during.start_u, i), load3(block, during.end_u, i)
+        a_u = fluid_acceleration(block, i, v)
+        rate, start = load3(block, own.rate, i), (load3(block, own.first_v, i), load3(block, own.first_vt, i))
+        du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
+        changes = fluid_changes(rate, h, dot_vector(Q, du), dot_vector(Q, a_u))
+        moved = first_motion(rate, h, start, *changes)
+        _set_motion(block, i, Q, moved)
+        x, way = load3(block, at.x, i), vector_dot(moved[0], Q)
+        store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
+        store3(block, own.drag_change, i, changes[0])
+        store3(block, own.drag_bend, i, changes[1])
 
-
-def second_inertial(block: Any, medium: Medium) -> None:
-    """Stage 2 with inertia: slopes at the predicted state, and the new state."""
-    for i in range(LANES):
-        h = block[at.dt * LANES + i]
-        gh = GAMMA * h
-        n = _load_stiffness(block, i)
-        Q0, rate0 = load9(block, slope.start_Q, i), load3(block, own.rate, i)
-        Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-        F, A = load9(block, at.F, i), load9(block, at.A, i)
-        F_p, l_p = load9(block, at.new_F, i), load9(block, at.new_A, i)
-        k1F, k1L = load9(block, slope.kF, i), load9(block, own.kL, i)
-        L, G = to_frame(Q, l_p), dot(Q, F_p)
-        b = dot(G, transpose(G))
-        W = _shape_force(block, i, medium.mu, Q, stretches, g, L, finger(G, load9(block, at.M, i)))
-        f_L = from_frame(Q, add(dot(W, inverse(b)), scale(-1.0, dot(L, L))))
-        r_F = add(l_p, scale(-2.0, k1F))
-        r_L = add(f_L, scale(-2.0, k1L))
-        G0 = dot(Q0, F)
-        r = dot(to_frame(Q0, r_L), dot(G0, transpose(G0)))
-        Y = solve_inertial(n, gh, add(r, scale(-gh, elastic_response(n, to_frame(Q0, r_F)))))
-        k2L = from_frame(Q0, Y)
-        k2F = add(r_F, scale(gh, k2L))
-        l_s = _combine(dot(A, inverse(F)), h, k1L, k2L)
-
-        v, v_p = load3(block, at.v, i), load3(block, at.new_v, i)
-        k1v, k1x = load3(block, own.kv, i), load3(block, slope.kx, i)
-        f_v, _ = _acceleration(block, i, medium, Q, drag(stretches, g), v_p, det(F_p))
-        k2v = _damped(Q0, rate0, gh, (f_v[0] - 2.0 * k1v[0], f_v[1] - 2.0 * k1v[1], f_v[2] - 2.0 * k1v[2]))
-        k2x = (
-            v_p[0] - 2.0 * k1x[0] + gh * k2v[0],
-            v_p[1] - 2.0 * k1x[1] + gh * k2v[1],
-            v_p[2] - 2.0 * k1x[2] + gh * k2v[2],
+        # The fluid there as the parabola has it; its acceleration between those of start and end.
+        p, q = NODE - NODE * NODE, NODE * NODE
+        there = (
+            u[0] + p * h * a_u[0] + q * du[0],
+            u[1] + p * h * a_u[1] + q * du[1],
+            u[2] + p * h * a_u[2] + q * du[2],
         )
-        finish(block, i, F, k2F, (k1x, k2x))
-        F_new = load9(block, at.new_F, i)
-        store9(block, at.new_A, i, dot(l_s, F_new))
-        block[at.J * LANES + i] = det(F_new)
-        # Over the step, an error of l_s is one of the deformation gradient.
-        error = 0.5 * h * h * largest(add(k1L, k2L))
-        block[at.error * LANES + i] = np.maximum(block[at.error * LANES + i], error)
+        a, w = load3(block, at.DuDt, i), end_acceleration(block, i)
+        store3(block, at.u, i, there)
+        store9(block, at.l, i, add(l, scale(NODE, dl)))
         store3(
             block,
-            at.new_v,
+            at.DuDt,
             i,
-            (
-                v[0] + h * (1.5 * k1v[0] + 0.5 * k2v[0]),
-                v[1] + h * (1.5 * k1v[1] + 0.5 * k2v[1]),
-                v[2] + h * (1.5 * k1v[2] + 0.5 * k2v[2]),
-            ),
+            (a[0] + NODE * (w[0] - a[0]), a[1] + NODE * (w[1] - a[1]), a[2] + NODE * (w[2] - a[2])),
         )
+        _store_path_error(block, i, h, du, a_u)
 
 
-def _shape_force(
-    block: Any, i: int, mu_f: float, Q: Tensor, stretches: Vector, g: Integrals, L: Tensor, b_e: Tensor
-) -> Tensor:
-    """Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², in the particle frame, where l_s is L."""
+def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
+    """Slopes at a quarter of the step, the solution of order 2, and whether it is good enough."""
+    for i in range(LANES):
+        h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
+        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
+        b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
+        rates = _rates(block, i, medium, Q0, start[0])
+        k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
+        two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, FLUID_SHARE)
+        size = _size(judged, h, b_e, strain_scale(b_e, two[0]))
+        store9(block, own.slope_Omega, i, k[0])
+        store9(block, own.slope_l, i, k[1])
+        store9(block, own.second_Omega, i, two[0])
+        store9(block, own.second_l, i, two[1])
+
+        rate, moving = (
+            load3(block, own.rate, i),
+            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
+        )
+        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        seen = _fluid_share(changes, NODE)
+        moved = load3(block, own.dx, i), load3(block, own.dv, i)
+        kv = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, seen, 1.0 / NODE)
+        path = path_of_second_order(rate, h, moving, *changes, kv)
+        none = (0.0 * h, 0.0 * h, 0.0 * h)
+        by_forces = respond_in_path(rate, h, (none, none), kv, (none, none))
+        size = np.maximum(size, _length(by_forces, h, _way(block, i)))
+        block[during.third * LANES + i] = select(size <= tolerance, 0.0, 1.0)
+        store3(block, own.slope_v, i, kv[1])
+        store3(block, own.second_x, i, path[0])
+        store3(block, own.second_v, i, path[1])
+
+        store9(block, during.second_Q, i, load9(block, at.Q, i))
+        F, A, J = _new_shape(block, i, Q0, start[0], two)
+        x, v = _new_motion(block, i, Q0, path)
+        store9(block, at.new_F, i, F)
+        store9(block, at.new_A, i, A)
+        block[at.J * LANES + i] = J
+        store3(block, at.new_x, i, x)
+        store3(block, at.new_v, i, v)
+
+
+def last_inertial(block: Any, medium: Medium) -> None:
+    """The state for the evaluation at the end, in lanes that go to order 3."""
+    for i in range(LANES):
+        h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
+        third = block[during.third * LANES + i] > 0.0
+        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
+        k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
+        change, turning = load9(block, own.change, i), load9(block, own.turning, i)
+        bend = _bend(block, i, medium, Q0)
+        shape = end_argument(n, resolvent(n, h), h, start, change, bend, k, turning)
+        F, L = load9(block, at.new_F, i), from_frame(Q0, add(start[0], shape[1]))
+        _set_shape(block, i, Q0, dot(Q0, load9(block, at.F, i)), shape)
+        store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
+        store9(block, at.new_A, i, choose(third, L, load9(block, at.new_A, i)))
+
+        rate, moving = (
+            load3(block, own.rate, i),
+            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
+        )
+        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        v = load3(block, at.new_v, i)
+        none = (0.0 * h, 0.0 * h, 0.0 * h)
+        slope = (none, load3(block, own.slope_v, i))
+        _set_motion(block, i, Q0, last_motion(rate, h, moving, *changes, slope))
+        w = load3(block, at.new_v, i)
+        v = (select(third, w[0], v[0]), select(third, w[1], v[1]), select(third, w[2], v[2]))
+        store3(block, at.new_v, i, v)
+        store3(block, at.u, i, load3(block, during.end_u, i))
+        store9(block, at.l, i, load9(block, during.end_l, i))
+        store3(block, at.DuDt, i, end_acceleration(block, i))
+
+
+def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
+    """Slopes at the end, and the solution of order 3."""
+    for i in range(LANES):
+        h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
+        third = block[during.third * LANES + i] > 0.0
+        n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
+        b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
+        k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
+        last = slope_of(n, _argument(block, i), _rates(block, i, medium, Q0, start[0]), start, change, 1.0)
+        bend = _bend(block, i, medium, Q0)
+        three = of_third_order(n, resolvent(n, h), h, start, change, bend, k, last)
+        two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
+        strain = strain_scale(b_e, two[0])
+        difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
+
+        rate, moving = (
+            load3(block, own.rate, i),
+            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
+        )
+        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        moved = load3(block, own.dx, i), load3(block, own.dv, i)
+        none = (0.0 * h, 0.0 * h, 0.0 * h)
+        slope = (none, load3(block, own.slope_v, i))
+        end = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, changes[0], 1.0)
+        path = path_of_third_order(rate, h, moving, *changes, slope, end)
+        x2, v2 = load3(block, own.second_x, i), load3(block, own.second_v, i)
+        miss = (
+            (path[0][0] - x2[0], path[0][1] - x2[1], path[0][2] - x2[2]),
+            (path[1][0] - v2[0], path[1][1] - v2[1], path[1][2] - v2[2]),
+        )
+        difference = np.maximum(difference, _length(miss, h, _way(block, i)))
+        F, A, J = _new_shape(block, i, Q0, start[0], three)
+        store9(block, at.new_F, i, choose(third, F, load9(block, at.new_F, i)))
+        store9(block, at.new_A, i, choose(third, A, load9(block, at.new_A, i)))
+        block[at.J * LANES + i] = select(third, J, block[at.J * LANES + i])
+        x, v = _new_motion(block, i, Q0, path)
+        y, w = load3(block, at.new_x, i), load3(block, at.new_v, i)
+        x = (select(third, x[0], y[0]), select(third, x[1], y[1]), select(third, x[2], y[2]))
+        v = (select(third, v[0], w[0]), select(third, v[1], w[1]), select(third, v[2], w[2]))
+        store3(block, at.new_x, i, x)
+        store3(block, at.new_v, i, v)
+        keep_frame(block, i, third)
+        judge_difference(block, i, select(third, difference, 0.0), tolerance)
+
+
+def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, G: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
+    """dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in the frame of the shape.
+
+    Parameters
+    ----------
+    L, G
+        The body's velocity gradient, 1/s, and Q·F.
+    b_e
+        Elastic b_e.
+    """
+    Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     stress = scale(mu_f, traction(stretches, g, to_frame(Q, load9(block, at.l, i)), L))
     stress = add(stress, scale(-1.0, viscous_stress(L, block[at.eta * LANES + i])))
     J = stretches[0] * stretches[1] * stretches[2]
     tau = conservative_stress(block, i, stretches, b_e, J)
     c = _inertia(block, i)
-    return add(scale(c * J, stress), scale(-c, tau))
+    W = add(scale(c * J, stress), scale(-c, tau))
+    return add(dot(W, inverse(dot(G, transpose(G)))), scale(-1.0, dot(L, L))), tau
 
 
-def _acceleration(
-    block: Any, i: int, medium: Medium, Q: Tensor, k: Vector, v: Vector, J: Any
-) -> tuple[Vector, Vector]:
-    """Acceleration of the barycentre (34), m/s², and the rates of drag, 1/s, with resistances R k."""
-    u = load3(block, at.u, i)
-    a, inertia = acceleration(block, i, medium, J)
-    r = drag_rate(block, i, medium.mu, k)
+def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
+    """Rates of Ω, 1/s, and of l_s, 1/s², of the state that is evaluated."""
+    Q, L = load9(block, at.Q, i), add(l_s, load9(block, own.dl, i))
+    G = dot(Q, load9(block, at.new_F, i))
+    turn = dot(Q, transpose(Q0))
+    rate, _ = _shape_rate(block, i, medium.mu, to_frame(turn, L), G, finger(G, load9(block, at.M, i)))
+    return algebra_rate(load9(block, own.Omega, i), L), from_frame(turn, rate)
+
+
+def _argument(block: Any, i: int) -> Pair:
+    """Ω and the change of l_s of the state that is evaluated."""
+    return load9(block, own.Omega, i), load9(block, own.dl, i)
+
+
+def _set_shape(block: Any, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
+    """Put the shape to be evaluated into the block."""
+    store9(block, own.Omega, i, shape[0])
+    store9(block, own.dl, i, shape[1])
+    store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(shape[0]), G)))
+
+
+def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
+    """Put the way to the place to be evaluated, and the velocity there, into the block."""
+    v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
+    store3(block, own.dx, i, moved[0])
+    store3(block, own.dv, i, moved[1])
+    store3(block, at.new_v, i, (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2]))
+
+
+def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
+    """F and A at the end of the step, and J."""
+    F = dot(transpose(Q), dot(group_exponential(end[0]), dot(Q, load9(block, at.F, i))))
+    return F, dot(from_frame(Q, add(l_s, end[1])), F), det(F)
+
+
+def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:
+    """Place and velocity at the end of the step."""
+    x, v = load3(block, at.x, i), load3(block, at.v, i)
+    dx, dv = vector_dot(end[0], Q), vector_dot(end[1], Q)
+    return (x[0] + dx[0], x[1] + dx[1], x[2] + dx[2]), (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
+
+
+def _moving(block: Any, i: int, medium: Medium, Q: Tensor) -> Motion:
+    """Velocity and its rate in the state that is evaluated."""
+    v = load3(block, at.v, i)
+    v_t, _ = _acceleration(block, i, medium, load3(block, at.new_v, i))
+    dv, start = load3(block, own.dv, i), dot_vector(Q, v)
+    return (start[0] + dv[0], start[1] + dv[1], start[2] + dv[2]), dot_vector(Q, v_t)
+
+
+def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
+    """Acceleration (34) of the body in the block when it has the velocity v, m/s², and drag's rates, 1/s."""
+    Q, stretches, u = load9(block, at.Q, i), load3(block, at.stretch, i), load3(block, at.u, i)
+    a, inertia = acceleration(block, i, medium, stretches[0] * stretches[1] * stretches[2])
+    r = drag_rate(block, i, medium.mu, drag(stretches, load_integrals(block, i)))
     rate = (r[0] / inertia, r[1] / inertia, r[2] / inertia)
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
     a_D = vector_dot((rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]), Q)
     return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
 
 
+def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
+    """What the fluid's velocity has changed of dv/dt after the share s of the step, m/s²."""
+    (x, y, z), (p, q, r) = changes
+    c = s * s - s
+    return s * x + c * p, s * y + c * q, s * z + c * r
+
+
+def _store_path_error(block: Any, i: int, h: Any, du: Vector, a_u: Vector) -> None:
+    """Store what the fluid's velocity has beside a parabola in time, by its last slope, over the way."""
+    v = load3(block, at.v, i)
+    a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
+    f = 2.0 / h
+    x = a[0] + w[0] + a_u[0] - f * du[0]
+    y = a[1] + w[1] + a_u[1] - f * du[1]
+    z = a[2] + w[2] + a_u[2] - f * du[2]
+    error = h * h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / _way(block, i)
+    block[during.path * LANES + i] = error
+    block[during.difference * LANES + i] = 0.0
+    block[at.error * LANES + i] = error
+
+
+def _way(block: Any, i: int) -> Any:
+    """What an error of the path is compared with: the way of the fluid or of the body, and the radius, m."""
+    h, v, u = block[at.dt * LANES + i], load3(block, at.v, i), load3(block, during.end_u, i)
+    fastest = np.maximum(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
+    return h * np.sqrt(fastest) + block[at.R * LANES + i]
+
+
+def _size(v: Pair, h: Any, b_e: Tensor, strain: Any) -> Any:
+    """Size of a small difference of two shapes; over the step, one of l_s is one of Ω."""
+    return np.maximum(relative_size(v[0], b_e, strain), h * largest(v[1]))
+
+
+def _length(m: Motion, h: Any, way: Any) -> Any:
+    """Size of a small difference of two places and velocities, of the way."""
+    (x, y, z), (u, v, w) = m
+    squares = np.maximum(x * x + y * y + z * z, h * h * (u * u + v * v + w * w))
+    return np.sqrt(squares) / way
+
+
+def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
+    """The part of dl_s/dt that is quadratic in time as the fluid's gradient is, 1/s²."""
+    l, middle, l_end = (
+        load9(block, during.start_l, i),
+        load9(block, during.middle_l, i),
+        load9(block, during.end_l, i),
+    )
+    bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
+    g = Integrals(
+        load3(block, own.first_alpha, i),
+        load3(block, own.first_ring, i),
+        load3(block, own.first_star, i),
+        block[own.first_chi * LANES + i],
+    )
+    return fluid_change(
+        load3(block, own.first_stretch, i), g, _inertia(block, i), medium.mu, to_frame(Q, bend)
+    )
+
+
 def _inertia(block: Any, i: int) -> float:
     """c = 5/(ρ_s R²), the inverse inertia of the shape per volume."""
     R = block[at.R * LANES + i]
     return 5.0 / (block[at.rho * LANES + i] * R * R)  # type: ignore[no-any-return]
-
-
-def _damped(Q: Tensor, rate: Vector, gh: Any, r: Vector) -> Vector:
-    """Solution k of (1 + γh rate_a) k_a = r_a in the frame Q."""
-    w = dot_vector(Q, r)
-    d = reciprocals((1.0 + gh * rate[0], 1.0 + gh * rate[1], 1.0 + gh * rate[2]))
-    return vector_dot((w[0] * d[0], w[1] * d[1], w[2] * d[2]), Q)
-
-
-def _combine(y: Tensor, h: Any, k1: Tensor, k2: Tensor) -> Tensor:
-    """Y + h (3 k₁ + k₂)/2."""
-    return add(y, add(scale(1.5 * h, k1), scale(0.5 * h, k2)))
 
 
 def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
@@ -215,11 +487,24 @@ def _load_stiffness(block: Any, i: int) -> Stiffness:
 
 ROSENBROCK = Integrator(
     name="rosenbrock",
-    description="with inertia, second order, implicit in elasticity and traction",
-    order=2,
+    description="with inertia, third order, implicit in elasticity and traction",
+    order=3,
     track=track_adaptive,
-    stages=(*BLOCK_STAGES, first_inertial, second_inertial),
-    layout=layout(at, slope, own),
-    bindings={"first_slope": first_inertial, "second_slope": second_inertial},
+    stages=(
+        *BLOCK_STAGES,
+        predict_inertial,
+        first_inertial,
+        second_inertial,
+        last_inertial,
+        third_inertial,
+    ),
+    layout=layout(at, during, own),
+    bindings={
+        "predict": predict_inertial,
+        "first_slope": first_inertial,
+        "second_slope": second_inertial,
+        "last_argument": last_inertial,
+        "third_slope": third_inertial,
+    },
     adaptive=True,
 )

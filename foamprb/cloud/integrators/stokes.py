@@ -42,6 +42,7 @@ from foamprb.cloud.integrators.adaptive import (
     STEP_ROWS,
     drag_rate,
     during,
+    end_acceleration,
     finish_path,
     fluid_acceleration,
     judge_difference,
@@ -56,6 +57,8 @@ class RelaxationRows(NamedTuple):
     """What a stage needs of those before it: the state at the start in its frame, and how it relaxes."""
 
     start_slip: Annotated[int, Row(3, "m/s", "velocity relative to the fluid at the start")]
+    end_slip: Annotated[int, Row(3, "m/s", "the same in the fluid at the end, of the shape at the start")]
+    disturbance: Annotated[int, Row(3, "m/s", "what the surroundings add to the flow's velocity")]
     l_s: Annotated[int, Row(9, "1/s", "the body's velocity gradient")]
     b_e: Annotated[int, Row(9, "1", "elastic b_e")]
     normal: Annotated[int, Row(9, "1", "d_s,aa for unit changes of the normal stresses over μ_f")]
@@ -82,8 +85,8 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
     """Velocity and acceleration at the start, and where they lead."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
-        w = _slip(block, i, medium, load9(block, at.l, i))
-        u, x = load3(block, during.start_u, i), load3(block, at.x, i)
+        w = _slip(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
+        u, x = load3(block, at.u, i), load3(block, at.x, i)
         v = (u[0] + w[0], u[1] + w[1], u[2] + w[2])
         a = fluid_acceleration(block, i, v)
         store3(block, own.start_slip, i, w)
@@ -99,25 +102,31 @@ def first_inertialess(block: Any, medium: Medium) -> None:
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q, stretches, F = load9(block, at.Q, i), load3(block, at.stretch, i), load9(block, at.F, i)
-        l, l_start = load9(block, at.l, i), load9(block, during.start_l, i)
-        l_end = load9(block, during.end_l, i)
+        # The flow's, and with what the surroundings do to it.
+        l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         G = dot(Q, F)
         b_e = finger(G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
-        l_f = to_frame(Q, l)
+        l_f = to_frame(Q, felt)
         l_s = velocity_gradient(m, sigma, l_f)
         # The pressure takes over the solid's resistance to dilation.
         e = solid_elasticity(block, i, stretches, b_e, 0.0)
         n = relaxation(m, e, medium.mu)
         quarter, whole = responses(n, h)
-        dl = add(l_end, scale(-1.0, l_start))
+        dl = add(l_end, scale(-1.0, l))
         change = _seen(m, to_frame(Q, dl))
         turning = turning_gradient(stretches, m, e, medium.mu, l_s, l_f, sigma)
         Omega = quarter_argument(n, quarter, h, l_s, change, turning)
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
+        store3(block, own.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
         # That of the body's place and time, as long as the flow is smooth.
-        store9(block, at.l, i, add(l_start, scale(NODE, dl)))
-        store3(block, at.u, i, load3(block, during.start_u, i))
+        store9(block, at.l, i, add(l, scale(NODE, dl)))
+        x, v, u = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, at.u, i)
+        f = NODE * h
+        store3(block, at.new_x, i, (x[0] + f * v[0], x[1] + f * v[1], x[2] + f * v[2]))
+        w = load3(block, during.start_u, i)
+        store3(block, own.disturbance, i, (u[0] - w[0], u[1] - w[1], u[2] - w[2]))
+        store3(block, at.u, i, _fluid_at_node(block, i))
         store9(block, during.start_Q, i, Q)
         store9(block, own.l_s, i, l_s)
         store9(block, own.b_e, i, b_e)
@@ -154,13 +163,21 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, own.second, i, two)
         store9(block, during.second_Q, i, load9(block, at.Q, i))
 
-        w0, w = load3(block, own.start_slip, i), _slip(block, i, medium, load9(block, during.start_l, i))
+        # The slip changes with the fluid and with the shape.
+        l, a = load9(block, during.start_l, i), load3(block, at.DuDt, i)
+        w0, w1, w = (
+            load3(block, own.start_slip, i),
+            load3(block, own.end_slip, i),
+            _slip(block, i, medium, l, a),
+        )
+        # So does what the surroundings add to the flow.
+        d, p, q = load3(block, own.disturbance, i), load3(block, at.u, i), _fluid_at_node(block, i)
         u = load3(block, during.end_u, i)
         f = 1.0 / NODE
         v = (
-            u[0] + w0[0] + f * (w[0] - w0[0]),
-            u[1] + w0[1] + f * (w[1] - w0[1]),
-            u[2] + w0[2] + f * (w[2] - w0[2]),
+            u[0] + d[0] + w1[0] + f * (w[0] - w0[0] + (p[0] - q[0] - d[0])),
+            u[1] + d[1] + w1[1] + f * (w[1] - w0[1] + (p[1] - q[1] - d[1])),
+            u[2] + d[2] + w1[2] + f * (w[2] - w0[2] + (p[2] - q[2] - d[2])),
         )
         finish_path(block, i, v)
         F = _finish_shape(block, i, Q0, two)
@@ -184,6 +201,7 @@ def last_inertialess(block: Any, medium: Medium) -> None:
         third = block[during.third * LANES + i] > 0.0
         store9(block, at.new_F, i, choose(third, new, load9(block, at.new_F, i)))
         store9(block, at.l, i, load9(block, during.end_l, i))
+        store3(block, at.u, i, load3(block, during.end_u, i))
         # The quarter has served.
         store9(block, own.quarter, i, Omega)
 
@@ -219,8 +237,11 @@ def end_inertialess(block: Any, medium: Medium) -> None:
         l_s = _gradient(block, i, medium)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         store9(block, at.A, i, choose(moving, dot(l_s, F), A))
-        w, v = _slip(block, i, medium, load9(block, at.l, i)), load3(block, at.v, i)
-        u = load3(block, during.start_u, i)
+        u, w, v = (
+            load3(block, at.u, i),
+            _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i)),
+            load3(block, at.v, i),
+        )
         v = (
             select(moving, u[0] + w[0], v[0]),
             select(moving, u[1] + w[1], v[1]),
@@ -244,6 +265,12 @@ def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
     return from_frame(Q, velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i))))
 
 
+def _fluid_at_node(block: Any, i: int) -> Vector:
+    """Velocity of the fluid at a quarter of the step, as the flow has it, m/s."""
+    u, v = load3(block, during.start_u, i), load3(block, during.end_u, i)
+    return u[0] + NODE * (v[0] - u[0]), u[1] + NODE * (v[1] - u[1]), u[2] + NODE * (v[2] - u[2])
+
+
 def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
     """Change of l_s by one of the fluid's gradient, 1/s."""
     return velocity_gradient(m, scale(0.0, dl_f), dl_f)
@@ -264,14 +291,11 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
     return _seen(m, to_frame(Q, bend))
 
 
-def _slip(block: Any, i: int, medium: Medium, l_f: Tensor) -> Vector:
-    """Velocity of the shape that is in the block relative to the fluid without its surroundings, m/s."""
+def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+    """Velocity relative to a fluid of the shape that is in the block, m/s."""
     rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
-    steady, push, inertia = pushes_on(block, i, medium, 1.0)
-    a = load3(block, at.DuDt, i)
-    w = balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, a, l_f)
-    u, free = load3(block, at.u, i), load3(block, during.start_u, i)
-    return w[0] + (u[0] - free[0]), w[1] + (u[1] - free[1]), w[2] + (u[2] - free[2])
+    steady, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 
 
 def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:

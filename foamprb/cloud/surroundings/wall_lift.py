@@ -215,8 +215,8 @@ def moving_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: floa
 
 def load_of(block: Any, i: int, medium: Medium) -> Vector:
     """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
-    _, push, inertia = pushes_on(block, i, medium, 1.0)
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
+    _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
     a = (push[0] - inertia * Du_Dt[0], push[1] - inertia * Du_Dt[1], push[2] - inertia * Du_Dt[2])
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]

@@ -17,6 +17,7 @@ __all__ = [
     "TWISTED",
     "add_at",
     "add_pyramids",
+    "bound",
     "choose_bases",
     "gather_faces",
     "list_faces",
@@ -195,11 +196,18 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
             )
             w = n[0] * areas[f, 0] + n[1] * areas[f, 1] + n[2] * areas[f, 2]
             weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
-        # A face folded onto itself has no area to weigh with; its mean is as good a centre as any.
+        # A face folded onto itself has no area to weigh with but round-off, which leads anywhere; its mean is
+        # as good a centre as any.
         if weight != 0.0:
-            centres[f, 0] += x / (3.0 * weight)
-            centres[f, 1] += y / (3.0 * weight)
-            centres[f, 2] += z / (3.0 * weight)
+            x, y, z = x / (3.0 * weight), y / (3.0 * weight), z / (3.0 * weight)
+            reach = 0.0
+            for k in range(size):
+                for i in range(3):
+                    reach = max(reach, abs(points[lists[begin + k], i] - centres[f, i]))
+            if max(abs(x), abs(y), abs(z)) <= reach:
+                centres[f, 0] += x
+                centres[f, 1] += y
+                centres[f, 2] += z
 
 
 def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vector, Vector]:
@@ -237,6 +245,14 @@ def add_pyramids(
         volumes[c] += volume
         for i in range(3):
             moments[c, i] += 0.75 * volume * (centres[f, i] - middles[c, i])
+
+
+def bound(cells: Ints, values: Floats, low: Floats, high: Floats) -> None:
+    """Let the boxes of the cells, ``low`` and ``high`` (n_cells, 3), hold the rows of ``values`` (n, 3)."""
+    for f in range(cells.shape[0]):
+        c = cells[f]
+        for i in range(3):
+            low[c, i], high[c, i] = min(low[c, i], values[f, i]), max(high[c, i], values[f, i])
 
 
 def choose_bases(

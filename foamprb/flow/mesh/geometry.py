@@ -10,7 +10,7 @@ import numpy as np
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.cells import HalfFaces
-from foamprb.flow.mesh.faces import add_at, add_pyramids, gather_faces, measure_faces
+from foamprb.flow.mesh.faces import add_at, add_pyramids, bound, gather_faces, measure_faces
 from foamprb.flow.mesh.lists import ragged
 
 # Faces handled at once: the temporary arrays then stay in the cache.
@@ -88,14 +88,23 @@ def _cell_middles(points: Floats, faces: Faces) -> Floats:
 
 
 def cell_geometry(points: Floats, faces: Faces, middles: Floats) -> tuple[Floats, Floats]:
-    """Cell centres and volumes, by pyramids about the means of the face centres."""
-    add = link(add_pyramids)
+    """Cell centres and volumes, by pyramids about the means of the face centres.
+
+    A centre that is not among the face centres, as where the volume is round-off, is their mean instead.
+    """
+    add, widen = link(add_pyramids), link(bound)
     moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
+    low, high = np.full((len(middles), 3), np.inf), np.full((len(middles), 3), -np.inf)
     for part, centres, areas in _measured(points, faces):
         for cells, sign in ((faces.owner[part], 1.0), (faces.neighbour[part], -1.0)):
             add(cells, sign, centres, areas, middles, volumes, moments)
+            widen(cells, centres, low, high)
     moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
     moments += middles
+    # By round-off it may be beside them.
+    room = 1e-9 * (high - low).max(axis=1)[:, None]
+    astray = ~((low - room <= moments) & (moments <= high + room)).all(axis=1)
+    moments[astray] = middles[astray]
     return moments, volumes
 
 

@@ -1,93 +1,17 @@
-"""The cell-locating tree, and the arrays that every compiled function of a mesh flow reads."""
+"""The tree that finds the cell, and in it the tetrahedron, that holds a point."""
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 
 from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
+from foamprb.flow.mesh.folds import SOUND, is_there
 from foamprb.flow.mesh.mesh import Mesh
 
-__all__ = ["TOLERANCE", "MeshArrays", "build_tree", "cell_boxes", "frame", "locate", "weights"]
-
 _LEAF = 8
-
-TOLERANCE = 1e-9
-"""How far outside a tetrahedron a point may lie and still belong to it, in units of the barycentric weights.
-
-Coordinates have been float32 once, so that no cell is thinner than some 1e-7 of its distance from the origin;
-the round-off of a weight in double precision is then below 1e-9.
-"""
-
-
-class MeshArrays(NamedTuple):
-    """What the kernels read of a flow on a mesh; SI units, indices int32."""
-
-    nodes: Floats
-    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, one spare: two cache lines a node."""
-    n_points: int
-    """Number of mesh points: the centre of cell c is node ``n_points + c``."""
-    tets: Ints
-    """(n_tets, 4) nodes, the first the cell centre."""
-    neighbours: Ints
-    """(n_tets, 4): the tetrahedron across the face opposite each vertex; −1 − b for boundary triangle b."""
-    cell_start: Ints
-    """(n_cells + 1,) first tetrahedron of each cell."""
-    tree_boxes: Floats
-    """(2 n_leaves, 6): lower and upper corners; node i has children 2i and 2i + 1, the root is 1."""
-    tree_cells: Ints
-    """(n_leaves, leaf size) cells, −1 where there is none."""
-    triangles: Ints
-    """(n_triangles, 3) nodes of the boundary triangles, then of images of walls beyond coupled patches."""
-    triangle_patch: Ints
-    """(n_triangles,) patch of each."""
-    triangle_normals: Floats
-    """(n_triangles, 3) unit normals, inward."""
-    triangle_tet: Ints
-    """(n_boundary_triangles,) the tetrahedron inside."""
-    across: Ints
-    """(n_boundary_triangles, 2): where a patch is coupled, first and last + 1 of ``partners`` across."""
-    partners: Ints
-    """Boundary triangles across coupled patches."""
-    motions: Floats
-    """(n_patches, 12): rotation row by row and shift from each coupled patch to its neighbour."""
-    near_start: Ints
-    """(n_cells + 1,) into ``near``."""
-    near: Ints
-    """The wall triangles that a particle with its centre in the cell might touch."""
-
-
-def no_mesh() -> MeshArrays:
-    """The arrays of a mesh without cells, for which the kernels can be compiled."""
-    none = np.empty(0, dtype=np.int32)
-
-    def floats(k: int) -> Floats:
-        return np.empty((0, k))
-
-    def ints(k: int) -> Ints:
-        return np.empty((0, k), dtype=np.int32)
-
-    return MeshArrays(
-        nodes=floats(16),
-        n_points=0,
-        tets=ints(4),
-        neighbours=ints(4),
-        cell_start=none,
-        tree_boxes=floats(6),
-        tree_cells=ints(1),
-        triangles=ints(3),
-        triangle_patch=none,
-        triangle_normals=floats(3),
-        triangle_tet=none,
-        across=ints(2),
-        partners=none,
-        motions=floats(12),
-        near_start=none,
-        near=none,
-    )
 
 
 def cell_boxes(mesh: Mesh) -> Floats:
@@ -196,39 +120,18 @@ def _part(centres: Floats, axis: int, order: Ints, first: int, last: int, middle
             return
 
 
-def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, float]:
-    """Origin, the three cofactor vectors and six times the signed volume of a tetrahedron.
-
-    With r = x − origin, the barycentric weights of vertices 1, 2, 3 at x are r·c_k over that volume.
-    """
-    nodes, tets = flow.nodes, flow.tets
-    a, b, c, d = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
-    ox, oy, oz = nodes[a, 0], nodes[a, 1], nodes[a, 2]
-    px, py, pz = nodes[b, 0] - ox, nodes[b, 1] - oy, nodes[b, 2] - oz
-    qx, qy, qz = nodes[c, 0] - ox, nodes[c, 1] - oy, nodes[c, 2] - oz
-    rx, ry, rz = nodes[d, 0] - ox, nodes[d, 1] - oy, nodes[d, 2] - oz
-    c1 = (qy * rz - qz * ry, qz * rx - qx * rz, qx * ry - qy * rx)
-    c2 = (ry * pz - rz * py, rz * px - rx * pz, rx * py - ry * px)
-    c3 = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx)
-    return (ox, oy, oz), c1, c2, c3, px * c1[0] + py * c1[1] + pz * c1[2]
-
-
-def weights(
-    origin: Vector, c1: Vector, c2: Vector, c3: Vector, volume: float, x: Vector
-) -> tuple[float, float, float, float]:
-    """Barycentric weights at x times ``volume``, from what :func:`frame` gives."""
-    rx, ry, rz = x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]
-    w1 = rx * c1[0] + ry * c1[1] + rz * c1[2]
-    w2 = rx * c2[0] + ry * c2[1] + rz * c2[2]
-    w3 = rx * c3[0] + ry * c3[1] + rz * c3[2]
-    return volume - w1 - w2 - w3, w1, w2, w3
-
-
 def locate(flow: MeshArrays, x: Vector) -> int:
-    """Find the tetrahedron that holds x, or −1 when x lies outside the mesh.
+    """Find the tetrahedron that holds x, or −1 when x lies outside the mesh; as :func:`seek`."""
+    box = flow.tree_boxes
+    dx, dy, dz = box[1, 3] - box[1, 0], box[1, 4] - box[1, 1], box[1, 5] - box[1, 2]
+    return seek(flow, x, (dx, 0.1 * dy, 0.01 * dz))
+
+
+def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
+    """Find the tetrahedron that holds x, and from which a walk can go that way, or −1 when there is none.
 
     Of several (x on a shared face) it is the one whose smallest barycentric weight is largest, then the first
-    in the order of the tree.
+    in the order of the tree. A tetrahedron in a fold counts only if x is a place of the mesh in it.
     """
     boxes, cells, first_tet = flow.tree_boxes, flow.tree_cells, flow.cell_start
     leaves = cells.shape[0]
@@ -254,7 +157,7 @@ def locate(flow: MeshArrays, x: Vector) -> int:
                     if volume == 0.0:
                         continue
                     smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
-                    if smallest > depth:
+                    if smallest > depth and (flow.folds[cell] == SOUND or is_there(flow, tet, x, way)):
                         best, depth = tet, smallest
         # To the right sibling of the nearest ancestor (itself included) that is a left child.
         while node & 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from difflib import get_close_matches
 from math import radians
@@ -92,14 +93,18 @@ class _BoundaryEntry:
     rotationAngle: float | None = None
 
 
+# What OpenFOAM does not allow in a word; VTK crashes on some of it.
+_NO_WORD = re.compile(r"""[\s"'/;{}]""")
+
+
 def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     """Read the patches of ``polyMesh/boundary``.
 
     Raises
     ------
     InputError
-        The file is missing or broken, a patch occurs twice, does not begin where the one before it ends, or
-        has a type that is nearly one of OpenFOAM's, such as ``wal``.
+        The file is missing or broken, a patch has a name that is no word of OpenFOAM or occurs twice, does
+        not begin where the one before it ends, or has a type that is nearly one of OpenFOAM's, as ``wal``.
     """
     found = existing(path)
     if found is None:
@@ -115,6 +120,8 @@ def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     for dictionary in read_dictionary_list(path, case).items:
         read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
         name = unquoted(dictionary.key)
+        if _NO_WORD.search(name) or name in (".", ".."):
+            raise dictionary.mistake("is no name for a patch: a word without blanks, / ; { } and quotes is.")
         if read.type not in TYPES and get_close_matches(read.type.lower(), TYPES, n=1, cutoff=_SIMILAR):
             raise dictionary.at("type").mistake(f"is '{read.type}'. {suggestion(read.type, TYPES)}")
         if any(name == patch.name for patch in patches):

@@ -1,0 +1,92 @@
+"""Which particles have a shape for which the paper's explicit traction makes Δt too long."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.ellipsoid import integrals
+from foamprb.body.explicit_limit import is_stable, safe_step
+from foamprb.body.material import MATERIALS, finger, metric_at_rest
+from foamprb.body.rosenbrock import elasticity, kirchhoff
+from foamprb.body.tensor import Tensor, cofactor, det, dot, principal_frame
+from foamprb.cloud.state import Particles, Status
+from foamprb.compile.link import link
+
+__all__ = ["longest_stable_steps"]
+
+Floats = NDArray[np.float64]
+_HALVINGS = 12
+
+
+def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
+    """The longest step, s, with which ``paper`` is stable for each shape, (n,); infinite if it is Δt or more.
+
+    Particles that have ended count with the shape that they ended with.
+
+    Parameters
+    ----------
+    p
+        The cloud.
+    mu_f, dt
+        Viscosity of the fluid, Pa s, and Δt, s.
+    material
+        Name of the solid.
+    """
+    limits = np.full(p.size, np.inf)
+    going = (p.status != Status.PENDING) & (p.status != Status.FAILED)
+    # Once it is beyond, a shape oscillates with each step, and may be within for a while: so what it was
+    # before the last step, and what it would be after another such, are looked at as well.
+    for steps in (0.0, -1.0, 1.0):
+        shapes = p.F + steps * dt * p.A
+        rows = np.flatnonzero(going & ~(_surely(shapes, p, mu_f) >= dt))
+        if len(rows):
+            chosen, found = p.take(rows), np.empty(len(rows))
+            loop = link(_find_limits, {"derivatives": MATERIALS[material].derivatives})
+            loop(shapes[rows], chosen.F0, chosen.R, chosen.rho, chosen.mu, chosen.lame, chosen.k, chosen.eta,
+                 mu_f, dt, found)  # fmt: skip
+            limits[rows] = np.minimum(limits[rows], found)
+    return limits
+
+
+def _surely(shapes: Floats, p: Particles, mu_f: float) -> Floats:
+    """A step, s, with which each shape, (n, 9), is stable whatever its elasticity."""
+    F: Any = tuple(shapes.T)
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        J = det(F)
+        # No stretch is less than J over the norm of the cofactors.
+        least = J / np.sqrt(sum(c * c for c in cofactor(F)))
+        return np.asarray(safe_step((least, least, J / (least * least)), 5.0 / (p.rho * p.R**2), mu_f, p.eta))
+
+
+def _find_limits(
+    F: Floats, F0: Floats, R: Floats, rho: Floats, mu: Floats, lame: Floats, k: Floats, eta: Floats,
+    mu_f: float, dt: float, found: Floats,
+) -> None:  # fmt: skip
+    """Put the longest stable steps into ``found``; the other arguments are those of the particles."""
+    for n in range(len(found)):
+        Q, stretches = principal_frame(_tensor(F, n))
+        g = integrals(stretches)
+        b = finger(dot(Q, _tensor(F, n)), metric_at_rest(_tensor(F0, n)))
+        J = stretches[0] * stretches[1] * stretches[2]
+        e = elasticity((b[0], b[4], b[8]), J, mu[n], lame[n], k[n], 0.0)
+        T = kirchhoff(b, J, mu[n], lame[n], k[n])
+        tau = (T[0], T[4], T[8])
+        c = 5.0 / (rho[n] * R[n] * R[n])
+        found[n] = np.inf
+        if is_stable(dt, stretches, g, e, tau, c, mu_f, eta[n]):
+            continue
+        low, high = safe_step(stretches, c, mu_f, eta[n]), dt
+        for _ in range(_HALVINGS):
+            middle = np.sqrt(low * high)
+            if is_stable(middle, stretches, g, e, tau, c, mu_f, eta[n]):
+                low = middle
+            else:
+                high = middle
+        found[n] = low
+
+
+def _tensor(T: Floats, n: int) -> Tensor:
+    return T[n, 0], T[n, 1], T[n, 2], T[n, 3], T[n, 4], T[n, 5], T[n, 6], T[n, 7], T[n, 8]

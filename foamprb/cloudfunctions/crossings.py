@@ -1,0 +1,74 @@
+"""Where and when particles cross a plane between two samples."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.state import Particles
+from foamprb.cloudfunctions.base import Memory, Rows
+
+__all__ = ["Crossings", "crossings"]
+
+Floats = NDArray[np.float64]
+
+
+class Crossings(NamedTuple):
+    """Particles that have changed sides."""
+
+    among: NDArray[np.bool_]
+    """Which of the rows that were asked about."""
+    rows: Rows
+    """(n,)."""
+    share: Floats
+    """Of the time between the samples, (n,)."""
+    time: Floats
+    """(n,), s."""
+    x: Floats
+    """(n, 3), m."""
+    sense: Floats
+    """1 along the normal, −1 against it, (n,)."""
+
+
+def crossings(memory: Memory, p: Particles, rows: Rows, origin: Any, normal: Any) -> Crossings:
+    """Find the particles of some rows that are on the other side of a plane than at the last sample.
+
+    Parameters
+    ----------
+    memory
+        ``x``, ``v`` and ``t`` of all particles at the last sample.
+    p, rows
+        The particles now, and those in question.
+    origin, normal
+        A point of the plane, m, and its unit normal.
+
+    Place and time follow from the cubic through positions and velocities at both samples.
+    """
+    e = np.asarray(normal)
+    heights = [(x - origin) @ e for x in (memory["x"][rows], p.x[rows])]
+    among = (heights[0] < 0.0) != (heights[1] < 0.0)
+    at = rows[among]
+    h = p.t[at] - memory["t"][at]
+    ends = [(memory["x"][at], h[:, None] * memory["v"][at]), (p.x[at], h[:, None] * p.v[at])]
+    s = _root(*((x - origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
+    x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
+    sense = np.where(heights[1][among] < 0.0, -1.0, 1.0)
+    return Crossings(among, at, s, memory["t"][at] + s * h, x, sense)
+
+
+def _hermite(s: Any, x0: Any, x1: Any, m0: Any, m1: Any) -> Any:
+    """Return the value at s of the cubic from x0 with slope m0 at s = 0 to x1 with slope m1 at s = 1."""
+    r = 1.0 - s
+    return r * r * ((1.0 + 2.0 * s) * x0 + s * m0) + s * s * ((1.0 + 2.0 * r) * x1 - r * m1)
+
+
+def _root(x0: Floats, x1: Floats, m0: Floats, m1: Floats) -> Floats:
+    """Return a root of the cubic of :func:`_hermite` between ends of different sign, by bisection."""
+    low, high = np.zeros(len(x0)), np.ones(len(x0))
+    for _ in range(53):
+        middle = 0.5 * (low + high)
+        same = (_hermite(middle, x0, x1, m0, m1) < 0.0) == (x0 < 0.0)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return 0.5 * (low + high)

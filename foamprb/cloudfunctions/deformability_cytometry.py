@@ -1,0 +1,140 @@
+"""What a camera of a deformability cytometer would see of particles that pass."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ellipe
+
+from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud
+from foamprb.cloudfunctions.crossings import crossings
+from foamprb.cloudfunctions.rows import close_ended, columns, names_of, open_rows
+from foamprb.dictionary.constraints import AtLeastOne, Meaning, Vector3
+from foamprb.errors import InputError
+from foamprb.output.tables import write_table
+
+__all__ = ["DeformabilityCytometry", "Outline", "outline"]
+
+Floats = NDArray[np.float64]
+
+
+class Outline(NamedTuple):
+    """The shadow of bodies on a plane: ellipses."""
+
+    area: Floats
+    """(n,), m²."""
+    perimeter: Floats
+    """(n,), m."""
+    semi_axes: Floats
+    """(n, 2), the longer one first, m."""
+
+    @property
+    def deformation(self) -> Floats:
+        """1 − 2 √(πA)/P, (n,): 0 for a circle (Mietke et al. 2015)."""
+        return np.asarray(1.0 - 2.0 * np.sqrt(np.pi * self.area) / self.perimeter)
+
+
+def outline(B: Floats, view: Floats) -> Outline:
+    """Return the shadows of ellipsoids.
+
+    Parameters
+    ----------
+    B
+        R² F Fᵀ, (n, 3, 3), m²: the tensors whose eigenvalues are the squares of the semi-axes.
+    view
+        Unit vector along which they are seen, (3,).
+
+    The shadow of {x: x·B⁻¹x ≤ 1} on the plane with the basis P is the ellipse of P B Pᵀ.
+    """
+    other = np.eye(3)[int(np.argmin(np.abs(view)))]
+    first = np.cross(view, other)
+    first /= np.linalg.norm(first)
+    basis = np.stack([first, np.cross(view, first)])
+    squares = np.linalg.eigvalsh(np.einsum("ai,nij,bj->nab", basis, B, basis))[:, ::-1]
+    a, b = np.sqrt(squares).T
+    return Outline(
+        np.pi * a * b, 4.0 * a * ellipe(1.0 - squares[:, 1] / squares[:, 0]), np.stack([a, b], axis=1)
+    )
+
+
+@dataclass(frozen=True)
+class DeformabilityCytometry:
+    """Outline of each particle that crosses a plane, as a camera sees it: ``cytometry.csv``.
+
+    Area A and perimeter P of the shadow along ``view``, its semi-axes and the deformation 1 − 2√(πA)/P, at
+    the place and time of the crossing, which are found as by ``particleCollector``; the shape is linear in
+    time between the samples.
+    """
+
+    origin: Annotated[Vector3, Meaning("a point of the plane", "m")]
+    normal: Annotated[Vector3, Meaning("its normal, of any length", "1")]
+    view: Annotated[Vector3, Meaning("direction in which the camera looks, of any length", "1")]
+    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 1
+
+    def __post_init__(self) -> None:
+        for name in ("normal", "view"):
+            if not any(getattr(self, name)):
+                raise InputError(f"has a {name} (0 0 0)")
+
+    @property
+    def interval(self) -> int:
+        """Steps between two samples."""
+        return self.sampleInterval
+
+    def begin(self, cloud: ObservedCloud) -> Memory:
+        """Return the state of all particles at the start, and an empty table."""
+        p = cloud.particles
+        return {
+            "closed": np.zeros(p.size, dtype=bool),
+            "x": p.x.copy(),
+            "v": p.v.copy(),
+            "t": p.t.copy(),
+            "F": p.F.copy(),
+            "seen": np.empty((0, 11)),
+        }
+
+    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add the particles that have changed sides since the last sample."""
+        p = cloud.particles
+        rows = open_rows(memory, p)
+        found = crossings(memory, p, rows, np.array(self.origin), _unit(self.normal))
+        at, s = found.rows, found.share[:, None]
+        F = ((1.0 - s) * memory["F"][at] + s * p.F[at]).reshape(-1, 3, 3)
+        seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), _unit(self.view))
+        new = np.column_stack(
+            [
+                at,
+                found.time,
+                found.x,
+                found.sense,
+                seen.area,
+                seen.perimeter,
+                seen.semi_axes,
+                seen.deformation,
+            ]
+        )
+        memory["seen"] = np.concatenate([memory["seen"], new[np.argsort(new[:, 1], kind="stable")]])
+        for name, array in (("x", p.x), ("v", p.v), ("t", p.t), ("F", p.F)):
+            memory[name][rows] = array[rows]
+        close_ended(memory, p, rows)
+
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
+        """Write the table of all crossings until now."""
+        seen = memory["seen"]
+        rows = seen[:, 0].astype(np.int64)
+        names = ("area", "perimeter", "a", "b", "deformation")
+        write_table(
+            folder / "cytometry.csv",
+            {"id": rows, "injector": names_of(cloud.injectors, cloud.particles.injector[rows]),
+             "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
+             **columns(names, seen[:, 6:])},
+        )  # fmt: skip
+
+
+def _unit(vector: Vector3) -> Floats:
+    return np.array(vector) / math.hypot(*vector)

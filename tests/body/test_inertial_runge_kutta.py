@@ -1,0 +1,96 @@
+"""The step with inertia: its rational functions, and what they are functions of."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from strategies import flat, mild_stretches, square, tensors
+
+from foamprb.body import inertial_path as path
+from foamprb.body import inertial_runge_kutta as own
+from foamprb.body import rosenbrock
+from foamprb.body.ellipsoid import integrals
+from foamprb.body.material import viscous_stress
+from foamprb.body.traction import roscoe
+
+AT_REST = (0.0,) * 9
+MU_F = 0.7
+positive = st.floats(1e-3, 1e3)
+
+
+def stiffness(stretch, c=1.0, eta=0.0):
+    e = rosenbrock.elasticity(tuple(s * s for s in stretch), float(np.prod(stretch)), 3.0, 20.0, 0.0, 0.0)
+    return rosenbrock.inertial_stiffness(stretch, integrals(stretch), e, c, MU_F, eta), e
+
+
+def r(k, z):
+    """r_k(z) from P = 1/(1 − γz)."""
+    P = 1.0 / (1.0 - own.GAMMA * z)
+    weights = (own.R1, own.R2, own.R3)[k - 1]
+    return sum(w * P ** (i + 1) for i, w in enumerate(weights))
+
+
+def test_rational_functions_follow_from_one_that_is_near_the_exponential():
+    for z in (-1e6, -3.0, -0.1, 0.2, 1.0 + 2.0j, -4.0j):
+        R = 1.0 + z * r(1, z)
+        assert r(1, z) == pytest.approx(1.0 + z * r(2, z), rel=1e-9)
+        assert r(2, z) == pytest.approx(0.5 + z * r(3, z), rel=1e-9, abs=1e-12)
+        assert abs(R) <= 1.0 + 0.4 * max(np.real(z), 0.0) + 1e-12 or np.real(z) > 0
+    errors = [abs(1.0 + z * r(1, z) - np.exp(z)) for z in (-0.02, -0.01)]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(4.0, abs=0.1)
+    assert abs(1.0 - 1e9 * r(1, -1e9)) < 1e-6
+
+
+@given(mild_stretches, tensors, st.floats(0.1, 10.0), st.floats(0.0, 20.0))
+def test_stiff_rate_is_that_of_the_traction(stretch, Y, c, eta):
+    n, _ = stiffness(stretch, c, eta)
+    velocity, rate = own.stiff_rate(n, (AT_REST, Y))
+    assert velocity == Y
+    traction = MU_F * square(roscoe(stretch, integrals(stretch), AT_REST, Y)) - square(viscous_stress(Y, eta))
+    expected = c * np.prod(stretch) * traction
+    np.testing.assert_allclose(
+        square(rate) * np.array(n.b), expected, atol=1e-10 * (1 + np.abs(expected).max())
+    )
+
+
+@given(mild_stretches, tensors, st.floats(0.1, 10.0))
+def test_stiff_rate_is_that_of_elasticity(stretch, X, c):
+    n, e = stiffness(stretch, c)
+    _, rate = own.stiff_rate(n, (X, AT_REST))
+    X, s = square(X), np.array(e.squares)
+    stress = np.diag(square(e.slopes) @ np.diag(X))
+    for (i, j), shear in (((1, 2), e.shear[0]), ((0, 2), e.shear[1]), ((0, 1), e.shear[2])):
+        stress[i, j] = stress[j, i] = shear * (X[i, j] * s[j] + X[j, i] * s[i])
+    np.testing.assert_allclose(square(rate) * np.array(n.b), -c * stress, atol=1e-8)
+
+
+@given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
+def test_response_is_that_function_of_the_stiffness(stretch, X, Y, h):
+    n, _ = stiffness(stretch)
+    J = np.empty((18, 18))
+    for k in range(18):
+        unit = np.zeros(18)
+        unit[k] = 1.0
+        J[:, k] = np.concatenate(own.stiff_rate(n, (tuple(unit[:9]), tuple(unit[9:]))))
+    P = np.linalg.inv(np.eye(18) - own.GAMMA * h * J)
+    pairs = [(X, Y), (Y, X), (flat(square(X).T), Y)]
+    expected = np.zeros(18)
+    for weights, pair in zip((own.R1, own.R2, own.R3), pairs, strict=True):
+        f = sum(w * np.linalg.matrix_power(P, i + 1) for i, w in enumerate(weights))
+        expected += h * f @ np.concatenate(pair)
+    found = np.concatenate(own.respond(n, own.resolvent(n, h), h, *pairs))
+    np.testing.assert_allclose(found, expected, atol=1e-7 * (1.0 + np.abs(expected).max()))
+
+
+@given(positive, st.floats(1e-3, 10.0))
+def test_the_barycentre_is_advanced_by_the_same_functions(rate, h):
+    J = np.array([[0.0, 1.0], [0.0, -rate]])
+    P = np.linalg.inv(np.eye(2) - own.GAMMA * h * J)
+    u, v, w = np.array([1.0, -2.0]), np.array([0.5, 3.0]), np.array([-1.0, 0.7])
+    expected = np.zeros(2)
+    for weights, pair in zip((own.R1, own.R2, own.R3), (u, v, w), strict=True):
+        expected += h * sum(a * np.linalg.matrix_power(P, i + 1) for i, a in enumerate(weights)) @ pair
+    x, y = path.respond((rate,) * 3, h, *(((p[0],) * 3, (p[1],) * 3) for p in (u, v, w)))
+    np.testing.assert_allclose((x[0], y[0]), expected, rtol=1e-8, atol=1e-10)

@@ -1,0 +1,80 @@
+"""The results of a run in Python."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+import pyvista
+from view_run import motion, write_run
+
+import foamprb
+from foamprb.errors import InputError
+from foamprb.output.tables import read_table, write_table
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_run(tmp_path, motion(9, 5), mesh=False, fates=True)
+    return tmp_path
+
+
+def test_times_tables_and_snapshots(case):
+    run = foamprb.open_run(case)
+    np.testing.assert_allclose(run.times, 0.1 * np.arange(5))
+    assert run.tables == ("fates",)
+    fates = run.table()
+    assert fates["id"].dtype == np.int64
+    np.testing.assert_allclose(fates["Ca"], np.linspace(0.1, 1.0, 9))
+    assert fates["fate"][1] == "stuck"
+    cloud = run.snapshot(0.29)
+    assert isinstance(cloud, pyvista.PolyData)
+    assert cloud.field_data["time"] == pytest.approx(0.3)
+    assert run.snapshot().n_points == 9
+    assert run.units["shearRate"] == "1/s"
+    assert run.tracks is None
+    assert run.record == {}
+    assert "5 times from 0 to 0.4 s" in repr(run)
+
+
+def test_a_data_frame_where_a_library_for_it_is_installed(case, monkeypatch):
+    made = {}
+
+    class Pandas:
+        @staticmethod
+        def DataFrame(table):
+            made.update(table)
+            return "frame"
+
+    monkeypatch.setitem(__import__("sys").modules, "pandas", Pandas)
+    assert foamprb.open_run(case).frame() == "frame"
+    assert len(made["id"]) == 9
+    monkeypatch.setattr("foamprb.view.opened._FRAMES", ())
+    with pytest.raises(InputError, match="needs pandas or polars"):
+        foamprb.open_run(case).frame()
+
+
+def test_what_is_missing_or_damaged_is_said(case):
+    run = foamprb.open_run(case)
+    with pytest.raises(InputError, match=r"no table 'fate'. Did you mean 'fates'"):
+        run.table("fate")
+    (run.folder / "run.json").write_text("{")
+    with pytest.raises(InputError, match=r"run\.json is damaged"):
+        _ = foamprb.open_run(case).record
+    (run.folder / "run.json").write_text(json.dumps({"warnings": []}))
+    assert foamprb.open_run(case).record == {"warnings": []}
+
+
+def test_tables_are_read_as_they_were_written(tmp_path):
+    columns = {"a": [1, -2], "b": [0.1, float("nan")], "c": ["x, y", 'q"']}
+    write_table(tmp_path / "t.csv", columns)
+    found = read_table(tmp_path / "t.csv")
+    assert [found[name].dtype.kind for name in "abc"] == ["i", "f", "U"]
+    np.testing.assert_array_equal(found["b"], columns["b"])
+    assert found["c"].tolist() == columns["c"]
+    (tmp_path / "t.csv").write_text("a,b\n1\n")
+    with pytest.raises(InputError, match="different numbers of columns"):
+        read_table(tmp_path / "t.csv")
+    with pytest.raises(InputError, match="not a readable table"):
+        read_table(tmp_path / "none.csv")

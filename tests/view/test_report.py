@@ -1,0 +1,184 @@
+"""The report: what it counts, that it is one page without a network, and that both grounds can be read."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from view_run import PATCHES, motion, write_run
+
+from foamprb.cli import main
+from foamprb.output.tables import write_table
+from foamprb.view.geometry import Surface
+from foamprb.view.report import plots
+from foamprb.view.report.deposits import deposits
+from foamprb.view.report.report import write_report
+
+N = 60
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory) -> Path:
+    """Sixty bodies in the unit cube: a third sticks to the floor, a third leaves, a third is on its way."""
+    case = tmp_path_factory.mktemp("report") / "cube"
+    folder = write_run(case, motion(N, 4))
+    random = np.random.default_rng(1)
+    fate = np.array(["active", "stuck", "escaped"])[np.arange(N) % 3]
+    places = {"active": "", "stuck": PATCHES[0], "escaped": PATCHES[2]}
+    x = random.uniform(0.05, 0.95, (N, 3))
+    x[fate == "stuck", 2] = 0.0
+    write_table(
+        folder / "fates.csv",
+        {
+            "id": np.arange(N), "Ca": np.full(N, 0.5), "t0": np.zeros(N), "t1": random.uniform(0.1, 0.3, N),
+            **{f"{k}1": x[:, i] for i, k in enumerate("xyz")},
+            "fate": fate.tolist(), "patch": [places[f] for f in fate], "D": random.uniform(0.0, 0.4, N),
+        },
+    )  # fmt: skip
+    return case
+
+
+@pytest.fixture(scope="module")
+def page(case) -> str:
+    return write_report(case).read_text(encoding="utf-8")
+
+
+class Reader(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.sources: list[str] = []
+        self.unnamed = 0
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag: str, attributes) -> None:
+        given = dict(attributes)
+        self.ids += [given["id"]] if "id" in given else []
+        self.links += [given["href"]] if tag == "a" else []
+        self.sources += [given[key] for key in ("src", "srcset") if key in given]
+        self.unnamed += (tag == "img" and not given.get("alt")) or (
+            tag == "svg" and not given.get("aria-label")
+        )
+        if tag not in ("meta", "img", "source", "link", "br", "path", "use", "rect", "image"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in ("path", "use", "rect", "image"):
+            assert self.open.pop() == tag
+
+
+def test_the_page_asks_nobody_for_anything(page):
+    reader = Reader()
+    reader.feed(page)
+    assert all(source.startswith("data:") for source in reader.sources)
+    assert not [link for link in reader.links if "://" in link]
+    assert "default-src 'none'" in page
+    assert "<script" not in page
+
+
+def test_every_picture_has_a_name_and_every_id_is_there_once(page):
+    reader = Reader()
+    reader.feed(page)
+    assert reader.unnamed == 0
+    assert len(reader.ids) == len(set(reader.ids))
+    inner = [link[1:] for link in reader.links if link.startswith("#")]
+    assert inner
+    assert set(inner) <= set(reader.ids)
+
+
+def test_links_lead_to_files(case, page):
+    reader = Reader()
+    reader.feed(page)
+    outer = [link for link in reader.links if not link.startswith("#")]
+    assert len(outer) > 8
+    assert all((case / "postProcessing/softCloud" / link).exists() for link in outer)
+
+
+def test_the_numbers_are_those_of_the_table(page):
+    for number, what in ((N, "injected"), (N // 3, "active"), (N // 3, "stuck"), (N // 3, "escaped")):
+        assert f'<span class="figures">{number}</span>{what}' in page
+    assert re.search(r'<th scope="row">floor</th><td class="n">20</td><td class="n">1</td>', page)
+
+
+def luminance(colour: str) -> float:
+    parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(a: str, b: str) -> float:
+    low, high = sorted((luminance(a), luminance(b)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_letters_and_marks_stand_out_on_both_grounds(page):
+    """WCAG 2.2 AA: 4.5 for letters, 3 for marks (1.4.3, 1.4.11)."""
+    schemes = re.findall(r":root \{([^}]*)\}", page)
+    assert len(schemes) == 2
+    for scheme in schemes:
+        colour = dict(re.findall(r"--(\w+): (#\w{6})", scheme))
+        for ground in ("paper", "panel"):
+            for ink in ("ink", "soft", "accent", "warn"):
+                assert contrast(colour[ink], colour[ground]) >= 4.5
+        for fate, mark in plots.FATES.items():
+            assert contrast(mark, colour["paper"]) >= 2.9, fate
+
+
+def test_plots_take_the_colours_of_the_page(page):
+    svg = "".join(re.findall(r"<svg.*?</svg>", page, re.DOTALL))
+    assert "currentColor" in svg
+    assert not re.search(r"#17202a|#000000", svg)
+
+
+def test_particles_that_were_not_followed_are_refused(case, capsys):
+    assert main(["report", "-case", str(case), "-paths", "x"]) == 1
+    assert "numbers of particles are needed" in capsys.readouterr().err
+
+
+def test_a_run_that_has_not_ended(tmp_path, capsys):
+    write_run(tmp_path, motion(3, 2))
+    assert main(["report", "-case", str(tmp_path)]) == 1
+    assert "the run has not ended" in capsys.readouterr().err
+
+
+def tube(n: int = 48, length: float = 4.0, radius: float = 0.5) -> Surface:
+    """A tube along x, of n times ten rectangles."""
+    angle, x = np.linspace(0.0, 2.0 * np.pi, n + 1), np.linspace(0.0, length, 11)
+    grid = np.array([[(a, radius * np.cos(t), radius * np.sin(t)) for t in angle] for a in x])
+    corner = np.arange(11 * (n + 1)).reshape(11, n + 1)
+    a, b, c, d = (
+        part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:])
+    )
+    return Surface(
+        "tube", "wall", grid.reshape(-1, 3), np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    )
+
+
+def test_a_tube_is_unrolled_about_its_axis():
+    random = np.random.default_rng(0)
+    n = 20000
+    t, x = random.uniform(0.0, 2.0 * np.pi, n), random.uniform(0.0, 4.0, n)
+    found = deposits(tube(), np.stack([x, 0.5 * np.cos(t), 0.5 * np.sin(t)], axis=1))
+    assert found.across == ("along", "around")
+    assert found.area == pytest.approx(4.0 * np.pi, rel=3e-3)
+    assert np.ptp(found.edges[0]) == pytest.approx(4.0, rel=0.02)
+    assert np.ptp(found.edges[1]) == pytest.approx(np.pi, rel=0.02)
+    # Spread evenly, all bins have the mean density but for chance.
+    assert np.nanmedian(found.density) == pytest.approx(n / (4.0 * np.pi), rel=0.1)
+
+
+def test_a_floor_stays_in_its_plane_and_its_particles_where_they_are():
+    points = np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])
+    floor = Surface("floor", "wall", points, np.array([[0, 2, 1], [0, 3, 2]]))
+    x = np.array([[1.9, 0.9, 0.0]] * 80)
+    found = deposits(floor, x)
+    assert found.across == ("along", "across")
+    counts = np.nansum(found.density * np.outer(np.diff(found.edges[0]), np.diff(found.edges[1])))
+    assert counts == pytest.approx(80, rel=0.02)
+    i, j = np.unravel_index(np.nanargmax(found.density), found.density.shape)
+    assert (found.edges[0][i], found.edges[1][j]) == pytest.approx((0.9, 0.4), abs=0.5)
+    assert found.triangles.max() >= 0.0
