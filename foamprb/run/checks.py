@@ -105,7 +105,7 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
         )
     if g.extending > _SMALL_SHARE:
         found.append(
-            f"{where}: in {100 * g.extending:.2g} % of the flow the capillary number is beyond "
+            f"{where}: in {100 * g.extending:.3g} % of the flow the capillary number is beyond "
             f"{STEADY_CAPILLARY:g} in extension, where a body has no steady shape: one that stays there is "
             "stretched on and on, and fails at maxStretch."
         )

@@ -1,0 +1,81 @@
+"""What the log says of a run: how far it is, how steps are cut, and what does not fit before it begins."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+import pytest
+from device_cases import box_cloud
+from mesh_shapes import block, box_patches
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Stick
+from foamprb.cloud.state import spheres
+from foamprb.cloud.tracker import Models
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.run import log
+from foamprb.run.checks import doubts, groups
+
+OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
+
+
+def flow_of(gradient):
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    l = np.asarray(gradient, dtype=float)
+    return MeshFlow(mesh, mesh.nodes @ l.T, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
+
+
+def doubts_in(gradient, Ca):
+    flow = flow_of(gradient)
+    p = spheres(np.full((1, 3), 0.5), d=1e-4, rho=1000.0, mu=1.0 / Ca)
+    models = Models(integrator="stokes")
+    cloud = Cloud(p, flow, OIL, [Stick()] * len(flow.patches), 1e-3, models)
+    return doubts(groups(cloud, 0), "stokes", "it")
+
+
+def test_a_line_now_and_then_says_how_far_a_run_is_and_what_is_left(caplog, monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(log.clock, "perf_counter", lambda: now[0])
+    with caplog.at_level(logging.INFO, "foamprb"), log.progress_bar(1.0, 3.0) as show:
+        for now[0], t in ((5.0, 1.0), (15.0, 1.1), (45.0, 1.5), (60.0, 1.6), (80.0, 2.0)):
+            show(t)
+    # What came before the first call, such as compiling, does not count: 0.5 s in 40 s, then 1 s in 75 s.
+    assert caplog.messages == [
+        "t = 1.5 s, 25 % of the run, about 2 min left",
+        "t = 2 s, 50 % of the run, about 75 s left",
+    ]
+
+
+def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
+    rate = 1.0 / np.sqrt(3.0)
+    extension = np.diag([rate, -rate / 2, -rate / 2])
+    (text,) = doubts_in(extension, 0.4)
+    assert "in 100 % of the flow" in text
+    assert "no steady shape" in text
+    assert doubts_in(extension, 0.25) == []
+    assert doubts_in([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 10.0) == []
+
+
+def test_steps_of_the_last_tracking_step_are_counted(caplog):
+    cloud = box_cloud("stokes")
+    cloud.carry(3)
+    moved = (cloud.particles.status == 1) & (cloud.particles.substeps > 0)
+    job = type("Job", (), {"cloud": cloud})
+    with caplog.at_level(logging.INFO, "foamprb"):
+        log.RunLog(job)._log_steps()
+    mean = cloud.particles.substeps[moved].mean()
+    assert (
+        f"{mean:.3g} in the mean, {int(cloud.particles.substeps[moved].max())} at most" in caplog.messages[0]
+    )
+    assert caplog.messages[1].endswith("%")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(59.0, "59 s"), (600.0, "10 min"), (7.3e3, "2 h"), (4e5, "5 days")]
+)
+def test_durations(seconds, text):
+    assert log._duration(seconds) == text
