@@ -31,9 +31,6 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(f"{message}. Try: {self.prog} -help")
 
 
-_LONGEST_WORD = 4096
-
-
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="foamprb",
@@ -57,6 +54,9 @@ def _parser() -> argparse.ArgumentParser:
     run = command("run", "track the particles of constant/softCloudProperties")
     info = command("info", "say what a case holds")
     viewing = command("view", "show the bodies of a run: a page for any browser")
+    paraview = command("paraview", "show the bodies of a run in ParaView")
+    paraview.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+    paraview.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
     reporting = command("report", "write a page of what was run and what came of it")
     validate = command("validate", "compare with independent solutions")
     estimating = command("estimate", "say from a few numbers which effects matter to a particle")
@@ -186,6 +186,12 @@ def _view(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return view(arguments, _source(arguments))
 
 
+def _paraview(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.view.show import start_paraview
+
+    return start_paraview(arguments.case, arguments.cloud)
+
+
 def _report(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return report(arguments, _source(arguments))
 
@@ -221,6 +227,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "run": _run,
     "info": _info,
     "view": _view,
+    "paraview": _paraview,
     "report": _report,
     "validate": _validate,
     "estimate": _estimate,
@@ -301,9 +308,7 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
     except (InputError, RunStopped, RankError, OSError) as error:
         if "--debug" in words:
             raise
-        # A word as long as that is no word, and hides the message.
-        words = re.sub(rf"\S{{{_LONGEST_WORD},}}", lambda word: f"{word[0][:60]}...", str(error))
-        print(f"--> foamprb Error : {words}", file=sys.stderr)
+        print(f"--> foamprb Error : {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)
