@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import foamprb
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
+from foamprb.run.estimates import declare as declare_numbers
 from foamprb.view.command import declare, declare_report, report, view
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     paraview.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
     reporting = command("report", "write a page of what was run and what came of it")
     validate = command("validate", "compare with independent solutions")
+    estimating = command("estimate", "say from a few numbers which effects matter to a particle")
     helping = command("help", "say what an entry, a dictionary or a type of the settings is")
     command("compile", "compile the particle loops, so that no run has to")
     helping.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
@@ -78,6 +80,7 @@ def _parser() -> argparse.ArgumentParser:
             "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
         )
     declare(viewing)
+    declare_numbers(estimating)
     declare_report(reporting)
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
@@ -205,6 +208,13 @@ def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return 0 if validate(chosen, arguments.output, arguments.quick) else 1
 
 
+def _estimate(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.run.estimates import lines
+
+    print("\n".join(lines(arguments)))
+    return 0
+
+
 def _compile(_: argparse.Namespace, __: Ranks | None) -> int:
     from foamprb.run.precompile import compile_all
 
@@ -220,6 +230,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "paraview": _paraview,
     "report": _report,
     "validate": _validate,
+    "estimate": _estimate,
     "help": _help,
     "compile": _compile,
 }

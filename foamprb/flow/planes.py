@@ -52,13 +52,13 @@ def planes_among(
         n = inward(flow, triangle)
         h = -_dot(n, ra)
         # What lies behind a wall, or beyond the cut.
-        if h <= 0.0 or h >= cut:
+        if h <= 0.0 or h >= cut or _known(planes, h, n):
             continue
         rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
         rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
         if _over(n, ra, rb, rc):
             planes = _with(planes, h, n)
-        else:
+        elif h < min(nearest, planes.h1, planes.h2, planes.h3):
             p = nearest_point(ra, rb, rc)
             distance = math.sqrt(_dot(p, p))
             if distance < nearest:
@@ -66,6 +66,15 @@ def planes_among(
     if nearest < cut and nearest < min(planes.h1, planes.h2, planes.h3):
         planes = _with(planes, nearest, towards)
     return planes
+
+
+def _known(planes: Planes, h: float, n: Vector) -> bool:
+    """Whether a wall at the distance h would be no nearer part of one that was found."""
+    return bool(
+        (h >= planes.h1 and _dot(n, planes.n1) > _SAME_WALL)
+        or (h >= planes.h2 and _dot(n, planes.n2) > _SAME_WALL)
+        or (h >= planes.h3 and _dot(n, planes.n3) > _SAME_WALL)
+    )
 
 
 def _over(n: Vector, a: Vector, b: Vector, c: Vector) -> bool:

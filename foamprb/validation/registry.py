@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from foamprb.validation import (
+    brownian,
     cost,
     device,
     extension,
@@ -39,6 +40,7 @@ CASES: dict[str, Case] = {
     "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
     "wallLift": Case("beyond the paper; walls", walls.lift),
     "wallMobility": Case("beyond the paper; walls", walls.mobility),
+    "brownian": Case("beyond the paper; molecules", brownian.brownian),
     "cost": Case("Appendix F, Table F.1", cost.cost),
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", settling.settling),

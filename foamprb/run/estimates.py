@@ -1,0 +1,81 @@
+"""``foamprb estimate``: which effects matter to a soft sphere, from a few numbers."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from foamprb.errors import InputError
+
+__all__ = ["declare", "lines"]
+
+_NUMBERS = (
+    ("-d", "diameter", "D", "diameter, m", None),
+    ("--rho0", "rho0", "RHO", "density of the particle, kg/m3", None),
+    ("--mu", "mu", "MU", "viscosity of the fluid, Pa s", None),
+    ("--rhoInf", "rhoInf", "RHO", "density of the fluid, kg/m3", None),
+    ("--shearRate", "shearRate", "RATE", "of the flow where the particle is, 1/s", None),
+    ("--residenceTime", "residenceTime", "T", "that it spends in the flow, s", None),
+    ("--wallDistance", "wallDistance", "H", "of its centre, m [no wall]", math.inf),
+    ("--temperature", "temperature", "T", "K [293.15]", 293.15),
+    ("--gravity", "gravity", "G", "m/s2 [9.81]", 9.81),
+)
+_MAY_VANISH = ("gravity",)
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    for option, name, metavar, text, default in _NUMBERS:
+        parser.add_argument(
+            option, dest=name, type=float, metavar=metavar, help=text, default=default,
+            required=default is None,
+        )  # fmt: skip
+    stiffness = parser.add_mutually_exclusive_group(required=True)
+    stiffness.add_argument("--Ca", type=float, metavar="CA", help="capillary number, mu*rate/modulus")
+    stiffness.add_argument("--shearModulus", type=float, metavar="G", help="of the particle, Pa")
+
+
+def lines(arguments: argparse.Namespace) -> list[str]:
+    """What the numbers come to, line by line.
+
+    Raises
+    ------
+    InputError
+        If a number is not positive.
+    """
+    # What takes arrays of numbers is slow to import, which other commands need not wait for.
+    from foamprb.body.estimate import Sphere, Surroundings, estimate, shear_modulus
+
+    given = vars(arguments)
+    for name in (*(name for _, name, *_ in _NUMBERS), "Ca", "shearModulus"):
+        value = given[name]
+        if value is not None and not (value > 0.0 or (value == 0.0 and name in _MAY_VANISH)):
+            raise InputError(f"{name} is {value:g}. Allowed: a number > 0.")
+    d, h = given["diameter"], given["wallDistance"]
+    if h < 0.5 * d:
+        raise InputError(f"wallDistance is {h:g}. Allowed: at least half the diameter, {0.5 * d:g}.")
+    modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
+    around = Surroundings(
+        given["mu"], given["rhoInf"], given["shearRate"], h, given["temperature"], given["gravity"]
+    )
+    e = estimate(Sphere(d, given["rho0"], modulus), around, given["residenceTime"])
+    facts = [
+        ("shear modulus [Pa]", modulus, ""),
+        ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere would do"),
+        (
+            "Reynolds number",
+            e.reynolds_number,
+            "above 0.01 to 0.1 the fluid's inertia lifts, which is left out",
+        ),
+        ("Stokes number", e.stokes_number, "below 0.01 the particle follows the flow"),
+        ("Peclet number", e.peclet_number, "below 10 molecules turn and move it: BrownianMotion"),
+        ("thermal strain", e.thermal_strain, "of the shape"),
+        ("settling speed [m/s]", e.settling_speed, ""),
+        ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
+        ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
+        ("settling length [m]", e.settling_length, "in the residence time, as those that follow"),
+        ("lift length [m]", e.lift_length, ""),
+        ("diffusion length [m]", e.diffusion_length, ""),
+        ("lift-off height [m]", e.lift_height, "where lift balances weight"),
+    ]
+    return [f"{name:22s} {value:<12.4g} {text}".rstrip() for name, value, text in facts]
