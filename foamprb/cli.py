@@ -53,6 +53,9 @@ def _parser() -> argparse.ArgumentParser:
     run = command("run", "track the particles of constant/softCloudProperties")
     info = command("info", "say what a case holds")
     viewing = command("view", "show the bodies of a run: a page for any browser")
+    paraview = command("paraview", "show the bodies of a run in ParaView")
+    paraview.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+    paraview.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
     reporting = command("report", "write a page of what was run and what came of it")
     validate = command("validate", "compare with independent solutions")
     helping = command("help", "say what an entry, a dictionary or a type of the settings is")
@@ -180,6 +183,12 @@ def _view(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return view(arguments, _source(arguments))
 
 
+def _paraview(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    from foamprb.view.show import start_paraview
+
+    return start_paraview(arguments.case, arguments.cloud)
+
+
 def _report(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return report(arguments, _source(arguments))
 
@@ -208,6 +217,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "run": _run,
     "info": _info,
     "view": _view,
+    "paraview": _paraview,
     "report": _report,
     "validate": _validate,
     "help": _help,

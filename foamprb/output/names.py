@@ -35,7 +35,7 @@ def fault_of_word(name: str) -> str:
 
 def fault_of_folder(name: str, cloud: str) -> str:
     """Return why a folder in that of a cloud's results cannot have a name; nothing if it can."""
-    series = re.compile(re.escape(cloud) + r"(\.pvd|_\d{6,}.*)")
+    series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     if name in _RESULTS or series.fullmatch(name):
         return "the results have a file of that name"
     return fault_of_word(name)

@@ -21,6 +21,7 @@ from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoint, Checkpoints
 from foamprb.output.manifest import Manifest
+from foamprb.output.paraview_state import write_state
 from foamprb.output.pvd import Series, files_of, read_pvd
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
@@ -200,6 +201,10 @@ class Results:
         self._job.functions.write(self._job.folder)
         return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
 
+    def _descriptions(self) -> tuple[Path, ...]:
+        """What a run writes once, when it begins: its record, and the state of ParaView that shows it."""
+        return self._job.folder / RECORD, self._job.folder / f"{self._job.settings.name}.py"
+
     def _function_folders(self) -> list[Path]:
         return [self._job.folder / name for name in self._job.functions.functions]
 
@@ -228,8 +233,9 @@ class Results:
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [self._series.pvd, self._fates, self._failures]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
-        self._manifest.expect([folder / RECORD])
+        self._manifest.expect(self._descriptions())
         write_record(folder / RECORD, self._job)
+        write_state(folder / f"{self._job.settings.name}.py", self._job.settings.name)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Take up what a checkpoint holds, and remove the files of later times."""
@@ -254,7 +260,7 @@ class Results:
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
         kept = {
-            job.folder / RECORD,
+            *self._descriptions(),
             self._series.pvd,
             *snapshots,
             *tables,

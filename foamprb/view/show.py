@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import logging
 import math
+import shutil
+import subprocess
 import webbrowser
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -226,6 +228,26 @@ def picture_of(
         window(scene, size, style)
         return
     log.info("%d bodies: %s", len(scene.bodies.ids), png or movie)
+
+
+def start_paraview(case: Path, cloud: str | None) -> int:
+    """Start ParaView with the state that a run has left beside its results; the exit status.
+
+    Raises
+    ------
+    InputError
+        ParaView is not on PATH, there is no display, or no run has left a state.
+    """
+    results = open_results(case, cloud)
+    state = results.folder / f"{results.name}.py"
+    if not state.exists():
+        raise InputError(f"{state}: missing; runs of older versions left none. To make it: foamprb run.")
+    program = shutil.which("paraview")
+    if program is None:
+        raise InputError("no paraview on PATH. On Debian: apt-get install paraview python3-paraview.")
+    if not has_display():
+        raise InputError(f"there is no display for ParaView; pvpython runs {state} without one.")
+    return subprocess.run([program, f"--script={state.resolve()}"], check=False).returncode
 
 
 def open_in_browser(path: Path) -> bool:

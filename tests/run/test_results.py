@@ -79,8 +79,8 @@ def test_a_file_is_listed_before_it_is_written(case, monkeypatch):
 
     monkeypatch.setattr(Path, "replace", listed)
     run(case)
-    # Manifest, cloud, list and checkpoint at six times, manifest and table at the end.
-    assert len(seen) == 4 * 6 + 2
+    # Manifest, record and state; manifest, cloud, list and checkpoint at six times; manifest and table.
+    assert len(seen) == 3 + 4 * 6 + 2
 
 
 def test_a_new_run_removes_what_the_manifest_lists_and_nothing_else(case, truth):

@@ -1,0 +1,77 @@
+"""The state of ParaView that lies beside the results of a run: ``<cloud>.py``, for File > Load State."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from foamprb.output.atomic import atomic_write
+
+__all__ = ["write_state"]
+
+_TEXT = """\
+# State of ParaView 5.11 or newer, by foamprb: File > Load State, or paraview --script=THIS_FILE.
+# The bodies of the cloud as they are deformed, enlarged, and the paths of particleTracks, if there are any.
+from pathlib import Path
+
+from paraview import simple
+
+CLOUD = {name!r}
+folder = Path(__file__).resolve().parent
+view = simple.GetActiveViewOrCreate("RenderView")
+
+cloud = simple.PVDReader(registrationName=CLOUD, FileName=str(folder / (CLOUD + ".pvd")))
+scene = simple.GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.GoToLast()
+cloud.UpdatePipeline(scene.AnimationTime)
+
+# So large that a body is a fiftieth of the cloud's own size.
+low, high = cloud.PointData["d"].GetRange(0)
+bounds = cloud.GetDataInformation().GetBounds()
+size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
+enlargement = max(1.0, 0.02 * size / high) if size > 0.0 else 1.0
+
+bodies = simple.TensorGlyph(
+    registrationName="bodies",
+    Input=cloud,
+    GlyphType="Sphere",
+    Tensors=["POINTS", "glyph"],
+    Scalars=["POINTS", "taylorDeformation"],
+    ExtractEigenvalues=0,
+    LimitScalingByEigenvalues=0,
+)
+# Fewer facets for more bodies, so that a hundred thousand can be turned.
+count = cloud.GetDataInformation().GetNumberOfPoints()
+bodies.GlyphType.Radius = 1.0
+bodies.GlyphType.ThetaResolution = bodies.GlyphType.PhiResolution = 8 if count > 5000 else 24
+# ParaView chooses another factor when it makes the filter, also where it is given 1.
+bodies.UpdatePipeline(scene.AnimationTime)
+bodies.ScaleFactor = enlargement
+shown = simple.Show(bodies, view)
+bodies.ScaleFactor = enlargement
+simple.ColorBy(shown, ("POINTS", "taylorDeformation"))
+shown.SetScalarBarVisibility(view, True)
+
+for file in sorted(folder.glob("*/tracks.vtp")):
+    paths = simple.XMLPolyDataReader(registrationName="paths", FileName=[str(file)])
+    lines = simple.Show(paths, view)
+    simple.ColorBy(lines, None)
+    lines.Opacity = 0.3
+
+note = simple.Text(registrationName="enlargement", Text="bodies drawn %.3g times larger" % enlargement)
+simple.Show(note, view).WindowLocation = "Lower Left Corner"
+view.ResetCamera()
+simple.Render(view)
+"""
+
+
+def write_state(path: Path, name: str) -> None:
+    """Write the state for the cloud of a name, in one step.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    with atomic_write(path) as temporary:
+        temporary.write_text(_TEXT.format(name=name), encoding="utf-8")

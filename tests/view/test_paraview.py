@@ -1,0 +1,37 @@
+"""foamprb paraview: what is missing is said, and what is there is started."""
+
+from __future__ import annotations
+
+import pytest
+from view_run import motion, write_run
+
+from foamprb.cli import main
+from foamprb.output.paraview_state import write_state
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_run(tmp_path, motion(3, 2), mesh=False)
+    return tmp_path
+
+
+def test_what_is_missing_is_said(case, capsys, monkeypatch):
+    assert main(["paraview", "-case", str(case)]) == 1
+    assert "softCloud.py: missing" in capsys.readouterr().err
+    write_state(case / "postProcessing/softCloud/softCloud.py", "softCloud")
+    monkeypatch.setenv("PATH", "")
+    assert main(["paraview", "-case", str(case)]) == 1
+    assert "no paraview on PATH" in capsys.readouterr().err
+
+
+def test_paraview_is_started_with_the_state(case, monkeypatch):
+    state = case / "postProcessing/softCloud/softCloud.py"
+    write_state(state, "softCloud")
+    compile(state.read_text(), str(state), "exec")
+    program = case / "paraview"
+    program.write_text(f'#!/bin/sh\necho "$1" > {case}/called\nexit 3\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(case), prepend=":")
+    monkeypatch.setattr("foamprb.view.show.has_display", lambda: True)
+    assert main(["paraview", "-case", str(case)]) == 3
+    assert (case / "called").read_text() == f"--script={state}\n"
