@@ -156,3 +156,7 @@ def test_offsets_are_constants_in_compiled_code(monkeypatch, tmp_path):
         code.append([re.sub(r"\$?\.?\w*sum_of_rows\w*", "name", line) for line in instructions])
     assert len(code[0]) > 10
     assert code[0] == code[1]
+
+
+def test_what_begins_as_no_turn_and_no_stretch_is_the_unit_tensor():
+    np.testing.assert_array_equal(np.reshape(IDENTITY, (3, 3)), np.eye(3))

@@ -82,3 +82,9 @@ def test_dimensions(text, expected):
 )
 def test_what_is_no_dimensions(text):
     assert read_dimensions(text) is None
+
+
+def test_a_link_that_leads_to_itself_has_a_message(tmp_path):
+    (tmp_path / "g").symlink_to("g")
+    with pytest.raises(InputError, match=r"^g: "):
+        read_dictionary(tmp_path / "g", tmp_path)

@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import pyvista
+from hard_meshes import HARD
 from hypothesis import given
 from hypothesis import strategies as st
 from mesh_shapes import (
@@ -254,3 +255,12 @@ def test_other_kinds_of_cell_are_refused(kind, size):
     points, hexes = corners(1, 0.0)
     with pytest.raises(InputError, match=f"cells of VTK type {kind}; allowed are tetrahedron"):
         build_mesh(grid(points, [(kind, hexes[:, :size])]))
+
+
+def test_centres_of_faces_and_cells_without_size_stay_where_the_points_are():
+    """Their areas and volumes are round-off, by which nothing can be weighed."""
+    for seed in range(4):
+        mesh = build_mesh(HARD["collapsed edges"](seed))
+        low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
+        assert np.all((low <= mesh.centres) & (mesh.centres <= high))
+        assert np.sum(volumes(mesh)) == pytest.approx(np.sum(mesh.volumes), rel=0.05)
