@@ -30,9 +30,6 @@ class _Parser(argparse.ArgumentParser):
         raise InputError(f"{message}. Try: {self.prog} -help")
 
 
-_LONGEST_WORD = 4096
-
-
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="foamprb",
@@ -300,9 +297,7 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
     except (InputError, RunStopped, RankError, OSError) as error:
         if "--debug" in words:
             raise
-        # A word as long as that is no word, and hides the message.
-        words = re.sub(rf"\S{{{_LONGEST_WORD},}}", lambda word: f"{word[0][:60]}...", str(error))
-        print(f"--> foamprb Error : {words}", file=sys.stderr)
+        print(f"--> foamprb Error : {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from types import TracebackType
 
 from foamprb.errors import InputError
 
 __all__ = ["Mistake", "Mistakes", "ReportedError", "SeveralMistakes"]
+
+
+_ENDLESS = re.compile(r"\S{500,}")
 
 
 class Mistake(InputError):  # noqa: N818
@@ -27,6 +31,8 @@ class Mistake(InputError):  # noqa: N818
     def __init__(
         self, file: str, line: int, what: str, *, missing: str = "", meant: Iterable[str] = ()
     ) -> None:
+        # A word as long as that is none, and would hide the message.
+        what = _ENDLESS.sub(lambda word: f"{word[0][:60]}...", what)
         super().__init__(f"{file}, line {line}: {what}" if line else f"{file}: {what}")
         self.place = (file, line)
         self.missing = missing

@@ -47,7 +47,7 @@ def describe(job: Job) -> list[str]:
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
     for model in cloud.models.surroundings:
-        for line in model.notes(cloud.particles, cloud.flow_arrays(), cloud.flow):
+        for line in model.notes(cloud.particles, cloud.make_ready(), cloud.flow):
             log.info("    %s", line)
     log.info("Selecting patchInteractionModel %s, touching by the %s",
              settings.interaction, settings.touching)  # fmt: skip

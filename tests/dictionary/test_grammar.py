@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from paths import PIPE
 
 from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.mistakes import Mistake
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 
@@ -169,3 +170,8 @@ def test_dictionary_agrees_with_foamlib(file):
                 assert float(entry.text) == value
 
     compare(ours.entries, FoamFile(PIPE / file).as_dict())
+
+
+def test_a_word_without_end_does_not_hide_the_message():
+    message = str(Mistake("constant/x", 3, f"{'y' * 1_000_000} is not known."))
+    assert message == f"constant/x, line 3: {'y' * 60}... is not known."

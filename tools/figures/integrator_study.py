@@ -1,7 +1,7 @@
 """Which method for the shape: errors of a step, and steps at a tolerance, of several methods in plain numpy.
 
 Bodies of Ca from 1e-5 to 2, spheres and 2:1 ellipsoids at rest, in gradients that are steady, suddenly
-started, oscillating, pulsating and turning. The methods are the one in use (ROS2 with its estimate), the
+started, oscillating, pulsating and turning. The methods are the one used before (ROS2 with its estimate), the
 W-method ROS34PW2, two Rosenbrock methods that need an exact Jacobian, and the pair of order 3(2) of
 :mod:`foamprb.body.exponential_runge_kutta`. An error is that of the elastic strain, relative to it, or of
 the attitude, whichever is larger (:mod:`foamprb.body.error_control`). Work is the number of evaluations
@@ -463,7 +463,7 @@ def local_errors(h: float, times: tuple[float, ...]) -> list[tuple]:
                 t = np.full(len(CA), time)
                 args = (bodies, PLAIN, flow, t, x, F, steps)
                 exact = exact_step(*args)
-                found = {"in use": present_step(*args, np.inf).F}
+                found = {"ROS2": present_step(*args, np.inf).F}
                 found |= {method: w_step(table, *args) for method, table in TABLEAUS.items()}
                 found["pair, order 2"] = pair_step(*args, np.inf).F
                 found["pair, order 3"] = pair_step(*args, 0.0).F
@@ -549,12 +549,12 @@ def adaptive(end: float, dt: float) -> tuple[list[tuple], dict[str, list[tuple[f
             x = spread(np.zeros(3), len(CA))
             exact = advance(pair_step, bodies, PLAIN, flow, x, F0, end, 0.25, 1e-7).F
             for method, step, tolerance in (
-                ("in use", present_step, TOLERANCE),
+                ("ROS2", present_step, TOLERANCE),
                 ("pair", pair_step, 10 * TOLERANCE),
                 ("pair", pair_step, TOLERANCE),
                 ("pair", pair_step, 0.1 * TOLERANCE),
             ):
-                every = 60 if method == "in use" else 4
+                every = 60 if method == "ROS2" else 4
                 r = advance(step, bodies, PLAIN, flow, x, F0, end, dt, tolerance, every)
                 error = distance(bodies, r.F, exact)
                 for i, Ca in enumerate(CA):
@@ -572,7 +572,7 @@ def adaptive(end: float, dt: float) -> tuple[list[tuple], dict[str, list[tuple[f
 def in_pipe(end: float = 0.01, dt: float = 1e-4) -> list[tuple]:
     """5 µm particles in the air pipe of the paper at twelve radii: steps and evaluations per Δt, errors.
 
-    The step in use leaves out that a particle which settles through a shear has to be accelerated, so
+    The step of ROS2 leaves out that a particle which settles through a shear has to be accelerated, so
     that it goes elsewhere.
     """
     radius, n = 2.1e-3, 12
@@ -584,7 +584,7 @@ def in_pipe(end: float = 0.01, dt: float = 1e-4) -> list[tuple]:
         bodies = Bodies(np.full(n, AIR.mu * 923.8 / Ca), M, np.full(n, 2.5e-6), np.full(n, 2560.0))
         start = (np.zeros(n), r, np.zeros(n)), spread(np.eye(3), n)
         exact = advance(pair_step, bodies, AIR, flow, *start, end, dt, 1e-7)
-        for method, step in (("in use", present_step), ("pair", pair_step)):
+        for method, step in (("ROS2", present_step), ("pair", pair_step)):
             run = advance(step, bodies, AIR, flow, *start, end, dt, TOLERANCE)
             error = distance(bodies, run.F, exact.F)
             off = np.sqrt(sum((a - b) ** 2 for a, b in zip(run.x, exact.x, strict=True))) / 2.5e-6
@@ -625,15 +625,15 @@ def plot(
             told = [e for c, e in found if c == Ca]
             if told:
                 low, middle, high = np.percentile(told, [10, 50, 90])
-                panels[1].plot([Ca * shift] * 2, [low, high], "C0" if method == "in use" else "C3", lw=2)
-                panels[1].plot(Ca * shift, middle, "o", color="C0" if method == "in use" else "C3", ms=4)
+                panels[1].plot([Ca * shift] * 2, [low, high], "C0" if method == "ROS2" else "C3", lw=2)
+                panels[1].plot(Ca * shift, middle, "o", color="C0" if method == "ROS2" else "C3", ms=4)
     panels[1].axhspan(0.1, 1.0, color="0.9", zorder=0)
     panels[1].set(
         xscale="log", yscale="log", xlabel="Ca", ylabel="measured error of a step over the tolerance",
-        title="10, 50 and 90 % of the steps; blue in use, red pair", ylim=(1e-4, 1e4),
+        title="10, 50 and 90 % of the steps; blue ROS2, red pair", ylim=(1e-4, 1e4),
     )  # fmt: skip
 
-    for method, colour in (("in use", "C0"), ("pair", "C3")):
+    for method, colour in (("ROS2", "C0"), ("pair", "C3")):
         for Ca, mark in ((1e-4, "s"), (0.5, "o"), (2.0, "^")):
             chosen = [row for row in steps if row[2] == method and row[4] == Ca]
             panels[2].loglog([row[7] for row in chosen], [row[9] for row in chosen], mark, color=colour, ms=4,
@@ -683,7 +683,7 @@ def main() -> None:
     write_table(output / "integrator_steps.csv", table(names, steps))
     for kind, name in dict.fromkeys(row[:2] for row in steps):
         print(f"{kind}, {name}: evaluations (error at the end) by Ca")
-        for method, tolerance in (("in use", 1e-4), ("pair", 1e-3), ("pair", 1e-4), ("pair", 1e-5)):
+        for method, tolerance in (("ROS2", 1e-4), ("pair", 1e-3), ("pair", 1e-4), ("pair", 1e-5)):
             chosen = [
                 row for row in steps if row[:3] == (kind, name, method) and np.isclose(row[3], tolerance)
             ]

@@ -556,3 +556,11 @@ def test_a_surface_is_no_mesh(tmp_path):
     )
     with pytest.raises(InputError, match="no cells of the allowed kinds"):
         read_mesh_file(tmp_path / "surface.vtu")
+
+
+@pytest.mark.parametrize("name", ["../../../../pwn", "a/b", "..", '"a b"'])
+def test_the_name_of_a_patch_is_a_word(name, case):
+    """VTK crashes on some that are none."""
+    edit(case / "constant/polyMesh/boundary", "floor", name)
+    with pytest.raises(InputError, match=r"boundary, line 7: .* is no name for a patch"):
+        read_case(case)
