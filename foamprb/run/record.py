@@ -14,7 +14,7 @@ from foamprb.output.atomic import atomic_write
 from foamprb.run.checks import doubts, groups
 from foamprb.run.job import Job
 
-__all__ = ["RECORD", "record_of", "write_record"]
+__all__ = ["RECORD", "record_of", "renew_record", "write_record"]
 
 RECORD = "run.json"
 _FORMAT = 1
@@ -29,10 +29,49 @@ def write_record(path: Path, job: Job) -> None:
     OSError
         If the file cannot be written.
     """
+    _write(path, record_of(job))
+
+
+def renew_record(path: Path, job: Job) -> None:
+    """Write the settings and times of a run that goes on into its record; do nothing where there is none.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return
+    if isinstance(record, dict) and record.get("format") == _FORMAT:
+        record |= {"settings": _settings(job), "time": _time(job)}
+        _write(path, record)
+
+
+def _write(path: Path, record: dict[str, Any]) -> None:
     with atomic_write(path) as temporary:
-        temporary.write_text(
-            f"{json.dumps(record_of(job), indent=1, ensure_ascii=False)}\n", encoding="utf-8"
-        )
+        text = json.dumps(record, indent=1, ensure_ascii=False)
+        temporary.write_text(f"{text}\n", encoding="utf-8")
+
+
+def _settings(job: Job) -> dict[str, str]:
+    file = job.settings.file
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        text = ""
+    return {"file": file.name, "text": text}
+
+
+def _time(job: Job) -> dict[str, Any]:
+    return {
+        "deltaT": job.cloud.dt,
+        "start": job.cloud.start,
+        "end": job.settings.solution.endTime,
+        "steps": job.steps,
+        "transient": job.settings.solution.transient,
+    }
 
 
 def record_of(job: Job) -> dict[str, Any]:
@@ -47,14 +86,10 @@ def record_of(job: Job) -> dict[str, Any]:
         injections.append(
             {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
         )
-    try:
-        text = settings.file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):
-        text = ""
     return {
         "format": _FORMAT,
         "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
-        "settings": {"file": settings.file.name, "text": text},
+        "settings": _settings(job),
         "fluid": {"rho": settings.fluid.rho, "nu": settings.fluid.nu, "gravity": list(settings.gravity)},
         "models": {
             "traction": settings.traction,
@@ -64,13 +99,7 @@ def record_of(job: Job) -> dict[str, Any]:
             "integrator": cloud.models.integrator,
             "touching": settings.touching,
         },
-        "time": {
-            "deltaT": cloud.dt,
-            "start": cloud.start,
-            "end": settings.solution.endTime,
-            "steps": job.steps,
-            "transient": settings.solution.transient,
-        },
+        "time": _time(job),
         "mesh": _mesh(job),
         "patches": [
             {"name": patch.name, "type": patch.type, "interaction": type(interaction).__name__.lower()}

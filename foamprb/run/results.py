@@ -25,7 +25,7 @@ from foamprb.output.paraview_state import write_state
 from foamprb.output.pvd import Series, files_of, read_pvd
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
-from foamprb.run.record import RECORD, write_record
+from foamprb.run.record import RECORD, renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
@@ -256,6 +256,7 @@ class Results:
         for table in (self._fates, self._failures):
             table.unlink(missing_ok=True)
         self._series.relist(entries)
+        renew_record(job.folder / RECORD, job)
         snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
         functions = self._function_folders()
         tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]

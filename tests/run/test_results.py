@@ -140,7 +140,8 @@ def test_a_killed_run_leaves_nothing_behind_for_the_next(option, stopped, truth)
 def test_a_stopped_run_lists_what_it_has_written(stopped):
     folder = folder_of(stopped)
     assert {file.relative_to(folder).as_posix() for file in Manifest.read(folder).files} == {
-        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "softCloud.pvd",
+        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "run.json", "softCloud.py",
+        "softCloud.pvd",
         "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp",
     }  # fmt: skip
 

@@ -1,0 +1,56 @@
+"""run.json: what was run, as it was."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+
+import pytest
+from paths import PIPE
+
+from foamprb.cli import main
+from foamprb.run.record import renew_record
+
+
+@pytest.fixture
+def case(tmp_path):
+    shutil.copytree(PIPE, tmp_path / "pipe", ignore=shutil.ignore_patterns("postProcessing"))
+    change(tmp_path / "pipe", "endTime", "0.002")
+    change(tmp_path / "pipe", "writeInterval", "0.001")
+    return tmp_path / "pipe"
+
+
+def change(case, entry, value):
+    file = case / "constant/softCloudProperties"
+    file.write_text(re.sub(rf"({entry}\s+)[^;]+;", rf"\g<1>{value};", file.read_text(), count=1))
+
+
+def record(case):
+    text = (case / "postProcessing/softCloud/run.json").read_text()
+    # Strict: no NaN.
+    return json.loads(text, parse_constant=lambda word: pytest.fail(word))
+
+
+def test_a_run_says_what_it_was_and_one_that_goes_on_its_new_end(case):
+    assert main(["run", "-case", str(case)]) == 0
+    first = record(case)
+    assert first["settings"]["text"] == (case / "constant/softCloudProperties").read_text()
+    assert first["time"]["end"] == 0.002
+    assert first["fluid"]["rho"] == 1.208
+    assert {patch["name"]: patch["interaction"] for patch in first["patches"]}["wall"] == "stick"
+    assert first["injections"][0]["particles"] > 0
+    assert first["injections"][0]["shear_rate"][0] <= first["injections"][0]["shear_rate"][1]
+    assert first["mesh"]["cells"] > 1000
+    change(case, "endTime", "0.003")
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    second = record(case)
+    assert second["time"]["end"] == 0.003
+    assert "0.003" in second["settings"]["text"]
+    assert second["injections"] == first["injections"]
+
+
+def test_a_record_that_is_damaged_stays_as_it_is(tmp_path):
+    (tmp_path / "run.json").write_text("{")
+    renew_record(tmp_path / "run.json", None)
+    assert (tmp_path / "run.json").read_text() == "{"
