@@ -172,20 +172,21 @@ class Device(Executor):
             self._coming = False
         if self._begun != steps:
             self._go_back()
+            # The steps are undone if a body outgrows the lists of walls.
+            self._keep_here()
             self._launch(flow, steps)
         assert self._held is not None
         status = self._state.status.copy_to_host(self._buffers["status"], stream=self._work)
         mended = self._mended.copy_to_host(stream=self._work)
         self._work.synchronize()
         self._mended.copy_to_device(_ZERO)
-        self._held.status[:] = status
-        self._begun, self._gathered = 0, False
-        outgrown = bool(mended[1])
-        if outgrown:
+        if mended[1]:
             # All come to the end together.
             self._begun = steps
             self._go_back()
             return Outcome(0, finished=False, outgrown=True)
+        self._held.status[:] = status
+        self._begun, self._gathered = 0, False
         return Outcome(int(mended[0]))
 
     def longest(self) -> float:
@@ -238,8 +239,7 @@ class Device(Executor):
         """Keep a copy of the particles as they are, and begin to copy it to the host if it has not got it."""
         if self._begun:
             return
-        for name, kept in self._kept.items():
-            kept.copy_to_device(getattr(self._state, name), stream=self._work)
+        self._keep_here()
         if not self._gathered:
             done = cuda.event()
             done.record(self._work)
@@ -247,6 +247,11 @@ class Device(Executor):
             for name, kept in self._kept.items():
                 kept.copy_to_host(self._buffers[name], stream=self._back)
             self._coming = True
+
+    def _keep_here(self) -> None:
+        """Keep a copy of the particles on the device."""
+        for name, kept in self._kept.items():
+            kept.copy_to_device(getattr(self._state, name), stream=self._work)
 
     def _go_back(self) -> None:
         """Undo steps that were begun and are not to be taken."""
