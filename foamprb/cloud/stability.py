@@ -19,6 +19,7 @@ __all__ = ["longest_stable_steps"]
 
 Floats = NDArray[np.float64]
 _HALVINGS = 12
+_CHUNK = 16_384
 
 
 def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
@@ -35,6 +36,13 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
     material
         Name of the solid.
     """
+    # A few at a time, for the sake of memory.
+    starts = range(0, p.size, _CHUNK)
+    parts = [_limits(p.take(slice(k, k + _CHUNK)), mu_f, dt, material) for k in starts]
+    return np.concatenate([np.empty(0), *parts])
+
+
+def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
     limits = np.full(p.size, np.inf)
     going = (p.status != Status.PENDING) & (p.status != Status.FAILED)
     # Once it is beyond, a shape oscillates with each step, and may be within for a while: so what it was

@@ -21,7 +21,7 @@ from foamprb.output.atomic import atomic_write
 Column = Sequence[object] | NDArray[Any]
 
 # Rows converted to text at a time: bounds the memory, costs no time.
-_CHUNK = 65536
+_CHUNK = 16_384
 
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 

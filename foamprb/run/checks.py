@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
@@ -15,6 +16,7 @@ from foamprb.cloud.state import Particles
 STEADY_CAPILLARY = 0.3
 """Largest μ_f γ̇/μ_s, about, at which a neo-Hookean sphere comes to a steady shape in uniaxial extension."""
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
+_CHUNK = 16_384
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number at which Stokes flow around the particle is taken for granted."""
 
@@ -42,23 +44,38 @@ class Groups(NamedTuple):
 def groups(cloud: Cloud, injector: int) -> Groups:
     """Return the dimensionless groups of the particles that one injection model releases."""
     rows = np.flatnonzero(cloud.particles.injector == injector)
-    p = cloud.particles.take(slice(None) if len(rows) == cloud.particles.size else rows)
+    # A few at a time: copies of all would need as much memory again.
+    parts = [_ranges(cloud, cloud.particles.take(rows[k : k + _CHUNK])) for k in range(0, len(rows), _CHUNK)]
+    found = np.array(parts) if parts else np.full((1, 6, 2), np.nan)
+    lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
+    rate, capillary, reynolds, stokes, step, size = (
+        (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
+    )
+    extending = _extending(cloud, rows)
+    return Groups(len(rows), rate, capillary, reynolds, stokes, step, size, extending)
+
+
+def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
+    """The ranges of :class:`Groups`, of some particles."""
     medium = cloud.medium
     gamma = shear_rate_at(cloud.flow, p, cloud.time)
     tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)
-    return Groups(
-        p.size,
-        _range(gamma),
-        _range(medium.mu * gamma / p.mu),
-        _range(gamma * 4.0 * p.R**2 * medium.rho / medium.mu),
-        _range(gamma * tau),
-        _range(cloud.dt / tau),
-        _range(2.0 * p.R / cloud.flow.cell_size(p.host)),
-        _extending(cloud, p),
+    groups = (
+        gamma,
+        medium.mu * gamma / p.mu,
+        gamma * 4.0 * p.R**2 * medium.rho / medium.mu,
+        gamma * tau,
+        cloud.dt / tau,
+        2.0 * p.R / cloud.flow.cell_size(p.host),
     )
+    return [_range(values) for values in groups]
 
 
-def _extending(cloud: Cloud, p: Particles) -> float:
+def _range(values: NDArray[np.float64]) -> tuple[float, float]:
+    return float(values.min()), float(values.max())
+
+
+def _extending(cloud: Cloud, rows: NDArray[np.intp]) -> float:
     """Share of the flow's nodes where the softest particle's capillary number of extension is too large.
 
     It is that of the uniaxial extension that stretches as fast as the flow there, the rate of which is the
@@ -66,14 +83,11 @@ def _extending(cloud: Cloud, p: Particles) -> float:
     """
     gradient = cloud.flow.at_nodes()[2]
     gradient = gradient[:: max(1, len(gradient) // _MOST_NODES)]
-    if len(gradient) == 0 or p.size == 0:
+    if len(gradient) == 0 or len(rows) == 0:
         return 0.0
     rate = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
-    return float(np.mean(np.sqrt(3.0) * cloud.medium.mu * rate / p.mu.min() > STEADY_CAPILLARY))
-
-
-def _range(values: np.ndarray) -> tuple[float, float]:
-    return (float(values.min()), float(values.max())) if len(values) else (np.nan, np.nan)
+    softest = cloud.particles.mu[rows].min()
+    return float(np.mean(np.sqrt(3.0) * cloud.medium.mu * rate / softest > STEADY_CAPILLARY))
 
 
 def doubts(g: Groups, integrator: str, where: str) -> list[str]:

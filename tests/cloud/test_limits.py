@@ -191,8 +191,8 @@ class TestStop:
         def cloud():
             Ca = np.where(np.arange(320) < 160, 0.01, 4.0)
             p = spheres(np.zeros((len(Ca), 3)), d=1e-5, rho=1000.0, mu=1.0 / Ca)
-            models = Models(integrator="stokes", tolerance=1e-9)
-            return Cloud(p, analytic.shear(1.0), OIL, (), 5.0, models, 2)
+            models = Models(integrator="stokes", tolerance=1e-11)
+            return Cloud(p, analytic.shear(1.0), OIL, (), 20.0, models, 2)
 
         whole, parts = cloud(), cloud()
         whole.carry(1)

@@ -151,4 +151,5 @@ def test_the_pipe_is_the_same_without_any_part(tmp_path, monkeypatch):
     assert np.array_equal(usual.status, plain.status)
     for name in ("x", "v", "F", "t"):
         ours, theirs = getattr(plain, name), getattr(usual, name)
-        assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-13 * np.abs(theirs).max()), name
+        # Three digits of round-off go where two rates of relaxation are nearly the same.
+        assert ours == pytest.approx(theirs, rel=1e-11, abs=1e-13 * np.abs(theirs).max()), name

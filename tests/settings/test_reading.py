@@ -211,7 +211,7 @@ MISTAKES = [
     (
         "FoamFile",
         "cloudFunctions { facePostProcessing { } } FoamFile",
-        "cloudFunctions/facePostProcessing/type is missing. Allowed: particleCollector, ",
+        "cloudFunctions/facePostProcessing/type is missing. Allowed: deformabilityCytometry, ",
     ),
     ("FoamFile", "colour blue; FoamFile", "line 2: colour is not known. "),
 ]
