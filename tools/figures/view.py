@@ -68,12 +68,13 @@ def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
 
 def main() -> None:
     """Run the case and take the pictures."""
-    from playwright.sync_api import sync_playwright
-
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0], add_help=False)
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("--output", type=Path, default=ROOT / "docs", metavar="DIR", help="[docs]")
     options = parser.parse_args()
+    # Only now: the help needs no browser.
+    from playwright.sync_api import sync_playwright
+
     with tempfile.TemporaryDirectory() as scratch:
         case = Path(scratch) / "pipe"
         shutil.copytree(ROOT / "cases/pipe", case, ignore=shutil.ignore_patterns("postProcessing"))
