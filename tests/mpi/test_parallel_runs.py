@@ -266,11 +266,11 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
 
 LANDING = """
 advance = Ranks.advance
-def hooked(self, flow, steps):
-    mended = advance(self, flow, steps)
+def hooked(self, flow, steps, stop):
+    outcome = advance(self, flow, steps, stop)
     with open({log!r}, "a") as file:
         print(*(int(share.counts[1]) for share in self._shares), file=file)
-    return mended
+    return outcome
 Ranks.advance = hooked
 """
 

@@ -33,8 +33,8 @@ EXPECTED = {
                                               "cellValueSourceCorrection is 'on'"],
     "lagrangian/MPPICFoam/Goldschmidt": [*DENSE, DRAG.format("PlessisMasliyah"),
                                          "packingModel is 'explicit'"],
-    "lagrangian/DPMFoam/Goldschmidt": ["coupled is 'true'", "U.air is not known: use U", SOLID,
-                                       "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
+    "lagrangian/DPMFoam/Goldschmidt": ["coupled is 'true'", "U.air is not known: use U",
+                                       "rhoInf is missing", SOLID, "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
                                        "Did you mean 'standardWallInteractionCoeffs'",
                                        "collisionModel is 'pairCollision'"],
 }  # fmt: skip
