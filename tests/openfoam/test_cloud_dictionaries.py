@@ -34,7 +34,8 @@ EXPECTED = {
     "lagrangian/MPPICFoam/Goldschmidt": [*DENSE, DRAG.format("PlessisMasliyah"),
                                          "packingModel is 'explicit'"],
     "lagrangian/DPMFoam/Goldschmidt": ["coupled is 'true'", "U.air is not known: use U",
-                                       "rhoInf is missing", SOLID, "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
+                                       "rhoInf is missing", SOLID,
+                                       "poissonsRatio is not known: use solid", DRAG.format("ErgunWenYu"),
                                        "Did you mean 'standardWallInteractionCoeffs'",
                                        "collisionModel is 'pairCollision'"],
 }  # fmt: skip
