@@ -13,7 +13,8 @@ from benchmarks.records import KILO, Results
 TEMPLATE = Path(__file__).with_name("performance.md.in")
 _BUSY = 0.5
 TABLES = (
-    "tracker", "threads", "memory", "run", "mesh", "start", "output", "integrators", "peers", "roofline"
+    "tracker", "whole", "threads", "memory", "run", "mesh", "start", "output", "integrators", "peers",
+    "roofline",
 )  # fmt: skip
 OVER_OPENFOAM = "cost over OpenFOAM's"
 WORST_DEFAULT = "worst default run over OpenFOAM's"
@@ -180,21 +181,7 @@ def _profile(results: Results) -> str:
 
 def write_report(results: Results, folder: Path) -> None:
     """Write ``performance.md`` and its plots."""
-    parts = {
-        part: _rows_table(results, part)
-        for part in (
-            "tracker",
-            "threads",
-            "memory",
-            "run",
-            "mesh",
-            "start",
-            "output",
-            "integrators",
-            "peers",
-            "roofline",
-        )
-    }
+    parts = {part: _rows_table(results, part) for part in TABLES}
     text = Template(TEMPLATE.read_text(encoding="utf-8")).substitute(
         targets=written_table(results), machines=_machines(results), profile=_profile(results), **parts
     )
