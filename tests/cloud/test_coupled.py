@@ -47,43 +47,21 @@ def actions(flow):
 
 @pytest.mark.parametrize("angle", [0.0, 60.0])
 def test_one_period_holds_the_whole_path(angle, random):
-    turn, shift = period(angle)
-    l = np.zeros((3, 3)) if angle == 0.0 else 3.0 * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]])
-    u0 = np.array([4.0, 0.0, 0.0] if angle == 0.0 else [0.0, 0.0, 0.0])
-    flow = linear(cyclic_row(angle, 1), l, u0)
-    x = np.column_stack([random.uniform(0.1, 0.4, (20, 2)), random.uniform(0.3, 0.7, 20)])
-    if angle:
-        x[:, :2] = [1.0, 0.8] + 0.1 * (x[:, :2] - 0.25)
-    v = x @ l.T + u0
-    cloud = tracked(moving(x, v, 5.0), flow, actions(flow), 500)
-    free = tracked(moving(x, v, 5.0), analytic.linear(l, u0), [], 500)
-    p, q = cloud.particles, free.particles
-    assert np.all(p.status == Status.ACTIVE)
-    assert cloud.recovered == 0
-    y, rotation = q.x.copy(), np.broadcast_to(np.eye(3), (20, 3, 3)).copy()
-    for _ in range(5):
-        beyond = y[:, 0] > 1.0 if angle == 0.0 else ~_in_sector(y, angle)
-        y[beyond] = (y[beyond] - shift) @ turn
-        rotation[beyond] = turn.T @ rotation[beyond]
-    assert np.any(rotation != np.eye(3)) or angle == 0.0
-    assert p.x == pytest.approx(y, abs=1e-9)
-    assert p.v == pytest.approx(np.einsum("nij,nj->ni", rotation, q.v), abs=1e-8)
-    for name in ("F", "A"):
-        ours, theirs = (getattr(c, name).reshape(-1, 3, 3) for c in (p, q))
-        assert ours == pytest.approx(rotation @ theirs, abs=1e-7)
-
-
-def _in_sector(x, angle):
-    at = np.degrees(np.arctan2(x[:, 1], x[:, 0]))
-    return (at >= 0.0) & (at <= angle)
+    assert_paths_go_on(cyclic_row(angle, 1), angle, 1.0, period(angle), random)
 
 
 @pytest.mark.parametrize("angle", [0.0, 20.0])
 def test_faces_that_do_not_fit_one_to_one_are_crossed_like_nothing(angle, random):
     """Round and round through interfaces between blocks cut into 4, 5 and 7 cells a side."""
     mesh, turn, shift = interfaces(angle)
+    assert_paths_go_on(mesh, 3.0 * angle, 3.0, (turn, shift), random)
+
+
+def assert_paths_go_on(mesh, angle, length, motion, random):
+    """Particles in a period, straight or a sector of that angle, go as in the whole, up to its motion."""
+    turn, shift = motion
     l = np.zeros((3, 3)) if angle == 0.0 else 3.0 * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]])
-    u0 = np.array([12.0, 0.0, 0.0] if angle == 0.0 else [0.0, 0.0, 0.0])
+    u0 = np.array([4.0 * length, 0.0, 0.0] if angle == 0.0 else [0.0, 0.0, 0.0])
     flow = linear(mesh, l, u0)
     x = np.column_stack([random.uniform(0.1, 0.4, (20, 2)), random.uniform(0.3, 0.7, 20)])
     if angle:
@@ -96,14 +74,20 @@ def test_faces_that_do_not_fit_one_to_one_are_crossed_like_nothing(angle, random
     assert cloud.recovered == 0
     y, rotation = q.x.copy(), np.broadcast_to(np.eye(3), (20, 3, 3)).copy()
     for _ in range(5):
-        beyond = y[:, 0] > 3.0 if angle == 0.0 else ~_in_sector(y, 60.0)
+        beyond = y[:, 0] > length if angle == 0.0 else ~_in_sector(y, angle)
         y[beyond] = (y[beyond] - shift) @ turn
         rotation[beyond] = turn.T @ rotation[beyond]
     assert np.any(y != q.x)
     assert p.x == pytest.approx(y, abs=1e-9)
+    assert p.v == pytest.approx(np.einsum("nij,nj->ni", rotation, q.v), abs=1e-8)
     for name in ("F", "A"):
         ours, theirs = (getattr(c, name).reshape(-1, 3, 3) for c in (p, q))
         assert ours == pytest.approx(rotation @ theirs, abs=1e-7)
+
+
+def _in_sector(x, angle):
+    at = np.degrees(np.arctan2(x[:, 1], x[:, 0]))
+    return (at >= 0.0) & (at <= angle)
 
 
 def test_rings_that_slide_on_each_other_are_crossed_with_the_error_of_their_chords():
