@@ -199,30 +199,8 @@ def test_checkpoints_that_no_manifest_lists_are_not_removed(stopped, truth, caps
     assert results(stopped) == truth
 
 
-@pytest.mark.parametrize("nth", [1, 2, 3, 4, 6, 9])
-def test_a_removal_that_is_interrupted_is_taken_up(nth, stopped, truth, monkeypatch):
-    """Whatever has been removed by then, the run that comes next leaves nothing of what has not."""
-    leave_behind(stopped)
-    unlink, calls = Path.unlink, iter(range(1, 1000))
-
-    def dies(file: Path, missing_ok: bool = False) -> None:
-        if next(calls) == nth:
-            raise KeyboardInterrupt
-        unlink(file, missing_ok)
-
-    monkeypatch.setattr(Path, "unlink", dies)
-    assert main(["run", "-case", str(stopped), "-overwrite"]) == 130
-    monkeypatch.undo()
-    run(stopped, "-resume")
-    assert results(stopped) == truth
-
-
-@pytest.mark.parametrize("nth", [1, 2, 3, 4, 5])
-def test_a_finished_run_is_replaced_or_whole(nth, case, monkeypatch):
-    """Without its checkpoints nobody takes what is left for the run, with them all is there."""
-    observe(case, TRACKS.replace("paths", "aaa"))
-    run(case)
-    expected = results(case)
+def interrupt_removal(case: Path, nth: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Begin a run anew, and interrupt it as it removes the nth file of the one before."""
     unlink, calls = Path.unlink, iter(range(1, 1000))
 
     def dies(file: Path, missing_ok: bool = False) -> None:
@@ -233,6 +211,24 @@ def test_a_finished_run_is_replaced_or_whole(nth, case, monkeypatch):
     monkeypatch.setattr(Path, "unlink", dies)
     assert main(["run", "-case", str(case), "-overwrite"]) == 130
     monkeypatch.undo()
+
+
+@pytest.mark.parametrize("nth", [1, 2, 3, 4, 6, 9])
+def test_a_removal_that_is_interrupted_is_taken_up(nth, stopped, truth, monkeypatch):
+    """Whatever has been removed by then, the run that comes next leaves nothing of what has not."""
+    leave_behind(stopped)
+    interrupt_removal(stopped, nth, monkeypatch)
+    run(stopped, "-resume")
+    assert results(stopped) == truth
+
+
+@pytest.mark.parametrize("nth", [1, 2, 3, 4, 5])
+def test_a_finished_run_is_replaced_or_whole(nth, case, monkeypatch):
+    """Without its checkpoints nobody takes what is left for the run, with them all is there."""
+    observe(case, TRACKS.replace("paths", "aaa"))
+    run(case)
+    expected = results(case)
+    interrupt_removal(case, nth, monkeypatch)
     run(case, "-resume")
     assert results(case) == expected
 
