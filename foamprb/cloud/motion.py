@@ -1,7 +1,7 @@
 """What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross`` and ``recover`` are bound to the flow that was
-chosen when the loop is compiled.
+chosen when the loop is compiled, ``turn_along`` and ``bounce_along`` to a model of the surroundings.
 """
 
 from __future__ import annotations
@@ -79,6 +79,14 @@ def are_finite(block: Any, i: int, row: int, end: int) -> bool:
 def fail_small_step(s: Scratch, i: int) -> None:
     """End the particle in lane i, of which the error asks for a step that is too small."""
     fail(s, i, STEP_TOO_SMALL if s.block[at.error * LANES + i] < math.inf else NOT_FINITE)
+
+
+def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
+    """Nothing else of the particle in lane i has a direction that is turned or mirrored with it."""
+
+
+def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
+    """Nothing else of the particle in lane i is thrown back by a wall of normal n."""
 
 
 def interrupted(s: Scratch) -> bool:
@@ -192,6 +200,7 @@ def beyond(
     store9(block, at.frame, i, Q)
     block[at.renewed * LANES + i] = 1.0
     store3(block, at.v, i, dot_vector(turn, v))
+    turn_along(block, i, turn)
     m = dot_vector(turn, x0)
     shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
     return y0, moved(turn, shift, x1), turn, shift
@@ -274,6 +283,7 @@ def move_centre(
         n = normal(flow, triangle, x0)
         v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
         store3(block, at.v, i, v)
+        bounce_along(block, i, n)
         rest = dt - spent
         x1 = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2])
     return x0, start, dt, recovered
@@ -324,6 +334,7 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> 
     n = normal(flow, triangle, x)
     v = load3(block, at.v, i)
     store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
+    bounce_along(block, i, n)
     # What the centre went towards the wall after the contact is taken back: else a body that comes to rest
     # on the wall would sink into it.
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]

@@ -8,10 +8,12 @@ from typing import TypeAlias
 __all__ = [
     "ACCELERATION",
     "DENSITY",
+    "DISSIPATION",
     "DYNAMIC_VISCOSITY",
     "KINEMATIC_VISCOSITY",
     "MASS_FLUX",
     "RATE",
+    "SPECIFIC_ENERGY",
     "VELOCITY",
     "VOLUME_FLUX",
     "Dimensions",
@@ -31,6 +33,8 @@ KINEMATIC_VISCOSITY: Dimensions = (0, 2, -1, 0, 0, 0, 0)
 DYNAMIC_VISCOSITY: Dimensions = (1, -1, -1, 0, 0, 0, 0)
 DENSITY: Dimensions = (1, -3, 0, 0, 0, 0, 0)
 ACCELERATION: Dimensions = (0, 1, -2, 0, 0, 0, 0)
+SPECIFIC_ENERGY: Dimensions = (0, 2, -2, 0, 0, 0, 0)
+DISSIPATION: Dimensions = (0, 2, -3, 0, 0, 0, 0)
 
 _NAMES: dict[Dimensions, str] = {
     (0, 0, 0, 0, 0, 0, 0): "a number without unit",
@@ -47,7 +51,8 @@ _NAMES: dict[Dimensions, str] = {
     VOLUME_FLUX: "a flux of volume (phi)",
     MASS_FLUX: "a flux of mass (phi)",
     (1, -1, -2, 0, 0, 0, 0): "a pressure",
-    (0, 2, -2, 0, 0, 0, 0): "a kinematic pressure",
+    SPECIFIC_ENERGY: "a kinematic pressure, or an energy per mass (k)",
+    DISSIPATION: "a power per mass (epsilon)",
     (1, 1, -2, 0, 0, 0, 0): "a force",
 }
 _EXPONENT = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)", re.ASCII)

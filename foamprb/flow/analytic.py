@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra
+from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.pipes import (
     PipeArrays,
     WomersleyArrays,
@@ -67,6 +67,11 @@ def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[floa
 def walls_free(flow: Any, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
     """No wall is near."""
     return NO_PLANES
+
+
+def turbulence_free(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
+    """The flow has no eddies."""
+    return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 
 
 def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
@@ -138,6 +143,10 @@ class AnalyticFlow:
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """Nothing: there are no nodes."""
         return "", np.empty((0, 3)), np.empty((0, 9))
+
+    def turbulence_at_nodes(self) -> Floats:
+        """Nothing: there are no nodes."""
+        return np.empty((0, 8))
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """The parameters, by name."""

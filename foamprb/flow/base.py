@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,6 +26,10 @@ class Patch(NamedTuple):
     type: str
     neighbour: str = ""
     """The patch to which a particle goes on that meets this one, if the two are coupled."""
+
+
+Turbulence: TypeAlias = tuple[float, float, Vector, Vector]
+"""k (m²/s²), ε (m²/s³), ∇k and ∇(k²/3ε) of a turbulent flow at a place."""
 
 
 class Planes(NamedTuple):
@@ -97,6 +101,8 @@ class Flow(Sampled, Protocol):
       nearest touchable wall, infinite when none is near;
     * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as
       ``foamprb.flow.planes`` has them; a flow without walls need not have it;
+    * ``turbulence(flow, host, x, t) -> (k, epsilon, slope, drift)``: as :data:`Turbulence`; a flow without
+      eddies need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;
@@ -150,6 +156,9 @@ class Flow(Sampled, Protocol):
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """The name of the time that was read, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+
+    def turbulence_at_nodes(self) -> Floats:
+        """k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); without rows if they were not read."""
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """What tells the flow from another, by name: to know it again when a run is taken up."""

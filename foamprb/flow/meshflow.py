@@ -19,7 +19,7 @@ from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
+from foamprb.flow.walk import cross, follow, normal, recover, sample, turbulence, walk
 from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
 
 LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, planes_among, seek)
@@ -113,6 +113,8 @@ class MeshFlow:
         Reads the cells of each zone of cells, by name, when somebody asks for one.
     time
         Name of the time that was read, if there are times.
+    turbulence
+        (n_nodes, 8): k, ε, ∇k and ∇(k²/3ε) at the nodes, if they were read.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -123,6 +125,7 @@ class MeshFlow:
         "normal": normal,
         "cross": cross,
         "recover": recover,
+        "turbulence": turbulence,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
     lists_walls = True
@@ -135,6 +138,7 @@ class MeshFlow:
         notes: Iterable[str] = (),
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         time: str = "",
+        turbulence: Floats | None = None,
     ) -> None:
         self._time = time
         self.mesh = mesh
@@ -178,6 +182,7 @@ class MeshFlow:
             rim=rim,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
+            turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
         )
 
     @staticmethod
@@ -242,6 +247,10 @@ class MeshFlow:
     def at_nodes(self) -> tuple[str, Floats, Floats]:
         """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
         return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
+
+    def turbulence_at_nodes(self) -> Floats:
+        """k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); without rows if they were not read."""
+        return self._arrays.turbulence
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""

@@ -102,6 +102,49 @@ class Reconstruction:
             self._images.agree(values)
         return u_nodes, l_nodes
 
+    def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+        """Reconstruct m scalars, none of them beyond the values around a node: so they stay positive.
+
+        Parameters
+        ----------
+        cells, boundary
+            (n_cells, m) and (n_boundary, m).
+
+        Returns
+        -------
+        values, slopes
+            (n_nodes, m) and their gradients (n_nodes, m, 3), of least squares.
+        """
+        mesh, images, m = self.mesh, self._images, cells.shape[1]
+        n, owner = mesh.n_cells, self._owner[self._valued]
+        at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
+        slopes_of_cells = np.zeros((n, m, 3))
+        self._gradient(at_sites, slopes_of_cells)
+        values = np.concatenate([self._means(at_sites), cells])
+        if len(self._walls):
+            rows, columns = points_of_faces(mesh, self._walls)
+            on_wall, place = np.unique(rows, return_inverse=True)
+            count = np.bincount(place)
+            for f in range(m):
+                at_faces = boundary[self._walls, f]
+                values[on_wall, f] = np.bincount(place, at_faces[columns]) / count
+        slopes = np.zeros((mesh.n_points + n, m, 3))
+        for f in range(m):
+            own = slopes_of_cells[:, f]
+            slopes[: mesh.n_points, f] = self._means(np.concatenate([own, own[owner], images.turned(own)]))
+            images.agree(slopes[: mesh.n_points, f])
+            slopes[mesh.n_points :, f] = own
+        return values, slopes
+
+    def _means(self, values: Floats) -> Floats:
+        """Means (n_points, m) at the mesh points of values (n_sites, m) around, by the inverse distance."""
+        m = values.shape[1]
+        means = np.zeros((self.mesh.n_points, m))
+        slopes, bends = np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6))
+        nothing = np.zeros((self.mesh.n_points, m, 3))
+        link(mean_series)(self.mesh.points, self._sites, *self._around, values, slopes, bends, means, nothing)
+        return means
+
     def _derivatives(self, u: Floats, l: Floats | None) -> tuple[Floats, Floats]:
         """First derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites.
 

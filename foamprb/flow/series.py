@@ -17,20 +17,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra
+from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import corners, interpolate, inward, shape
+from foamprb.flow.walk import blend_turbulence, corners, interpolate, inward, shape
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walls import gap as gap_mesh
 
 _SLACK = 1e-6
 """Share of the shortest interval by which two times may differ and still be the same."""
+_OF_VELOCITY, _OF_TURBULENCE = 12, 8
+"""Columns of u and ∇u, and of the turbulence after them."""
 _LONGEST_END = 2.0
 """How many times longer than any other interval the last one of a period may be."""
 
@@ -44,7 +46,7 @@ class SeriesArrays(NamedTuple):
     first: NDArray[np.int64]
     """(n,) 64-bit, row of ``fields`` at which the nodes of each time begin."""
     fields: Floats
-    """(rows, 12): u v w and the nine ∂u_i/∂x_j row by row, time by time."""
+    """(rows, 12 or 20): u v w and the nine ∂u_i/∂x_j row by row, time by time; k, ε, ∇k and ∇(k²/3ε)."""
     slack: float
     """Times closer than this are the same, s."""
 
@@ -70,6 +72,27 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
         l0[6] + s * (l1[6] - l0[6]), l0[7] + s * (l1[7] - l0[7]), l0[8] + s * (l1[8] - l0[8]),
     )  # fmt: skip
     return u, l, (d[0] / length, d[1] / length, d[2] / length)
+
+
+def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence:
+    """:func:`foamprb.flow.walk.turbulence`, linear in t."""
+    if flow.fields.shape[1] <= _OF_VELOCITY:
+        return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    k = 0
+    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
+        k += 1
+    w = shape(flow.mesh, host, x)
+    a = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k]), w)
+    b = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k + 1]), w)
+    s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
+    (e0, e1, e2), (f0, f1, f2) = a[2], b[2]
+    (g0, g1, g2), (h0, h1, h2) = a[3], b[3]
+    return (
+        a[0] + s * (b[0] - a[0]),
+        a[1] + s * (b[1] - a[1]),
+        (e0 + s * (f0 - e0), e1 + s * (f1 - e1), e2 + s * (f2 - e2)),
+        (g0 + s * (h0 - g0), g1 + s * (h1 - g1), g2 + s * (h2 - g2)),
+    )
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -112,8 +135,9 @@ class SeriesFlow:
     times
         Rising, at least two, s.
     read
-        Gives u (n_nodes, 3) in m/s and l (n_nodes, 3, 3) in 1/s of the time with a given index; it is called
-        by one thread at a time, not always the same.
+        Gives u (n_nodes, 3) in m/s and l (n_nodes, 3, 3) in 1/s of the time with a given index, and with
+        ``turbulent`` k, ε, ∇k and ∇(k²/3ε) (n_nodes, 8); it is called by one thread at a time, not always the
+        same.
     period
         Duration after which the flow repeats itself, s: the times before ``times[0] + period`` count, and at
         that time the first field comes again.
@@ -123,6 +147,8 @@ class SeriesFlow:
         Number of times to keep in memory, if more than a step needs.
     zones
         Gives the cells of each zone, by name; it is called when a zone is asked for.
+    turbulent
+        Whether ``read`` gives the turbulence as well.
 
     Raises
     ------
@@ -138,17 +164,19 @@ class SeriesFlow:
         "normal": normal,
         "cross": cross,
         "recover": recover,
+        "turbulence": turbulence,
     }
 
     def __init__(
         self,
         mesh: Mesh,
         times: Sequence[float],
-        read: Callable[[int], tuple[Floats, Floats]],
+        read: Callable[[int], tuple[Floats, ...]],
         period: float | None = None,
         notes: Iterable[str] = (),
         keep: int = 0,
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+        turbulent: bool = False,
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -163,12 +191,13 @@ class SeriesFlow:
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
-        self._fields = np.empty((0, nodes, 12))
+        width = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
+        self._fields = np.empty((0, nodes, width))
         self._in_memory: dict[int, int] = {}
         """Place in ``_fields`` of each time in memory, by its index, the longest unused first."""
         self._levels = range(0)
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
-        self._prefetched: tuple[int, Future[tuple[Floats, Floats]]] | None = None
+        self._prefetched: tuple[int, Future[tuple[Floats, ...]]] | None = None
 
     @staticmethod
     def nothing() -> SeriesArrays:
@@ -215,7 +244,7 @@ class SeriesFlow:
             self._steady.arrays(reach, touchable),
             np.array([self._time(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
-            self._fields.reshape(-1, 12),
+            self._fields.reshape(-1, self._fields.shape[2]),
             self._slack,
         )
 
@@ -228,7 +257,15 @@ class SeriesFlow:
         """The first time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
         self.load(self.times[0], self.times[0])
         first = self._fields[self._in_memory[0]]
-        return f"{self.times[0]:g}", first[:, :3], first[:, 3:]
+        return f"{self.times[0]:g}", first[:, :3], first[:, 3:_OF_VELOCITY]
+
+    def turbulence_at_nodes(self) -> Floats:
+        """The first time's k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); without rows if they were not read."""
+        if self._fields.shape[2] == _OF_VELOCITY:
+            return np.empty((0, _OF_TURBULENCE))
+        self.load(self.times[0], self.times[0])
+        first: Floats = self._fields[self._in_memory[0], :, _OF_VELOCITY:]
+        return first
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, times, and velocities at the first of them, by name."""
@@ -317,16 +354,18 @@ class SeriesFlow:
     def _fetch(self, index: int) -> None:
         if index in self._in_memory:
             return
-        u, l = self._read_now(index)
+        u, l, *turbulence = self._read_now(index)
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
             place = self._in_memory.pop(next(iter(self._in_memory)))
         self._fields[place, :, :3] = u
-        self._fields[place, :, 3:] = l.reshape(-1, 9)
+        self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
+        if turbulence:
+            self._fields[place, :, _OF_VELOCITY:] = turbulence[0]
         self._in_memory[index] = place
 
-    def _read_now(self, index: int) -> tuple[Floats, Floats]:
+    def _read_now(self, index: int) -> tuple[Floats, ...]:
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
         future = self._prefetched[1]

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Floats, Turbulence
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
@@ -41,6 +41,23 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
     """
     u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
     return u, l, (0.0, 0.0, 0.0)
+
+
+def turbulence(flow: MeshArrays, host: int, x: Vector, t: float) -> Turbulence:  # noqa: ARG001
+    """k, ε, ∇k and ∇(k²/3ε) at x, linear in the tetrahedron ``host``; zeros if they were not read."""
+    if flow.turbulence.shape[0] == 0:
+        return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    return blend_turbulence(flow.turbulence, 0, corners(flow, host, 0), shape(flow, host, x))
+
+
+def blend_turbulence(f: Floats, k: int, nodes: Corners, w: Weights) -> Turbulence:
+    """k, ε, ∇k and ∇(k²/3ε) from a table with a row for each node, in which they begin at column k."""
+    return (
+        blend(f, k, nodes, w),
+        blend(f, k + 1, nodes, w),
+        (blend(f, k + 2, nodes, w), blend(f, k + 3, nodes, w), blend(f, k + 4, nodes, w)),
+        (blend(f, k + 5, nodes, w), blend(f, k + 6, nodes, w), blend(f, k + 7, nodes, w)),
+    )
 
 
 def corners(flow: MeshArrays, host: int, first: int) -> Corners:

@@ -122,6 +122,8 @@ def prepare(
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
     settings = read_settings(case, dictionary, source.region, single)
+    turbulent = any(type(model).turbulent for model in settings.dispersion.values())
+    source = replace(source, turbulent=turbulent)
     precompiler = _precompile(settings) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
@@ -172,7 +174,7 @@ def _models(settings: Settings, integrator: str) -> Models:
         integrator,
         tolerance,
         forces,
-        tuple(settings.surroundings.values()),
+        (*settings.dispersion.values(), *settings.surroundings.values()),
     )
 
 

@@ -46,6 +46,8 @@ def describe(job: Job) -> list[str]:
         number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
+    for name, dispersion in settings.dispersion.items():
+        log.info("Selecting dispersionModel %s %s", name, dispersion)
     for model in cloud.models.surroundings:
         for line in model.notes(cloud.particles, cloud.make_ready(), cloud.flow):
             log.info("    %s", line)
@@ -59,6 +61,8 @@ def describe(job: Job) -> list[str]:
         log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
         _log_groups(g)
         warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
+    for model in cloud.models.surroundings:
+        warnings += model.warnings(cloud.particles, cloud.flow, cloud.medium, cloud.dt)
     for name, function in settings.functions.items():
         log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
     if cloud.particles.size == 0:

@@ -17,6 +17,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.limits import Limits
+from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -398,9 +399,6 @@ class InjectionModel:
     ] = _CONSTANT_RATE
 
 
-_NO_DISPERSION = Only(
-    "none", "particles follow the velocity field that was read, without turbulent dispersion"
-)
 _DILUTE = Only("none", "the suspension is dilute, particles do not meet")
 _NO_MODEL = NoEffect("there is no such model")
 
@@ -421,7 +419,14 @@ class SubModels:
     tractionModel: Annotated[
         str, Choice(TRACTIONS), Meaning("[traction](models/traction.md) on the surface")
     ] = "roscoe"
-    dispersionModel: Annotated[str, _NO_DISPERSION] = "none"
+    dispersionModel: Annotated[
+        str,
+        Choice(("none", *DISPERSIONS)),
+        Meaning(
+            "[dispersion by eddies](models/turbulent-dispersion.md) of a flow that is a mean, with the "
+            "`…Coeffs` of the model if wanted"
+        ),
+    ] = "none"
     heatTransferModel: Annotated[str, Only("none", "particles have no temperature")] = "none"
     surfaceFilmModel: Annotated[str, Only("none", "there is no film on the walls")] = "none"
     collisionModel: Annotated[str, _DILUTE] = "none"

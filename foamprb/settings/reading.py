@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Annotated
 
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.registry import FORCES
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
+from foamprb.dictionary.constraints import Choice
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, selected
@@ -83,7 +86,9 @@ def read_settings(
     with mistakes:
         sub_models = _section(root, "subModels")
         with mistakes:
-            models = read_entries(entries.SubModels, sub_models, also=coefficient_names())
+            models = read_entries(entries.SubModels, sub_models, also=(*coefficient_names(), *_COEFFICIENTS))
+        with mistakes:
+            dispersion = _dispersion(sub_models)
         with mistakes:
             drag, forces, surroundings = _forces(_section(sub_models, "particleForces"))
             gravity = read_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0)
@@ -114,6 +119,7 @@ def read_settings(
         functions=functions,
         forces=forces,
         surroundings=surroundings,
+        dispersion=dispersion,
         region=region,
     )
 
@@ -144,6 +150,29 @@ def _forces(
                 surroundings[name] = read_entry(dictionary, name, model)
     mistakes.raise_any()
     return drag, forces, surroundings
+
+
+_COEFFICIENTS = {f"{name}Coeffs": name for name in DISPERSIONS}
+
+
+def _dispersion(sub_models: Dictionary) -> dict[str, Surrounding]:
+    """Read the ``dispersionModel`` of ``subModels`` with its coefficients, if any; nothing of none."""
+    mistakes = Mistakes()
+    found: dict[str, Surrounding] = {}
+    chosen = "none"
+    with mistakes:
+        if "dispersionModel" in sub_models.entries:
+            rule = Annotated[str, Choice(("none", *DISPERSIONS))]
+            chosen = read_entry(sub_models, "dispersionModel", rule)
+    for coefficients, name in _COEFFICIENTS.items():
+        with mistakes:
+            model = DISPERSIONS[name]()
+            if coefficients in sub_models.entries:
+                model = read_entry(sub_models, coefficients, DISPERSIONS[name])
+            if name == chosen:
+                found[name] = model
+    mistakes.raise_any()
+    return found
 
 
 def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:

@@ -18,6 +18,7 @@ from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.injection.shapes import SHAPES
 from foamprb.cloud.patches import INTERACTIONS
+from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
@@ -84,6 +85,7 @@ SECTIONS: dict[str, Section] = {
     "shape": Section("constantProperties/shape", models=SHAPES),
     "distributions": Section("(distribution)", models=DISTRIBUTIONS),
     "subModels": Section("subModels", {"": entries.SubModels}),
+    "dispersion": Section("subModels", {f"{name}Coeffs": model for name, model in DISPERSIONS.items()}),
     "particleForces": Section(
         "subModels",
         {"particleForces": entries.ParticleForces, **{f"particleForces/{k}": v for k, v in _CHOSEN.items()}},

@@ -106,4 +106,6 @@ class Settings:
     functions: Mapping[str, CloudFunction]
     forces: Mapping[str, Force]
     surroundings: Mapping[str, Surrounding]
+    dispersion: Mapping[str, Surrounding] = field(default_factory=dict)
+    """The dispersionModel by its name, if there is one."""
     region: str = ""

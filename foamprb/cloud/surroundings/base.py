@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
 
+from foamprb.cloud.block import Medium
 from foamprb.cloud.state import Particles
 from foamprb.flow.base import Flow, Patch
 
@@ -33,6 +34,9 @@ class Surrounding:
     disturb: ClassVar[Callable[..., None]]
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
+
+    turbulent: ClassVar[bool] = False
+    """Whether it needs k and ε of the flow."""
 
     @classmethod
     def stages(cls) -> tuple[Callable[..., None], ...]:
@@ -64,6 +68,10 @@ class Surrounding:
         """What a user should read before a run, line by line; ``arrays`` are what the flow's kernels read."""
         return ()
 
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
+        """What a user should be warned of before a run with steps Δt (s), sentence by sentence."""
+        return ()
+
     def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
         """What a user should read after a run with steps Δt (s), line by line."""
         return ()
@@ -79,4 +87,6 @@ def _written(value: Any) -> str:
     """An entry's value as a dictionary has it."""
     if isinstance(value, bool):
         return "yes" if value else "no"
+    if isinstance(value, str):
+        return value
     return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"

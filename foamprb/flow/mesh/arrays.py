@@ -59,6 +59,8 @@ class MeshArrays(NamedTuple):
     """(n_cells + 1,) into ``near``."""
     near: Ints
     """The wall triangles that a particle with its centre in the cell might touch."""
+    turbulence: Floats
+    """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); without rows if nobody asked for them."""
 
 
 def no_mesh() -> MeshArrays:
@@ -91,6 +93,7 @@ def no_mesh() -> MeshArrays:
         rim=none,
         near_start=none,
         near=none,
+        turbulence=floats(8),
     )
 
 

@@ -18,6 +18,11 @@ from foamprb.flow.read.field import Kind
 from foamprb.flow.read.foamfile import header, read_cell_zones
 from foamprb.flow.read.times import choose_times, listed, pick_time
 
+
+class MissingFieldError(InputError):
+    """A time has no field of a name."""
+
+
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
 
 
@@ -155,7 +160,7 @@ def field_path(folder: Path, field: str, kind: Kind) -> Path:
     """The file of a field in a time directory; InputError if it is missing or of another class."""
     path = existing(folder / field)
     if path is None:
-        raise InputError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
+        raise MissingFieldError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
     found = header(path).get("class", "(none)")
     if found != kind.name:
         raise InputError(f"{path}: the class is {found}, but {kind.meaning} is a {kind.name}.")

@@ -28,7 +28,9 @@ LEAST_LOSS = 1e-3
 """Share of the flux by which inflow and outflow must differ for a warning."""
 
 
-def caveats_of_case(case: Path, folder: Path, region: str, *, moving: bool = True) -> list[Caveat]:
+def caveats_of_case(
+    case: Path, folder: Path, region: str, *, moving: bool = True, turbulent: bool = False
+) -> list[Caveat]:
     """Warnings from the dictionaries of a case, and from what lies in a time directory beside the velocity.
 
     Parameters
@@ -39,8 +41,11 @@ def caveats_of_case(case: Path, folder: Path, region: str, *, moving: bool = Tru
         The time directory, or the region's part of it.
     moving
         Whether the flow is read at one time only, so that a mesh that moves stands still.
+    turbulent
+        Whether a model of its eddies acts, so that they need no warning.
     """
-    found = [*_rotating(case, region), *_porous(case, region), *_turbulent(folder)]
+    found = [*_rotating(case, region), *_porous(case, region)]
+    found += () if turbulent else _turbulent(folder)
     found += _compressible(folder, case)
     return [*found, *(_moving(case, region, folder) if moving else ())]
 
@@ -108,12 +113,20 @@ def _porous(case: Path, region: str) -> Iterator[Caveat]:
 
 
 def _turbulent(folder: Path) -> Iterator[Caveat]:
-    path = existing(folder / "nut")
-    if path is not None and not _ZERO.search(read_bytes(path, _HEAD)):
+    name = "nut" if existing(folder / "nut") is not None else "k"
+    if _is_there(folder / name):
         yield Caveat(
-            "the flow is the mean or the resolved part of a turbulent one (there is nut): particles follow "
-            "and feel that part alone, without dispersion by the eddies and without their stresses."
+            f"the flow is the mean or the resolved part of a turbulent one (there is {name}): particles "
+            "follow and feel that part alone, without dispersion by the eddies and without their stresses. "
+            "subModels/dispersionModel stochasticDispersionRAS adds the dispersion, from k and epsilon or "
+            "omega."
         )
+
+
+def _is_there(path: Path) -> bool:
+    """Whether there is a field that is not zero everywhere."""
+    found = existing(path)
+    return found is not None and not _ZERO.search(read_bytes(found, _HEAD))
 
 
 def _compressible(folder: Path, case: Path) -> Iterator[Caveat]:

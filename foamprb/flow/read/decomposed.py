@@ -20,6 +20,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Caveat
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import (
+    MissingFieldError,
     available_times,
     regions,
     require_choice,
@@ -111,7 +112,7 @@ class ReconstructedCase:
         for part, folder in zip(self._parts, self._folders, strict=True):
             path = folder / time / self.region / name
             if existing(path) is None:
-                raise InputError(f"{path}: no such file.")
+                raise MissingFieldError(f"{path}: no such file.")
             fields.append(checked(read_field(path, kind, self.case), part))
         return join_fields(self._parts, fields, self._patches, self._ranges)
 
@@ -122,12 +123,14 @@ class ReconstructedCase:
         except InputError as error:
             raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
 
-    def noted(self, flow: AFlow, time: str) -> AFlow:
+    def noted(self, flow: AFlow, time: str, turbulent: bool) -> AFlow:
         """The flow, with notes on where it comes from, at a time; the folder is removed after the flow."""
         weakref.finalize(flow, _let_go, self)
         folder = self._folders[0] / time / self.region
         at_rest = isinstance(flow, MeshFlow)
-        caveats: list[Caveat] = caveats_of_case(self.case, folder, self.region, moving=at_rest)
+        caveats: list[Caveat] = caveats_of_case(
+            self.case, folder, self.region, moving=at_rest, turbulent=turbulent
+        )
         note = f"The flow was put together from {len(self._parts)} processor folders."
         flow.notes = (note, *flow.notes, *caveats)
         return flow
@@ -138,7 +141,12 @@ def _let_go(whole: ReconstructedCase) -> None:
 
 
 def read_decomposed_case(
-    case: Path, time: float | str = "latestTime", velocity: str = "U", region: str = "", gradient: str = ""
+    case: Path,
+    time: float | str = "latestTime",
+    velocity: str = "U",
+    region: str = "",
+    gradient: str = "",
+    turbulent: bool = False,
 ) -> MeshFlow:
     """Read the flow of a decomposed case at one time, as :func:`foamprb.flow.read.openfoam.read_case`.
 
@@ -149,7 +157,8 @@ def read_decomposed_case(
     """
     whole = ReconstructedCase(case, region)
     name = whole.call(select_time, time, region)
-    return whole.noted(whole.call(read_case, name, velocity, region, gradient, whole.field), name)
+    flow = whole.call(read_case, name, velocity, region, gradient, whole.field, turbulent)
+    return whole.noted(flow, name, turbulent)
 
 
 def read_decomposed_series(
@@ -159,6 +168,7 @@ def read_decomposed_series(
     velocity: str = "U",
     region: str = "",
     gradient: str = "",
+    turbulent: bool = False,
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a decomposed case at several times, as :func:`~foamprb.flow.read.series.read_series`.
 
@@ -169,7 +179,8 @@ def read_decomposed_series(
     """
     whole = ReconstructedCase(case, region)
     name = whole.call(select_times, times, region)[-1]
-    return whole.noted(whole.call(read_series, times, period, velocity, region, gradient, whole.field), name)
+    flow = whole.call(read_series, times, period, velocity, region, gradient, whole.field, turbulent)
+    return whole.noted(flow, name, turbulent)
 
 
 def describe_decomposed(case: Path, region: str = "") -> CaseInfo:

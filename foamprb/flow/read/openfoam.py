@@ -8,6 +8,7 @@ and what it passes over is checked. Fields are read in double precision, without
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -33,6 +34,7 @@ from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
 from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
+from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.reconstruct import Reconstruction
 
@@ -60,6 +62,7 @@ def read_case(
     region: str = "",
     gradient: str = "",
     fields: ReadField | None = None,
+    turbulent: bool = False,
 ) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
@@ -78,6 +81,8 @@ def read_case(
         gradient at the cells; without a name it is reconstructed from the velocity.
     fields
         Reads a field, if it does not come from the case's own time directories.
+    turbulent
+        Whether to read k and ε, or k and ω, as well.
 
     Raises
     ------
@@ -91,16 +96,19 @@ def read_case(
     whole = read_mesh(case, name, region)
     cells, boundary = velocities(field, whole)
     given = gradients(read(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
-    u, l = Reconstruction(whole.mesh)(cells, boundary, given)
+    reconstruct = Reconstruction(whole.mesh)
+    u, l = reconstruct(cells, boundary, given)
     folder = case / name / region
+    eddies = None
+    if turbulent:
+        eddies = read_turbulence(partial(read, name), folder, whole.patches, whole.mesh, reconstruct)
     notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([folder / velocity])]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    notes += caveats_of_case(case, folder, region)
+    notes += caveats_of_case(case, folder, region, turbulent=turbulent)
     notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, folder, velocity)
-    return MeshFlow(
-        whole.mesh, u, l, notes, zones=lambda: cell_zones(mesh_folder(case, name, region)), time=name
-    )
+    zones = mesh_folder(case, name, region)
+    return MeshFlow(whole.mesh, u, l, notes, lambda: cell_zones(zones), name, eddies)
 
 
 def fields_of_case(case: Path, region: str) -> ReadField:

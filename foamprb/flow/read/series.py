@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from foamprb.flow.read.openfoam import (
     read_mesh,
     velocities,
 )
+from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
 
@@ -40,6 +42,7 @@ def read_series(
     region: str = "",
     gradient: str = "",
     fields: ReadField | None = None,
+    turbulent: bool = False,
 ) -> SeriesFlow | MeshFlow:
     """Read the flow of a case at several of its times, as it is needed; a single time is a steady flow.
 
@@ -51,7 +54,7 @@ def read_series(
         As :func:`~foamprb.flow.read.times.choose_times`.
     period
         Duration after which the flow repeats itself, s.
-    velocity, region, gradient, fields
+    velocity, region, gradient, fields, turbulent
         As :func:`foamprb.flow.read.openfoam.read_case`.
 
     Raises
@@ -63,7 +66,7 @@ def read_series(
     case = Path(case)
     names = select_times(case, times, region)
     if len(names) == 1:
-        return read_case(case, names[0], velocity, region, gradient, fields)
+        return read_case(case, names[0], velocity, region, gradient, fields, turbulent)
     _refuse_moving(case, names, region)
     read_field = fields or fields_of_case(case, region)
     field = read_field(names[0], velocity, VELOCITY_FIELD)
@@ -72,27 +75,33 @@ def read_series(
     reconstruct = Reconstruction(whole.mesh)
     folder = mesh_folder(case, names[0], region)
 
-    def read(name: str) -> tuple[Floats, Floats]:
+    def read(name: str) -> tuple[Floats, ...]:
         cells, boundary = velocities(read_field(name, velocity, VELOCITY_FIELD), whole)
         given = gradients(read_field(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
-        return reconstruct(cells, boundary, given)
+        flow = reconstruct(cells, boundary, given)
+        if not turbulent:
+            return flow
+        at_time = partial(read_field, name)
+        return *flow, read_turbulence(at_time, case / name / region, whole.patches, whole.mesh, reconstruct)
 
     notes = [PRECISION_NOTE, *whole.notes]
     notes += notes_of_forms(case / name / region / velocity for name in names)[:1]
     first = case / names[0] / region
-    notes += caveats_of_case(case, case / names[-1] / region, region, moving=False)
+    notes += caveats_of_case(case, case / names[-1] / region, region, moving=False, turbulent=turbulent)
     notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, first, velocity)
-    return series_of(case, whole.mesh, names, read, period, notes, lambda: cell_zones(folder))
+    zones = partial(cell_zones, folder)
+    return series_of(case, whole.mesh, names, read, period, notes, zones, turbulent)
 
 
 def series_of(
     source: Path,
     mesh: Mesh,
     names: Sequence[str],
-    read: Callable[[str], tuple[Floats, Floats]],
+    read: Callable[[str], tuple[Floats, ...]],
     period: float | None,
     notes: Sequence[str],
     zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+    turbulent: bool = False,
 ) -> SeriesFlow:
     """Make a flow of the times of a case or a file: few of them in memory, or all of a short period.
 
@@ -106,7 +115,7 @@ def series_of(
         The names of the times, rising.
     read
         Gives u and l at the nodes at the time of a given name, as :class:`SeriesFlow`'s.
-    period, notes, zones
+    period, notes, zones, turbulent
         As :class:`SeriesFlow`'s.
 
     Raises
@@ -120,7 +129,9 @@ def series_of(
     keep = _MOST_IN_MEMORY // a_time if period is not None else 0
     times = [float(name) for name in names]
     try:
-        return SeriesFlow(mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones)
+        return SeriesFlow(
+            mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones, turbulent
+        )
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
 

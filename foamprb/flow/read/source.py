@@ -41,6 +41,8 @@ class Source:
     """How the boundary of a mesh file without named patches is divided."""
     decomposed: bool = False
     """Whether to read the processor folders even if there is a flow beside them."""
+    turbulent: bool = False
+    """Whether to read k and ε, or k and ω, as well."""
 
 
 def describe_source(case: Path, source: Source) -> Sequence[str]:
@@ -80,8 +82,8 @@ def read_flow(case: Path, time: float | str = "latestTime", source: Source | Non
         _refuse_division(case, source)
         decomposed = source.decomposed or is_only_decomposed(case, source.region)
         read = read_decomposed_case if decomposed else read_case
-        return read(case, time, source.velocity, source.region, source.gradient)
-    _refuse_region(source)
+        return read(case, time, source.velocity, source.region, source.gradient, turbulent=source.turbulent)
+    _refuse_of_case(source)
     return read_mesh_file(
         source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
     )
@@ -100,17 +102,24 @@ def read_transient_flow(
         source asks for what its kind does not have.
     """
     if source.file is not None:
-        _refuse_region(source)
+        _refuse_of_case(source)
         return read_mesh_series(
             source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
         )
     _refuse_division(case, source)
     decomposed = source.decomposed or is_only_decomposed(case, source.region)
     read = read_decomposed_series if decomposed else read_series
-    return read(case, times, period, source.velocity, source.region, source.gradient)
+    return read(
+        case, times, period, source.velocity, source.region, source.gradient, turbulent=source.turbulent
+    )
 
 
-def _refuse_region(source: Source) -> None:
+def _refuse_of_case(source: Source) -> None:
+    if source.turbulent:
+        raise InputError(
+            f"{source.file}: of a mesh file only the velocity is read, but the dispersionModel needs k and "
+            "epsilon or omega. Allowed: dispersionModel none, or the case itself."
+        )
     if source.region:
         raise InputError(
             f"{source.file}: a mesh file has no regions, but region {source.region} is asked for."

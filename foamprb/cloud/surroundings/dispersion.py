@@ -1,0 +1,225 @@
+"""The eddies of a turbulent flow of which only the mean is known: they carry particles away from its paths.
+
+The formulas are those of :mod:`foamprb.body.turbulence`. An eddy's velocity is constant in space's axes over
+a tracking step; whether a particle leaves its eddy is asked where a tracking step begins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+
+import numpy as np
+
+from foamprb.body.philox import normals, philox
+from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.turbulence import (
+    crossing_rate,
+    direction,
+    eddy_time,
+    fluctuation_size,
+    kolmogorov_length,
+    kolmogorov_rate,
+    lasting,
+)
+from foamprb.cloud.block import Medium, Scratch, at, load3, store3
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.dictionary.constraints import Bounds, Meaning
+from foamprb.flow.analytic import turbulence_free as turbulence
+from foamprb.flow.base import Flow, Patch
+
+__all__ = ["DISPERSIONS", "GradientDispersion", "StochasticDispersion"]
+
+_KIND = np.uint64(2)
+"""What tells these random numbers from others of the same seed."""
+_LOW, _HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
+
+
+class EddyRows(NamedTuple):
+    """The eddy in which a particle is."""
+
+    eddy_number: Annotated[int, Row(1, "", "number in the cloud", of="number")]
+    eddy_velocity: Annotated[
+        int, Row(3, "m/s", "velocity of its eddy relative to the mean flow", of="eddy", saved=True)
+    ]
+    eddy_time: Annotated[int, Row(1, "s", "time that the eddy still has", of="eddyTime", saved=True)]
+    met: Annotated[int, Row(1, "", "tracking step, from 1 on, at which eddies were last asked for")]
+    drift: Annotated[int, Row(3, "m/s", "drift that keeps evenly spread particles so")]
+
+
+eddies = offsets(EddyRows)
+
+
+def meet_eddy(
+    flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Let the particle in lane i meet its next eddy where a tracking step begins, if it has left the last."""
+    seed, kind, corrected = coefficients
+    block = s.block
+    if block[eddies.met * LANES + i] == step + 1.0 or rest <= 0.0:
+        return
+    block[eddies.met * LANES + i] = step + 1.0
+    x, t = load3(block, at.x, i), block[at.t * LANES + i]
+    k, epsilon, slope, drift = turbulence(flow, s.host[i], x, t)
+    k, epsilon = max(k, 0.0), max(epsilon, 0.0)
+    u, v, w = load3(block, at.u, i), load3(block, at.v, i), load3(block, eddies.eddy_velocity, i)
+    d = (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2])
+    rate = crossing_rate(k, np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]))
+    left = block[eddies.eddy_time * LANES + i]
+    if left <= 0.5 * rest * rate:
+        n, share = lasting(eddy_time(k, epsilon) / rate, rest)
+        left = n * rest * rate
+        number, counter = np.uint64(block[eddies.eddy_number * LANES + i]), np.uint64(step)
+        words = philox((number & _LOW, number >> _HALF, counter & _LOW, counter >> _HALF), (seed, _KIND))
+        w = of_eddy(normals(words), kind, slope)
+        size = fluctuation_size(k) * (share if kind < 2.0 else 1.0)
+        store3(block, eddies.eddy_velocity, i, (size * w[0], size * w[1], size * w[2]))
+    block[eddies.eddy_time * LANES + i] = left - rest * rate
+    c = corrected
+    store3(block, eddies.drift, i, (c * drift[0], c * drift[1], c * drift[2]))
+
+
+NORMAL, OPENFOAM, DOWN, DOWN_OR_UP = 0.0, 1.0, 2.0, 3.0
+"""How an eddy's velocity is drawn: its components; a length in any direction; along −∇k; along ±∇k."""
+
+
+def of_eddy(xi: tuple[float, float, float, float], kind: float, slope: Vector) -> Vector:
+    """The velocity of an eddy over √(2k/3), of four normal deviates and ∇k."""
+    if kind == NORMAL:
+        return xi[0], xi[1], xi[2]
+    size = abs(xi[3]) if kind < DOWN_OR_UP else xi[3]
+    n = direction((xi[0], xi[1], xi[2])) if kind == OPENFOAM else direction(slope)
+    s = size if kind == OPENFOAM else -size
+    return s * n[0], s * n[1], s * n[2]
+
+
+def carry_along(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+    """Add the velocity of the eddies to that of the mean flow."""
+    for i in range(LANES):
+        u, w, c = load3(block, at.u, i), load3(block, eddies.eddy_velocity, i), load3(block, eddies.drift, i)
+        store3(block, at.u, i, (u[0] + w[0] + c[0], u[1] + w[1] + c[1], u[2] + w[2] + c[2]))
+
+
+def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
+    """Turn or mirror the eddy of lane i, as the particle is."""
+    store3(block, eddies.eddy_velocity, i, dot_vector(turn, load3(block, eddies.eddy_velocity, i)))
+
+
+def throw_back(block: Any, i: int, n: Vector) -> None:
+    """Let the eddy of lane i leave the wall of normal n that the particle has met."""
+    w = load3(block, eddies.eddy_velocity, i)
+    towards = -2.0 * min(w[0] * n[0] + w[1] * n[1] + w[2] * n[2], 0.0)
+    store3(
+        block, eddies.eddy_velocity, i, (w[0] + towards * n[0], w[1] + towards * n[1], w[2] + towards * n[2])
+    )
+
+
+_SEED = Bounds(0.0, 2.0**32 - 1.0, False, False, "a whole number >= 0 and < 4294967296")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dispersion(Surrounding):
+    """Dispersion by eddies."""
+
+    seed: Annotated[int, _SEED, Meaning("runs with the same seed have the same random numbers")] = 1
+
+    rows: ClassVar = EddyRows
+    place: ClassVar = "eddies"
+    look: ClassVar = staticmethod(meet_eddy)
+    disturb: ClassVar = staticmethod(carry_along)
+    turbulent: ClassVar = True
+
+    def bindings(self, inertia: bool) -> dict[str, Any]:  # noqa: ARG002
+        """Mirrors, walls and coupled patches turn the eddy as well."""
+        return {"turn_along": turn_eddy, "bounce_along": throw_back}
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
+        """How fast the eddies are, and how long they last."""
+        table = flow.turbulence_at_nodes()
+        if len(table) == 0:
+            return ()
+        k, epsilon = np.maximum(table[:, 0], 0.0), np.maximum(table[:, 1], 0.0)
+        time = eddy_time(k, epsilon)
+        lines = []
+        for name, values in (
+            ("fluctuation [m/s]", fluctuation_size(k)),
+            ("eddy time [s]", time[time > 0.0]),
+            ("epsilon [m2/s3]", epsilon),
+        ):
+            if len(values):
+                low, middle, high = values.min(), np.median(values), values.max()
+                lines.append(f"{name:24s} {low:.3g} to {high:.3g}, median {middle:.3g}")
+        return lines
+
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
+        """What the smallest eddies would do to the shape, and steps that are long against the eddies."""
+        table = flow.turbulence_at_nodes()
+        if len(table) == 0 or p.size == 0:
+            return ()
+        k, epsilon = np.maximum(table[:, 0], 0.0), np.maximum(table[:, 1], 0.0)
+        nu = medium.mu / medium.rho
+        worst, usual = epsilon.max(), np.median(epsilon)
+        found = []
+        if worst > 0.0:
+            rate, length = kolmogorov_rate(worst, nu), kolmogorov_length(worst, nu)
+            found.append(
+                f"eddies move particles but do not deform them: the shear rate of the smallest, "
+                f"sqrt(epsilon/nu), is {kolmogorov_rate(usual, nu):.3g} (median) to {rate:.3g} 1/s, which "
+                f"is a capillary number of up to {medium.mu * rate / p.mu.min():.3g}; they are "
+                f"{length:.3g} m large where they are smallest, {length / (2.0 * p.R.max()):.3g} diameters."
+            )
+        time = np.median(eddy_time(k, epsilon))
+        if 0.0 < time < _FEWEST * dt:
+            found.append(
+                f"deltaT is {dt / time:.3g} of the eddies' median life of {time:.3g} s: their dispersion is "
+                f"right, but not the velocity of a particle at a time. Take one below {time / _FEWEST:.3g} s."
+            )
+        return found
+
+
+_FEWEST = 5.0
+"""Steps that an eddy should last."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StochasticDispersion(Dispersion):
+    """Eddies of random velocity and direction: `dispersionModel stochasticDispersionRAS;`."""
+
+    fluctuations: Annotated[
+        Literal["normal", "OpenFOAM"],
+        Meaning(
+            "`normal`: each component has the variance 2k/3; `OpenFOAM`: a third of it, as OpenFOAM 1912 "
+            "draws them"
+        ),
+    ] = "normal"
+    driftCorrection: Annotated[
+        bool,
+        Meaning("whether ∇(k²/3ε) is added to the velocity, so that particles do not gather where k is low"),
+    ] = False
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """The seed, how velocities are drawn, and whether the drift is corrected."""
+        kind = NORMAL if self.fluctuations == "normal" else OPENFOAM
+        # A third of the variance disperses a third as much.
+        share = 1.0 if self.fluctuations == "normal" else 1.0 / 3.0
+        return np.uint64(self.seed), kind, share * float(self.driftCorrection)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GradientDispersion(Dispersion):
+    """Eddies that go from where k is large to where it is small: `dispersionModel gradientDispersionRAS;`."""
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:
+        """The seed, how velocities are drawn, and no drift."""
+        flat = any(patch.type == "empty" for patch in patches)
+        return np.uint64(self.seed), DOWN_OR_UP if flat else DOWN, 0.0
+
+
+DISPERSIONS: dict[str, type[Dispersion]] = {
+    "stochasticDispersionRAS": StochasticDispersion,
+    "gradientDispersionRAS": GradientDispersion,
+}
+"""By the word that ``dispersionModel`` selects."""

@@ -1,0 +1,222 @@
+"""Eddies in the loop: their statistics, and the dispersion that follows from them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches
+from scipy.stats import kstest, norm
+
+from foamprb.body.turbulence import BETA_STAR
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Escape, Mirror, Rebound
+from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.dispersion import GradientDispersion, StochasticDispersion
+from foamprb.cloud.tracker import Models
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.series import SeriesFlow
+
+K, EPSILON = 1.5e-6, 1.5e-6
+"""A life of 1 s, and fluctuations of 1 mm/s, small against the box of 1 m."""
+SIGMA = 1e-3
+MEDIUM = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+RANDOM_WALK = StochasticDispersion()
+
+
+def mesh_of(cells=2):
+    shape = block(cells, 0.0)
+    return build_mesh(shape, box_patches(shape))
+
+
+def table(mesh, k=lambda x: K + 0.0 * x, epsilon=lambda x: EPSILON + 0.0 * x):
+    """k, ε, and by differences ∇k and ∇(k²/3ε), functions of x alone."""
+    x = np.concatenate([mesh.points, mesh.centres])[:, 0]
+    values = np.zeros((len(x), 8))
+    values[:, 0], values[:, 1] = k(x), epsilon(x)
+    d = 1e-6
+    values[:, 2] = (k(x + d) - k(x - d)) / (2.0 * d)
+    values[:, 5] = (k(x + d) ** 2 / epsilon(x + d) - k(x - d) ** 2 / epsilon(x - d)) / (6.0 * d)
+    return values
+
+
+def box(values=None, mesh=None, u=(0.0, 0.0, 0.0)):
+    mesh = mesh or mesh_of()
+    n = mesh.n_points + mesh.n_cells
+    velocity = np.broadcast_to(np.array(u), (n, 3))
+    values = table(mesh) if values is None else values
+    return MeshFlow(mesh, velocity, np.zeros((n, 3, 3)), turbulence=values)
+
+
+def tracers(n, place=(0.5, 0.5, 0.5), rho=1000.0, d=1e-5):
+    return spheres(np.tile(np.asarray(place, float), (n, 1)), d=d, rho=rho, mu=1e3, poissons_ratio=0.4999)
+
+
+def cloud_of(p, flow, dt, *, model=RANDOM_WALK, threads=1, integrator="stokes", medium=MEDIUM, patch=Mirror):
+    models = Models(integrator=integrator, surroundings=(model,))
+    return Cloud(p, flow, medium, [patch() for _ in flow.patches], dt, models, threads=threads)
+
+
+def carried(p, flow, steps, dt, **options):
+    cloud_of(p, flow, dt, **options).advance(steps)
+    return p
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+def test_each_component_of_the_fluctuation_has_the_variance_2k_3(integrator):
+    """To four times the standard error of a variance, √(2/n); no mean, no correlation."""
+    n = 2000
+    p = carried(tracers(n), box(), 1, 1e-3, integrator=integrator)
+    moments = p.eddy.T @ p.eddy / n / SIGMA**2
+    np.testing.assert_allclose(moments, np.eye(3), atol=4.0 * np.sqrt(2.0 / n))
+    assert np.abs(p.eddy.mean(axis=0)).max() < 4.0 * SIGMA / np.sqrt(n)
+    assert kstest(p.eddy.ravel() / SIGMA, "norm").pvalue > 1e-3
+    # A tracer moves with it; its velocity adapts within ρd²/18μ, 5.6 µs.
+    np.testing.assert_allclose(p.v, p.eddy, rtol=0.02, atol=1e-3 * SIGMA)
+
+
+def test_openfoams_fluctuations_have_a_third_of_it():
+    n = 2000
+    p = carried(tracers(n), box(), 1, 1e-3, model=StochasticDispersion(fluctuations="OpenFOAM"))
+    moments = p.eddy.T @ p.eddy / n / SIGMA**2
+    np.testing.assert_allclose(moments, np.eye(3) / 3.0, atol=4.0 * np.sqrt(2.0 / n))
+    assert kstest(np.linalg.norm(p.eddy, axis=1) / SIGMA, "halfnorm").pvalue > 1e-3
+
+
+def test_tracers_disperse_as_taylor_says():
+    """Of eddies of a fixed life T, one after the other: σ² (⌊t/T⌋ T² + (t − ⌊t/T⌋ T)²)."""
+    n, dt = 3000, 0.1
+    p = tracers(n)
+    cloud = cloud_of(p, box(), dt)
+    for steps in (5, 5, 15, 25):
+        cloud.advance(steps)
+        t = cloud.time
+        whole = np.floor(t + 1e-9)
+        expected = SIGMA**2 * (whole + (t - whole) ** 2)
+        variance = ((p.x - 0.5) ** 2).mean() / expected
+        assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / (3 * n))), t
+
+
+@pytest.mark.parametrize("dt", [0.45, 0.7, 3.0])
+def test_dispersion_does_not_depend_on_the_step(dt):
+    """σ² T t in the long run, also where an eddy lives for less than a step."""
+    n, steps = 3000, round(42.0 / dt)
+    p = carried(tracers(n), box(), steps, dt)
+    variance = ((p.x - 0.5) ** 2).mean() / (SIGMA**2 * steps * dt)
+    assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / (3 * n)) + 0.01)
+
+
+def test_what_settles_leaves_its_eddies_sooner():
+    """A slip w takes it through an eddy in C_μ^¾ k^{3/2}/(ε w): the dispersion is smaller in that ratio."""
+    n, steps, dt = 3000, 200, 0.01
+    rho, g = 2000.0, 9.81
+    d = np.sqrt(18.0 * 1e-3 * 5.0 * SIGMA / ((rho - 1000.0) * g))
+    heavy = Medium(1e-3, 1000.0, (0.0, 0.0, -g))
+    p = carried(tracers(n, rho=rho, d=d), box(), steps, dt, medium=heavy)
+    share = BETA_STAR**0.75 * np.sqrt(K) / (5.0 * SIGMA)
+    # The first eddy is met at rest.
+    variance = ((p.x[:, :2] - 0.5) ** 2).mean() / (SIGMA**2 * share * steps * dt)
+    assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(1.0 / n) + 0.05)
+
+
+def test_results_do_not_depend_on_threads_nor_on_turns_nor_on_order():
+    flow = box()
+    whole = carried(tracers(100), flow, 12, 0.3)
+    assert np.array_equal(whole.x, carried(tracers(100), flow, 12, 0.3, threads=3).x)
+    p = tracers(100)
+    cloud = cloud_of(p, flow, 0.3)
+    for _ in range(4):
+        cloud.advance(3)
+    assert np.array_equal(whole.x, p.x)
+    assert np.array_equal(whole.eddy, p.eddy)
+    other = carried(tracers(100), flow, 12, 0.3, model=StochasticDispersion(seed=2))
+    assert abs(np.corrcoef(other.x[:, 0], whole.x[:, 0])[0, 1]) < 0.4
+
+
+def test_a_cloud_that_goes_on_from_a_copy_of_its_state_goes_on_with_its_eddies():
+    flow = box()
+    whole = carried(tracers(50), flow, 10, 0.3)
+    p = tracers(50)
+    carried(p, flow, 4, 0.3)
+    rest = Cloud(p.take(slice(None)), flow, MEDIUM, [Mirror() for _ in flow.patches], 0.3,
+                 Models(integrator="stokes", surroundings=(RANDOM_WALK,)), threads=1, step=4)  # fmt: skip
+    rest.advance(6)
+    assert np.array_equal(whole.x, rest.particles.x)
+
+
+def test_a_transient_flow_has_the_turbulence_of_the_time():
+    mesh = mesh_of()
+    n = mesh.n_points + mesh.n_cells
+    still = np.zeros((n, 3)), np.zeros((n, 3, 3))
+    flow = SeriesFlow(mesh, [0.0, 1.0], lambda i: (*still, (1 + 3 * i) * table(mesh)), turbulent=True)
+    p = tracers(2000)
+    p.t0[:] = 0.5
+    carried(p, flow, 6, 0.1)
+    # k is 2.5 times that of the start.
+    assert p.eddy.var() / SIGMA**2 == pytest.approx(2.5, rel=4.0 * np.sqrt(2.0 / 6000))
+    assert len(flow.turbulence_at_nodes()) == n
+
+
+def decaying(mesh):
+    """k that triples across the box, with a life of eddies of 0.1 to 0.3 s: D = k²/3ε ∝ (1 + 2x)²."""
+    return table(mesh, lambda x: 4e4 * K * (1.0 + 2.0 * x), lambda x: 4e5 * EPSILON * (1.0 + 0.0 * x))
+
+
+def spread(model):
+    """Places x of tracers, started evenly, after they have gone to and fro in the box."""
+    mesh = mesh_of(8)
+    flow = box(decaying(mesh), mesh)
+    random = np.random.default_rng(5)
+    p = tracers(2000)
+    p.x[:] = random.uniform(0.0, 1.0, p.x.shape)
+    carried(p, flow, 1500, 0.05, model=model)
+    return np.sort(p.x[:, 0])
+
+
+def test_tracers_gather_where_k_is_low_by_as_much_as_said():
+    """Of a walk whose steps are drawn where they begin the steady concentration is ∝ 1/D, D = k²/3ε."""
+    x = spread(StochasticDispersion())
+
+    def share(x):
+        # Integral of (1 + 2x)^−2, normalised.
+        return (1.0 - 1.0 / (1.0 + 2.0 * x)) * 1.5
+
+    assert kstest(x, share).statistic < 0.05
+    assert kstest(x, "uniform").statistic > 0.15
+
+
+def test_with_the_drift_corrected_they_stay_spread_evenly():
+    x = spread(StochasticDispersion(driftCorrection=True))
+    assert kstest(x, "uniform").statistic < 0.04
+
+
+def test_gradient_dispersion_goes_from_high_to_low_k():
+    mesh = mesh_of(4)
+    flow = box(table(mesh, lambda x: K * (0.5 + x)), mesh)
+    n = 2000
+    p = carried(tracers(n), flow, 1, 1e-3, model=GradientDispersion())
+    assert np.all(p.eddy[:, 0] < 0.0)
+    assert not np.any(p.eddy[:, 1:])
+    assert kstest(-p.eddy[:, 0] / SIGMA, "halfnorm").pvalue > 1e-3
+
+
+def test_walls_and_mirrors_turn_the_eddy_with_the_particle():
+    """A tracer that met a wall goes on away from it; it does not lie on it until its eddy ends."""
+    flow = box(table(mesh_of(), lambda x: 1e4 * K + 0.0 * x, lambda x: 1e2 * EPSILON + 0.0 * x))
+    far, start = 0.08, 0.02
+
+    def folded(x):
+        return norm.cdf((x - start) / far) - norm.cdf((-x - start) / far)
+
+    for patch in (Mirror, Rebound):
+        p = carried(tracers(400, place=(start, 0.5, 0.5)), flow, 8, 0.1, patch=patch)
+        assert kstest(p.x[:, 0], folded).pvalue > 1e-3
+
+
+def test_without_turbulence_there_are_no_eddies():
+    mesh = mesh_of()
+    flow = box(np.zeros((mesh.n_points + mesh.n_cells, 8)), mesh, u=(0.1, 0.0, 0.0))
+    p = carried(tracers(10), flow, 3, 0.1, patch=Escape)
+    assert not np.any(p.eddy)
+    assert p.x[:, 0] == pytest.approx(0.53)
