@@ -106,7 +106,7 @@ class Particles(NamedTuple):
     number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
     close: Annotated[Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted")]
     eddy: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the eddy that it is in, if it meets any")]
-    eddyTime: Annotated[Array, Variable((), "f8", "s", "time that this eddy still has")]
+    eddyTime: Annotated[Array, Variable((), "f8", "s", "time that this eddy still has, or its age")]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
 
     @property

@@ -77,8 +77,11 @@ def test_each_component_of_the_fluctuation_has_the_variance_2k_3(integrator):
 
 
 def test_openfoams_fluctuations_have_a_third_of_it():
-    n = 2000
-    p = carried(tracers(n), box(), 1, 1e-3, model=StochasticDispersion(fluctuations="OpenFOAM"))
+    """The first eddy is met after a life of them, and none where they live for less than a step."""
+    n, openfoam = 2000, StochasticDispersion(fluctuations="OpenFOAM")
+    assert not np.any(carried(tracers(20), box(), 4, 0.2, model=openfoam).eddy)
+    assert not np.any(carried(tracers(20), box(), 4, 2.0, model=openfoam).eddy)
+    p = carried(tracers(n), box(), 6, 0.2, model=openfoam)
     moments = p.eddy.T @ p.eddy / n / SIGMA**2
     np.testing.assert_allclose(moments, np.eye(3) / 3.0, atol=4.0 * np.sqrt(2.0 / n))
     assert kstest(np.linalg.norm(p.eddy, axis=1) / SIGMA, "halfnorm").pvalue > 1e-3

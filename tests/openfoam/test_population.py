@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from parcels import G, header, numbers
 from scipy import stats
 
 from foamprb import prepare
@@ -119,12 +119,6 @@ U = """
         outlet { type zeroGradient; }
         walls { type slip; }
     }"""
-G = "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);"
-
-
-def header(path: str, kind: str = "dictionary") -> str:
-    name = Path(path).name
-    return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 
 
 def write_box(case: Path) -> None:
@@ -135,12 +129,6 @@ def write_box(case: Path) -> None:
     (case / "constant/injectionModels").write_text(injections())
     (case / "0/U").write_text(header("U", "volVectorField") + U)
     (case / "constant/g").write_text(header("g", "uniformDimensionedVectorField") + G)
-
-
-def numbers(path: Path) -> np.ndarray:
-    """Of a list of scalars or vectors that OpenFOAM wrote in ascii."""
-    body = path.read_text().split("// * *", 1)[1]
-    return np.array(re.sub(r"[()]", " ", body[body.index("(") : body.rindex(")")]).split(), dtype=float)
 
 
 @pytest.fixture(scope="module")

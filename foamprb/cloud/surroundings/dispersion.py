@@ -68,22 +68,44 @@ def meet_eddy(
     u, v, w = load3(block, at.u, i), load3(block, at.v, i), load3(block, eddies.eddy_velocity, i)
     d = (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2])
     rate = crossing_rate(k, np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]))
-    left = block[eddies.eddy_time * LANES + i]
-    if left <= 0.5 * rest * rate:
-        n, share = lasting(eddy_time(k, epsilon) / rate, rest)
-        left = n * rest * rate
+    left, life = block[eddies.eddy_time * LANES + i], eddy_time(k, epsilon) / rate
+    size = fluctuation_size(k)
+    if kind == OPENFOAM:
+        # Here the time that the eddy has lasted.
+        new, left = after_openfoam(left, life, rest)
+        if rest >= life:
+            store3(block, eddies.eddy_velocity, i, (0.0, 0.0, 0.0))
+    else:
+        new = left <= 0.5 * rest * rate
+        if new:
+            n, share = lasting(life, rest)
+            left = n * rest * rate
+            size *= share if kind == NORMAL else 1.0
+        left -= rest * rate
+    if new:
         number, counter = np.uint64(block[eddies.eddy_number * LANES + i]), np.uint64(step)
         words = philox((number & _LOW, number >> _HALF, counter & _LOW, counter >> _HALF), (seed, _KIND))
         w = of_eddy(normals(words), kind, slope)
-        size = fluctuation_size(k) * (share if kind < 2.0 else 1.0)
         store3(block, eddies.eddy_velocity, i, (size * w[0], size * w[1], size * w[2]))
-    block[eddies.eddy_time * LANES + i] = left - rest * rate
+    block[eddies.eddy_time * LANES + i] = left
     c = corrected
     store3(block, eddies.drift, i, (c * drift[0], c * drift[1], c * drift[2]))
 
 
 NORMAL, OPENFOAM, DOWN, DOWN_OR_UP = 0.0, 1.0, 2.0, 3.0
 """How an eddy's velocity is drawn: its components; a length in any direction; along −∇k; along ±∇k."""
+
+
+def after_openfoam(age: float, life: float, step: float) -> tuple[bool, float]:
+    """Whether a particle meets a new eddy in OpenFOAM 1912, and the new age of its eddy, s.
+
+    It does when its eddy is older than eddies live where the particle is; it meets none where they live for
+    less than a step.
+    """
+    if step >= life:
+        return False, 1e30
+    new = age + step > life
+    return new, 0.0 if new else age + step
 
 
 def of_eddy(xi: tuple[float, float, float, float], kind: float, slope: Vector) -> Vector:
@@ -191,8 +213,8 @@ class StochasticDispersion(Dispersion):
     fluctuations: Annotated[
         Literal["normal", "OpenFOAM"],
         Meaning(
-            "`normal`: each component has the variance 2k/3; `OpenFOAM`: a third of it, as OpenFOAM 1912 "
-            "draws them"
+            "`normal`: each component has the variance 2k/3; `OpenFOAM`: as OpenFOAM 1912 draws them, with a "
+            "third of it"
         ),
     ] = "normal"
     driftCorrection: Annotated[
