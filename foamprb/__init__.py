@@ -39,6 +39,8 @@ Particles in a flow:
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
+    StochasticDispersion  eddies of a turbulent flow, of random velocity
+    GradientDispersion  eddies that go from where they are strong to where they are weak
     Stick               a patch that holds the particles that touch it
     Rebound             one from which they bounce off
     Escape              one through which they leave
@@ -72,6 +74,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.surroundings.brownian import BrownianMotion
+    from foamprb.cloud.surroundings.dispersion import GradientDispersion, StochasticDispersion
     from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
     from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
@@ -95,6 +98,7 @@ _HOMES = {
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
     "FailedParticlesWarning": "foamprb.errors",
+    "GradientDispersion": "foamprb.cloud.surroundings.dispersion",
     "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
     "Job": "foamprb.run.job",
@@ -110,6 +114,7 @@ _HOMES = {
     "SeriesFlow": "foamprb.flow.series",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
+    "StochasticDispersion": "foamprb.cloud.surroundings.dispersion",
     "VirtualMass": "foamprb.cloud.forces.virtual_mass",
     "WallLift": "foamprb.cloud.surroundings.wall_lift",
     "add_material": "foamprb.body.material",
@@ -136,6 +141,7 @@ __all__ = [
     "Division",
     "Escape",
     "FailedParticlesWarning",
+    "GradientDispersion",
     "Gravity",
     "InputError",
     "Job",
@@ -151,6 +157,7 @@ __all__ = [
     "SeriesFlow",
     "Status",
     "Stick",
+    "StochasticDispersion",
     "VirtualMass",
     "WallLift",
     "add_material",

@@ -19,8 +19,9 @@ _NUMBERS = (
     ("--wallDistance", "wallDistance", "H", "of its centre, m [no wall]", math.inf),
     ("--temperature", "temperature", "T", "K [293.15]", 293.15),
     ("--gravity", "gravity", "G", "m/s2 [9.81]", 9.81),
+    ("--epsilon", "epsilon", "EPS", "dissipation by turbulence, m2/s3 [0, laminar]", 0.0),
 )
-_MAY_VANISH = ("gravity",)
+_MAY_VANISH = ("gravity", "epsilon")
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -45,6 +46,7 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     """
     # What takes arrays of numbers is slow to import, which other commands need not wait for.
     from foamprb.body.estimate import Sphere, Surroundings, estimate, shear_modulus
+    from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
 
     given = vars(arguments)
     for name in (*(name for _, name, *_ in _NUMBERS), "Ca", "shearModulus"):
@@ -78,4 +80,12 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         ("diffusion length [m]", e.diffusion_length, ""),
         ("lift-off height [m]", e.lift_height, "where lift balances weight"),
     ]
+    if given["epsilon"] > 0.0:
+        nu = given["mu"] / given["rhoInf"]
+        rate, length = kolmogorov_rate(given["epsilon"], nu), kolmogorov_length(given["epsilon"], nu)
+        facts += [
+            ("eddies' shear [1/s]", rate, "of the smallest, which dispersionModel leaves out"),
+            ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform it"),
+            ("their size over d", length / d, "below 1 it is no point to them"),
+        ]
     return [f"{name:22s} {value:<12.4g} {text}".rstrip() for name, value, text in facts]

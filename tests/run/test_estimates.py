@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from foamprb.body.estimate import Sphere, Surroundings, estimate
@@ -34,6 +35,13 @@ def test_stiffness_may_be_the_modulus_and_no_wall_lifts_not(capsys):
     found = told(capsys, "-shearModulus", "2")
     assert found["capillary number"] == pytest.approx(0.05)
     assert found["lift speed [m/s]"] == 0.0
+
+
+def test_a_dissipation_tells_of_the_smallest_eddies(capsys):
+    found = told(capsys, "-shearModulus", "2", "-epsilon", "4")
+    assert found["eddies' shear [1/s]"] == pytest.approx(2000.0)
+    assert found["their Ca"] == pytest.approx(1.0)
+    assert found["their size over d"] == pytest.approx(np.sqrt(1e-6 / 2000.0) / 5e-6, rel=1e-3)
 
 
 @pytest.mark.parametrize(
