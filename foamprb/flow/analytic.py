@@ -74,6 +74,11 @@ def turbulence_free(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
     return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 
 
+def no_rotation(flow: Any, host: int) -> tuple[Vector, Vector]:
+    """Nothing rotates: no angular velocity, and the origin."""
+    return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+
+
 def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
     """No wall has a normal."""
     return 0.0, 0.0, 0.0

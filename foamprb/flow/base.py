@@ -103,6 +103,8 @@ class Flow(Sampled, Protocol):
       ``foamprb.flow.planes`` has them; a flow without walls need not have it;
     * ``turbulence(flow, host, x, t) -> (k, epsilon, slope, drift)``: as :data:`Turbulence`; a flow without
       eddies need not have it;
+    * ``rotation_at(flow, host) -> (omega, origin)``: angular velocity, 1/s, and a point of the axis of the
+      frame in which the host is seen; a flow that is seen at rest need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;

@@ -21,6 +21,7 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.tracker import Models, Tracker
@@ -30,7 +31,14 @@ from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.source import Source, check_region, read_flow, read_transient_flow
+from foamprb.flow.read.source import (
+    Source,
+    check_region,
+    read_flow,
+    read_transient_flow,
+    rotations_of,
+)
+from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
@@ -123,8 +131,10 @@ def prepare(
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
     settings = read_settings(case, dictionary, source.region, single)
     turbulent = any(type(model).turbulent for model in settings.dispersion.values())
-    source = replace(source, turbulent=turbulent)
-    precompiler = _precompile(settings) if precompile else None
+    relative = settings.solution.rotatingZones == "relative"
+    source = replace(source, turbulent=turbulent, relative=relative)
+    rotating = bool(rotations_of(case, source))
+    precompiler = _precompile(settings, rotating) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
@@ -140,14 +150,14 @@ def prepare(
         raise
 
 
-def _precompile(settings: Settings) -> Precompiler:
+def _precompile(settings: Settings, rotating: bool) -> Precompiler:
     """Begin to compile the loop that the settings will want, as far as they tell."""
     scheme = settings.solution.shape
     # Most particles are small.
-    models = _models(settings, "stokes" if scheme == "auto" else scheme)
+    models = _models(settings, "stokes" if scheme == "auto" else scheme, rotating)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
     tense = any(injection.solid.surface_tension != 0.0 for injection in settings.injections)
-    flow = SeriesFlow if settings.solution.transient else MeshFlow
+    flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     tracker = Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense)
     precompiler = Precompiler(tracker, flow)
@@ -161,11 +171,12 @@ def _medium(settings: Settings) -> Medium:
     return Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
 
 
-def _models(settings: Settings, integrator: str) -> Models:
+def _models(settings: Settings, integrator: str, rotating: bool = False) -> Models:
     solid = settings.injections[0].solid.type if settings.injections else Models.material
     tolerance = settings.solution.tolerance
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
+    frames = (RotatingFrames(),) if rotating else ()
     return Models(
         settings.traction,
         settings.drag,
@@ -174,7 +185,7 @@ def _models(settings: Settings, integrator: str) -> Models:
         integrator,
         tolerance,
         forces,
-        (*settings.dispersion.values(), *settings.surroundings.values()),
+        (*frames, *settings.dispersion.values(), *settings.surroundings.values()),
     )
 
 
@@ -211,7 +222,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
-    models = _models(settings, solution.shape)
+    models = _models(settings, solution.shape, isinstance(flow, RotatingFlow))
     try:
         cloud = Cloud(
             particles,

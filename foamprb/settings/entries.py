@@ -165,6 +165,13 @@ class Solution:
         ]
         | None
     ) = None
+    rotatingZones: Annotated[
+        Literal["relative", "absolute"],
+        Meaning(
+            "[zones of `constant/MRFProperties`](models/rotating-zones.md): particles in them move "
+            "relative to the rotor, or with the absolute velocity as if nothing turned"
+        ),
+    ] = "relative"
     cellValueSourceCorrection: Annotated[bool, _NOT_COUPLED] = False
     interpolationSchemes: InterpolationSchemes = InterpolationSchemes()
     integrationSchemes: IntegrationSchemes = IntegrationSchemes()

@@ -39,6 +39,8 @@ class Solution:
     """Whether the flow changes in time; its time is then that of the run."""
     period: float | None = None
     """Time after which a transient flow repeats itself, s."""
+    rotatingZones: Literal["relative", "absolute"] = "relative"
+    """How zones of MRFProperties are seen."""
     startFrom: StartFrom | None = None
     maxFailedFraction: float = 1.0
     limits: Limits = field(default_factory=Limits)

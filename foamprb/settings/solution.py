@@ -71,6 +71,7 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         tolerance=solution.integrationSchemes.tolerance,
         transient=solution.transient,
         period=solution.period,
+        rotatingZones=solution.rotatingZones,
         startFrom=solution.startFrom,
         maxFailedFraction=solution.maxFailedFraction,
         limits=Limits(solution.maxStretch, solution.maxSize, solution.maxSubSteps),

@@ -29,7 +29,13 @@ LEAST_LOSS = 1e-3
 
 
 def caveats_of_case(
-    case: Path, folder: Path, region: str, *, moving: bool = True, turbulent: bool = False
+    case: Path,
+    folder: Path,
+    region: str,
+    *,
+    moving: bool = True,
+    turbulent: bool = False,
+    relative: bool = False,
 ) -> list[Caveat]:
     """Warnings from the dictionaries of a case, and from what lies in a time directory beside the velocity.
 
@@ -43,8 +49,10 @@ def caveats_of_case(
         Whether the flow is read at one time only, so that a mesh that moves stands still.
     turbulent
         Whether a model of its eddies acts, so that they need no warning.
+    relative
+        Whether particles in rotating zones are seen from the rotors, likewise.
     """
-    found = [*_rotating(case, region), *_porous(case, region)]
+    found = [*_rotating(case, region, relative), *_porous(case, region)]
     found += () if turbulent else _turbulent(folder)
     found += _compressible(folder, case)
     return [*found, *(_moving(case, region, folder) if moving else ())]
@@ -84,12 +92,12 @@ def caveat_of_flux(
     ]
 
 
-def _rotating(case: Path, region: str) -> Iterator[Caveat]:
+def _rotating(case: Path, region: str, relative: bool) -> Iterator[Caveat]:
     zones = _zones(case, region, "MRFProperties", ("constant",), lambda _: True)
-    if zones:
+    if zones and not relative:
         yield Caveat(
-            f"the flow has rotating zones (MRFProperties: {zones}), but rotating frames are not modelled: "
-            "particles meet the blades only where the mesh has them, as if these stood still."
+            f"the flow has rotating zones (MRFProperties: {zones}), but particles move in them with the "
+            "absolute velocity: they meet the blades only where the mesh has them, as if these stood still."
         )
     if _zones(case, region, "SRFProperties", ("constant",), lambda _: True) is not None:
         yield Caveat(

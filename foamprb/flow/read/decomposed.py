@@ -8,7 +8,7 @@ fields are put together in memory. The flow is the same as that of the case befo
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -32,6 +32,7 @@ from foamprb.flow.read.caveats import caveats_of_case
 from foamprb.flow.read.describe import CaseInfo, TimeInfo, describe
 from foamprb.flow.read.field import Field, Kind, read_field
 from foamprb.flow.read.foamfile import header
+from foamprb.flow.read.mrf import Rotation
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.processors import common_times, processors, read_part, whole_patches
 from foamprb.flow.read.reconstructpar import HEADER, checked, join_fields, write_mesh, write_zones
@@ -123,13 +124,13 @@ class ReconstructedCase:
         except InputError as error:
             raise InputError(str(error).replace(str(self.folder), str(self.case))) from None
 
-    def noted(self, flow: AFlow, time: str, turbulent: bool) -> AFlow:
+    def noted(self, flow: AFlow, time: str, turbulent: bool, relative: bool = False) -> AFlow:
         """The flow, with notes on where it comes from, at a time; the folder is removed after the flow."""
         weakref.finalize(flow, _let_go, self)
         folder = self._folders[0] / time / self.region
         at_rest = isinstance(flow, MeshFlow)
         caveats: list[Caveat] = caveats_of_case(
-            self.case, folder, self.region, moving=at_rest, turbulent=turbulent
+            self.case, folder, self.region, moving=at_rest, turbulent=turbulent, relative=relative
         )
         note = f"The flow was put together from {len(self._parts)} processor folders."
         flow.notes = (note, *flow.notes, *caveats)
@@ -147,6 +148,7 @@ def read_decomposed_case(
     region: str = "",
     gradient: str = "",
     turbulent: bool = False,
+    rotations: Sequence[Rotation] = (),
 ) -> MeshFlow:
     """Read the flow of a decomposed case at one time, as :func:`foamprb.flow.read.openfoam.read_case`.
 
@@ -157,8 +159,8 @@ def read_decomposed_case(
     """
     whole = ReconstructedCase(case, region)
     name = whole.call(select_time, time, region)
-    flow = whole.call(read_case, name, velocity, region, gradient, whole.field, turbulent)
-    return whole.noted(flow, name, turbulent)
+    flow = whole.call(read_case, name, velocity, region, gradient, whole.field, turbulent, rotations)
+    return whole.noted(flow, name, turbulent, bool(rotations))
 
 
 def read_decomposed_series(

@@ -7,7 +7,7 @@ and what it passes over is checked. Fields are read in double precision, without
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
@@ -33,10 +33,12 @@ from foamprb.flow.read.case import (
 from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
 from foamprb.flow.read.checks import noted_counts, require_labels, require_numbers, require_volumes
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, Field, Kind, read_field
+from foamprb.flow.read.mrf import Rotation, rotating_zones, with_rotating_walls
 from foamprb.flow.read.patch_shapes import notes_of_types, require_patch_shapes
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.reconstruct import Reconstruction
+from foamprb.flow.rotating import RotatingFlow, RotatingZone
 
 PRECISION_NOTE = (
     "Coordinates have passed through single precision in VTK's OpenFOAM reader: a relative error of up to "
@@ -63,6 +65,7 @@ def read_case(
     gradient: str = "",
     fields: ReadField | None = None,
     turbulent: bool = False,
+    rotations: Sequence[Rotation] = (),
 ) -> MeshFlow:
     """Read mesh, patches and velocity of a case at one time, and reconstruct the flow.
 
@@ -83,6 +86,8 @@ def read_case(
         Reads a field, if it does not come from the case's own time directories.
     turbulent
         Whether to read k and ε, or k and ω, as well.
+    rotations
+        The zones that are seen from their rotors.
 
     Raises
     ------
@@ -95,6 +100,12 @@ def read_case(
     field = read(name, velocity, VELOCITY_FIELD)
     whole = read_mesh(case, name, region)
     cells, boundary = velocities(field, whole)
+    flux = caveat_of_flux(whole.mesh, whole.patches, boundary, case, case / name / region, velocity)
+    zones = mesh_folder(case, name, region)
+    rotating: list[RotatingZone] = []
+    if rotations:
+        rotating = rotating_zones(rotations, cell_zones(zones), whole.mesh.n_cells)
+        boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     given = gradients(read(name, gradient, GRADIENT_FIELD), whole.mesh) if gradient else None
     reconstruct = Reconstruction(whole.mesh)
     u, l = reconstruct(cells, boundary, given)
@@ -105,10 +116,20 @@ def read_case(
     notes = [PRECISION_NOTE, *whole.notes, *notes_of_forms([folder / velocity])]
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
-    notes += caveats_of_case(case, folder, region, turbulent=turbulent)
-    notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, folder, velocity)
-    zones = mesh_folder(case, name, region)
+    notes += caveats_of_case(case, folder, region, turbulent=turbulent, relative=bool(rotations))
+    notes += flux
+    if rotating:
+        notes += [_note_of(zone) for zone in rotating]
+        return RotatingFlow(rotating, whole.mesh, u, l, notes, lambda: cell_zones(zones), name, eddies)
     return MeshFlow(whole.mesh, u, l, notes, lambda: cell_zones(zones), name, eddies)
+
+
+def _note_of(zone: RotatingZone) -> str:
+    speed = float(np.linalg.norm(zone.omega))
+    return (
+        f"The zone {zone.name} of {len(zone.cells)} cells rotates with {speed:g} rad/s: particles in it move "
+        "relative to the rotor, with its walls at rest."
+    )
 
 
 def fields_of_case(case: Path, region: str) -> ReadField:

@@ -18,6 +18,7 @@ from foamprb.flow.read.decomposed import (
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.division import Division
 from foamprb.flow.read.meshfile import describe_file, read_mesh_file, read_mesh_series
+from foamprb.flow.read.mrf import Rotation, read_rotations
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.series import read_series
 from foamprb.flow.series import SeriesFlow
@@ -43,6 +44,8 @@ class Source:
     """Whether to read the processor folders even if there is a flow beside them."""
     turbulent: bool = False
     """Whether to read k and ε, or k and ω, as well."""
+    relative: bool = False
+    """Whether rotating zones are seen from their rotors."""
 
 
 def describe_source(case: Path, source: Source) -> Sequence[str]:
@@ -82,7 +85,10 @@ def read_flow(case: Path, time: float | str = "latestTime", source: Source | Non
         _refuse_division(case, source)
         decomposed = source.decomposed or is_only_decomposed(case, source.region)
         read = read_decomposed_case if decomposed else read_case
-        return read(case, time, source.velocity, source.region, source.gradient, turbulent=source.turbulent)
+        return read(
+            case, time, source.velocity, source.region, source.gradient, turbulent=source.turbulent,
+            rotations=rotations_of(case, source),
+        )  # fmt: skip
     _refuse_of_case(source)
     return read_mesh_file(
         source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
@@ -107,11 +113,27 @@ def read_transient_flow(
             source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
         )
     _refuse_division(case, source)
+    if rotations_of(case, source):
+        raise InputError(
+            f"{case}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
+            "Allowed: solution/transient no, or solution/rotatingZones absolute."
+        )
     decomposed = source.decomposed or is_only_decomposed(case, source.region)
     read = read_decomposed_series if decomposed else read_series
     return read(
         case, times, period, source.velocity, source.region, source.gradient, turbulent=source.turbulent
     )
+
+
+def rotations_of(case: Path, source: Source) -> tuple[Rotation, ...]:
+    """The active zones of ``MRFProperties``, if they are to be seen from their rotors.
+
+    Raises
+    ------
+    InputError
+        The dictionary cannot be read, or an entry is missing or not a constant.
+    """
+    return read_rotations(case, source.region) if source.relative and source.file is None else ()
 
 
 def _refuse_of_case(source: Source) -> None:

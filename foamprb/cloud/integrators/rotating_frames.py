@@ -1,0 +1,147 @@
+"""Rotating zones: what a particle feels that is seen from a rotor.
+
+Positions, velocities and shapes are those in the rotor's frame, in which the flow is steady. The fluid's own
+acceleration there is that of the frame at rest,
+
+    Du/Dt = l·u + 2 Ω × u + Ω × (Ω × r),
+
+u and l relative, and so is that of a body that settles through it with w: Du/Dt + l·w + 2 Ω × w.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from foamprb.body.drag import oberbeck as drag
+from foamprb.body.slip import balanced_slip
+from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.cloud.block import Medium, Scratch, at, load3, load9, load_integrals, store3
+from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.integrators.adaptive import drag_rate, during
+from foamprb.cloud.layout import Row, offsets
+from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.flow.analytic import no_rotation as rotation_at
+from foamprb.flow.base import Flow
+
+__all__ = ["RotatingFrames"]
+
+_MOST_TURN = 0.1
+"""Angle by which a zone may turn in a step without a warning."""
+
+
+class FrameRows(NamedTuple):
+    """The frame in which a particle is seen."""
+
+    spin: Annotated[int, Row(3, "1/s", "angular velocity of the frame")]
+    axis_point: Annotated[int, Row(3, "m", "a point of its axis")]
+
+
+frames = offsets(FrameRows)
+
+
+def vector_product(a: Vector, b: Vector) -> Vector:
+    """A × b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
+    """2 Ω × u + Ω × (Ω × r), m/s²."""
+    c, p = vector_product(spin, u), vector_product(spin, vector_product(spin, r))
+    return 2.0 * c[0] + p[0], 2.0 * c[1] + p[1], 2.0 * c[2] + p[2]
+
+
+def enter_frame(
+    flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+) -> None:
+    """Add to Du/Dt of lane i what the frame of its host adds."""
+    block = s.block
+    spin, origin = rotation_at(flow, s.host[i])
+    x, a = load3(block, at.x, i), load3(block, at.DuDt, i)
+    r = (x[0] - origin[0], x[1] - origin[1], x[2] - origin[2])
+    c = turning_acceleration(spin, r, load3(block, at.u, i))
+    store3(block, at.DuDt, i, (a[0] + c[0], a[1] + c[1], a[2] + c[2]))
+    store3(block, frames.spin, i, spin)
+    store3(block, frames.axis_point, i, origin)
+
+
+def nothing_more(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+    """The flow has u and l in the frame already."""
+
+
+def fluid_acceleration_in_frame(block: Any, i: int, v: Vector) -> Vector:
+    """l·v, m/s²: how the velocity of what moves with v changes in the frame, where the flow is steady."""
+    return dot_vector(load9(block, during.start_l, i), v)
+
+
+def end_acceleration_in_frame(block: Any, i: int) -> Vector:
+    """Du/Dt of the fluid at the end of the step, m/s²."""
+    u, x, o = load3(block, during.end_u, i), load3(block, at.new_x, i), load3(block, frames.axis_point, i)
+    w = dot_vector(load9(block, during.end_l, i), u)
+    r = (x[0] - o[0], x[1] - o[1], x[2] - o[2])
+    c = turning_acceleration(load3(block, frames.spin, i), r, u)
+    return w[0] + c[0], w[1] + c[1], w[2] + c[2]
+
+
+def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
+    """Velocity relative to a fluid of the shape that is in the block, m/s."""
+    rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
+    steady, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    w = load3(block, frames.spin, i)
+    l = (
+        l_f[0], l_f[1] - 2.0 * w[2], l_f[2] + 2.0 * w[1],
+        l_f[3] + 2.0 * w[2], l_f[4], l_f[5] - 2.0 * w[0],
+        l_f[6] - 2.0 * w[1], l_f[7] + 2.0 * w[0], l_f[8],
+    )  # fmt: skip
+    return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotatingFrames(Surrounding):
+    """Zones that are seen from their rotors."""
+
+    rows: ClassVar = FrameRows
+    place: ClassVar = "frames"
+    look: ClassVar = staticmethod(enter_frame)
+    disturb: ClassVar = staticmethod(nothing_more)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """The accelerations of the integrator without inertia, as they are in a frame that turns."""
+        return {
+            "fluid_acceleration": fluid_acceleration_in_frame,
+            "end_acceleration": end_acceleration_in_frame,
+            "_slip": slip_in_frame,
+        }
+
+    def refuses(self, inertia: bool, integrator: str) -> str:
+        """Not with inertia: velocities that are part of the state would have to change with the frame."""
+        if inertia:
+            return (
+                f"the flow has rotating zones (MRFProperties), which need the integrator stokes, not "
+                f"{integrator}: set integrationSchemes/shape stokes, or solution/rotatingZones absolute"
+            )
+        return ""
+
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
+        """Steps in which a zone turns far, and a weight that would turn with it."""
+        found = []
+        g = np.array(medium.gravity)
+        for zone in getattr(flow, "rotating", ()):
+            omega = np.array(zone.omega)
+            turn = float(np.linalg.norm(omega)) * dt
+            if turn > _MOST_TURN:
+                found.append(
+                    f"the rotating zone {zone.name} turns by {turn:.3g} rad in a step; a particle that "
+                    "enters or leaves it is off by up to that way. Take a deltaT below "
+                    f"{_MOST_TURN * dt / turn:.3g} s."
+                )
+            if np.linalg.norm(np.cross(omega, g)) > 1e-6 * np.linalg.norm(omega) * np.linalg.norm(g):
+                found.append(
+                    f"gravity is not along the axis of the rotating zone {zone.name}: seen from the rotor it "
+                    "would turn, here it has one direction."
+                )
+        return found

@@ -1,0 +1,138 @@
+"""Rotating zones: ``constant/MRFProperties`` of a case."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.dictionary.files import existing
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import WALLS, Floats
+from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.rotating import RotatingZone
+
+__all__ = ["Rotation", "read_rotations", "rotating_zones", "with_rotating_walls"]
+
+_OFF = frozenset({"no", "off", "false", "n", "f", "none"})
+_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
+_SCALAR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?(?:constant )?{_NUMBER}")
+_VECTOR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?\( {_NUMBER} {_NUMBER} {_NUMBER} \)")
+
+
+class Rotation(NamedTuple):
+    """A zone as the dictionary has it."""
+
+    name: str
+    """Of its entry."""
+    zone: str
+    """Of the cells."""
+    omega: tuple[float, float, float]
+    """Ω, 1/s."""
+    origin: tuple[float, float, float]
+    """A point of the axis, m."""
+    still: tuple[str, ...]
+    """Patches that do not rotate: names or patterns."""
+    source: str
+    """The dictionary, for a message."""
+
+
+def read_rotations(case: Path, region: str) -> tuple[Rotation, ...]:
+    """Read the zones that are active.
+
+    Raises
+    ------
+    InputError
+        The dictionary cannot be read, or an entry is missing or not a constant.
+    """
+    for path in (case / "constant" / part / "MRFProperties" for part in dict.fromkeys((region, ""))):
+        if existing(path) is not None:
+            entries = read_dictionary(path, case).entries.values()
+            zones = [entry for entry in entries if isinstance(entry, Dictionary)]
+            return tuple(_rotation(zone) for zone in zones if _word(zone, "active", "yes") not in _OFF)
+    return ()
+
+
+def rotating_zones(
+    rotations: Sequence[Rotation], zones: Mapping[str, NDArray[np.int64]], n_cells: int
+) -> list[RotatingZone]:
+    """Find the cells of the zones.
+
+    Raises
+    ------
+    InputError
+        The mesh has no such zone, or the zone cells that the mesh does not have.
+    """
+    found = []
+    for rotation in rotations:
+        if rotation.zone not in zones:
+            raise InputError(
+                f"{rotation.source}: cellZone is '{rotation.zone}', which the mesh does not have. "
+                f"{suggestion(rotation.zone, zones)}"
+            )
+        cells = zones[rotation.zone]
+        if len(cells) and not (cells.min() >= 0 and cells.max() < n_cells):
+            raise InputError(f"cellZone {rotation.zone} names cells beyond the mesh's {n_cells}.")
+        found.append(RotatingZone(rotation.name, cells, rotation.omega, rotation.origin))
+    return found
+
+
+def with_rotating_walls(
+    boundary: Floats, mesh: Mesh, rotations: Sequence[Rotation], zones: Sequence[RotatingZone]
+) -> Floats:
+    """Velocities at the boundary faces (n_boundary, 3): of walls in a zone Ω × r, as OpenFOAM sets them."""
+    values = boundary.copy()
+    owner = mesh.owner[mesh.n_internal :]
+    patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
+    for rotation, zone in zip(rotations, zones, strict=True):
+        turning = [
+            patch.type in WALLS and not any(re.fullmatch(word, patch.name) for word in rotation.still)
+            for patch in mesh.patches
+        ]
+        inside = np.zeros(mesh.n_cells, dtype=bool)
+        inside[zone.cells] = True
+        rows = np.flatnonzero(inside[owner] & np.array(turning, dtype=bool)[patch_of_face])
+        values[rows] = np.cross(np.array(zone.omega), mesh.boundary_centres[rows] - np.array(zone.origin))
+    return values
+
+
+def _rotation(zone: Dictionary) -> Rotation:
+    speed = _numbers(zone, "omega", _SCALAR, "a constant angular velocity in rad/s")[0]
+    origin = _numbers(zone, "origin", _VECTOR, "a vector (x y z)")
+    axis = np.array(_numbers(zone, "axis", _VECTOR, "a vector (x y z) that is not zero"))
+    length = float(np.linalg.norm(axis))
+    if not (length > 0.0 and math.isfinite(speed)):
+        raise zone.entries["axis"].mistake("is zero. Allowed: a vector (x y z) that is not zero.")
+    x, y, z = (speed / length * axis).tolist()
+    still = zone.entries.get("nonRotatingPatches")
+    words = still.tokens if isinstance(still, Stream) else ()
+    return Rotation(
+        zone.key,
+        unquoted(_word(zone, "cellZone", zone.key)),
+        (x, y, z),
+        (origin[0], origin[1], origin[2]),
+        tuple(unquoted(word) for word in words if word not in "()" and not word.isdigit()),
+        str(zone.source),
+    )
+
+
+def _numbers(zone: Dictionary, key: str, pattern: re.Pattern[str], allowed: str) -> list[float]:
+    entry: Entry | None = zone.entries.get(key)
+    if entry is None:
+        raise zone.missing(key, f"Allowed: {allowed}.")
+    match = pattern.fullmatch(entry.text) if isinstance(entry, Stream) else None
+    if match is None:
+        raise entry.mistake(f"is {entry}. Allowed: {allowed}; or solution/rotatingZones absolute.")
+    return [float(number) for number in match.groups()]
+
+
+def _word(zone: Dictionary, key: str, default: str) -> str:
+    entry = zone.entries.get(key)
+    return entry.text if isinstance(entry, Stream) else default

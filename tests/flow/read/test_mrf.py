@@ -1,0 +1,119 @@
+"""MRFProperties: zones, their walls, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from foam_writer import header, write_case
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Caveat
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
+from foamprb.flow.read.source import Source, read_flow, read_transient_flow
+from foamprb.flow.rotating import RotatingFlow
+
+RELATIVE = Source(relative=True)
+ROTOR = (
+    "rotor {{ cellZone upper; active yes; nonRotatingPatches ({still}); origin (0.5 0.5 0); axis (0 0 2); "
+    "omega {omega}; }} other {{ cellZone none; active no; }}"
+)
+
+
+@pytest.fixture
+def case(tmp_path):
+    mesh = write_case(tmp_path, perturbation=0.0)
+    cells = np.flatnonzero(mesh.centres[:, 2] > 0.5)
+    (tmp_path / "constant/polyMesh/cellZones").write_text(
+        header("regIOobject", "cellZones")
+        + f"1\n(\nupper\n{{\n type cellZone;\n cellLabels List<label> {len(cells)}("
+        + " ".join(map(str, cells))
+        + ");\n}\n)\n"
+    )
+    put(tmp_path)
+    return tmp_path, mesh, cells
+
+
+def put(case, omega="3", still=""):
+    path = case / "constant/MRFProperties"
+    path.write_text(header("dictionary", path.name) + ROTOR.format(omega=omega, still=still))
+
+
+@pytest.mark.parametrize("omega", ["3", "constant 3", "omega [0 0 -1 0 0 0 0] 3"])
+def test_an_active_zone_is_read_as_openfoam_writes_it(case, omega):
+    folder, _, _ = case
+    put(folder, omega, "lid")
+    (rotation,) = read_rotations(folder, "")
+    assert rotation.zone == "upper"
+    assert rotation.omega == (0.0, 0.0, 3.0)
+    assert rotation.origin == (0.5, 0.5, 0.0)
+    assert rotation.still == ("lid",)
+
+
+def test_velocities_are_relative_in_the_zone(case):
+    folder, _, _ = case
+    put(folder, still="floor sides lid")
+    flow, absolute = read_flow(folder, source=RELATIVE), read_flow(folder)
+    assert isinstance(flow, RotatingFlow)
+    assert type(absolute) is MeshFlow
+    x = np.array([[0.4, 0.6, 0.2], [0.4, 0.6, 0.8]])
+    u, l = flow.sample(x, flow.locate(x), 0.0)
+    v, m = absolute.sample(x, absolute.locate(x), 0.0)
+    # Ω × r of (−0.1, 0.1, 0.8).
+    np.testing.assert_allclose(v - u, [[0.0, 0.0, 0.0], [-0.3, -0.3, 0.0]], atol=1e-6)
+    np.testing.assert_allclose((m - l)[1], [[0.0, -3.0, 0.0], [3.0, 0.0, 0.0], [0.0, 0.0, 0.0]], atol=1e-6)
+    assert any("zone rotor of 4 cells rotates with 3 rad/s" in note for note in flow.notes)
+    assert not [note for note in flow.notes if isinstance(note, Caveat)]
+    (warning,) = [note for note in absolute.notes if isinstance(note, Caveat)]
+    assert "absolute velocity" in warning
+
+
+@pytest.mark.parametrize("still", ["", "sides"])
+def test_walls_of_the_zone_turn_with_it_unless_named(case, still):
+    """Whatever stands in U."""
+    folder, mesh, cells = case
+    put(folder, still=still)
+    rotations = read_rotations(folder, "")
+    zones = rotating_zones(rotations, {"upper": cells}, mesh.n_cells)
+    before = np.ones((len(mesh.boundary_centres), 3))
+    values = with_rotating_walls(before, mesh, rotations, zones)
+    sides = [patch.name for patch in mesh.patches].index("sides")
+    own = np.arange(mesh.patch_start[sides], mesh.patch_start[sides + 1])
+    x = mesh.boundary_centres[own]
+    inside = x[:, 2] > 0.5
+    turned = np.stack([-3.0 * (x[:, 1] - 0.5), 3.0 * (x[:, 0] - 0.5), 0.0 * x[:, 0]], axis=1)
+    expected = np.where(inside[:, None] & (still == ""), turned, 1.0)
+    np.testing.assert_allclose(values[own], expected)
+    assert inside.any()
+    assert not inside.all()
+
+
+WRONG = [
+    ("table ((0 1) (1 2))", "", r"MRFProperties.*omega is .*Allowed: a constant angular velocity in rad/s"),
+    ("fast", "", r"omega is 'fast'"),
+]
+
+
+@pytest.mark.parametrize(("omega", "still", "message"), WRONG)
+def test_what_is_no_constant_is_refused(case, omega, still, message):
+    folder, _, _ = case
+    put(folder, omega, still)
+    with pytest.raises(InputError, match=message):
+        read_flow(folder, source=RELATIVE)
+
+
+def test_a_zone_that_the_mesh_lacks_and_a_transient_flow_are_refused(case):
+    folder, _, _ = case
+    with pytest.raises(InputError, match="seen from their rotors in steady flows only"):
+        read_transient_flow(folder, None, None, RELATIVE)
+    path = folder / "constant/MRFProperties"
+    path.write_text(path.read_text().replace("cellZone upper", "cellZone uper"))
+    with pytest.raises(InputError, match=r"cellZone is 'uper', which the mesh does not have\. Did you mean"):
+        read_flow(folder, source=RELATIVE)
+
+
+def test_without_an_active_zone_nothing_changes(case):
+    folder, _, _ = case
+    path = folder / "constant/MRFProperties"
+    path.write_text(path.read_text().replace("active yes", "active no"))
+    assert type(read_flow(folder, source=RELATIVE)) is MeshFlow
