@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from foam_writer import header
 from paths import PIPE
 
 from foamprb.cli import main
@@ -44,6 +45,24 @@ def short_case(folder: Path) -> Path:
 
 def time_folder(case: Path) -> Path:
     return max((f for f in case.iterdir() if re.fullmatch(r"[1-9]\d*", f.name)), key=lambda f: int(f.name))
+
+
+def put_scalar(case: Path, name: str, units: str, value: float) -> None:
+    """A uniform field at the last time; units are the first three exponents."""
+    (time_folder(case) / name).write_text(
+        header("volScalarField", name) + f"dimensions [{units} 0 0 0 0]; internalField uniform {value}; "
+        'boundaryField { ".*" { type zeroGradient; } }'
+    )
+
+
+def with_eddies(folder: Path) -> Path:
+    """The short case with stochasticDispersionRAS in uniform turbulence."""
+    case = short_case(folder)
+    model = "dispersionModel stochasticDispersionRAS; patchInteractionModel"
+    edit(case, "patchInteractionModel", model)
+    put_scalar(case, "k", "0 2 -2", 1e-4)
+    put_scalar(case, "epsilon", "0 2 -3", 0.05)
+    return case
 
 
 def message(case: Path, capsys: pytest.CaptureFixture[str], *options: str) -> str:

@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-from foam_writer import header
-from pipe_case import edit, fates, message, short_case, time_folder
+from pipe_case import edit, fates, message, put_scalar, time_folder, with_eddies
 
 from foamprb.cli import main
-
-MODEL = "dispersionModel stochasticDispersionRAS; patchInteractionModel"
-
-
-def put(case: Path, name: str, units: str, value: float) -> None:
-    (time_folder(case) / name).write_text(
-        header("volScalarField", name) + f"dimensions [{units} 0 0 0 0]; internalField uniform {value}; "
-        'boundaryField { ".*" { type zeroGradient; } }'
-    )
 
 
 @pytest.fixture
 def case(tmp_path):
-    case = short_case(tmp_path)
-    edit(case, "patchInteractionModel", MODEL)
-    put(case, "k", "0 2 -2", 1e-4)
-    put(case, "epsilon", "0 2 -3", 0.05)
-    return case
+    return with_eddies(tmp_path)
 
 
 def test_the_log_says_that_it_acts_and_what_it_leaves_out(case, capsys):
@@ -40,7 +24,7 @@ def test_the_log_says_that_it_acts_and_what_it_leaves_out(case, capsys):
 
 
 def test_too_long_a_step_is_warned_of(case, capsys):
-    put(case, "epsilon", "0 2 -3", 50.0)
+    put_scalar(case, "epsilon", "0 2 -3", 50.0)
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     assert "deltaT is 10 of the eddies' median life of 2e-06 s" in capsys.readouterr().out
 
