@@ -30,9 +30,6 @@ from foamprb.flow.base import Flow
 
 __all__ = ["RotatingFrames"]
 
-_MOST_TURN = 0.1
-"""Angle by which a zone may turn in a step without a warning."""
-
 
 class FrameRows(NamedTuple):
     """The frame in which a particle is seen."""
@@ -127,18 +124,11 @@ class RotatingFrames(Surrounding):
         return ""
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Steps in which a zone turns far, and a weight that would turn with it."""
+        """Of a weight that would turn with a zone."""
         found = []
         g = np.array(medium.gravity)
         for zone in getattr(flow, "rotating", ()):
             omega = np.array(zone.omega)
-            turn = float(np.linalg.norm(omega)) * dt
-            if turn > _MOST_TURN:
-                found.append(
-                    f"the rotating zone {zone.name} turns by {turn:.3g} rad in a step; a particle that "
-                    "enters or leaves it is off by up to that way. Take a deltaT below "
-                    f"{_MOST_TURN * dt / turn:.3g} s."
-                )
             if np.linalg.norm(np.cross(omega, g)) > 1e-6 * np.linalg.norm(omega) * np.linalg.norm(g):
                 found.append(
                     f"gravity is not along the axis of the rotating zone {zone.name}: seen from the rotor it "
