@@ -122,5 +122,5 @@ def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
     packed, scalar = arithmetic(assembly)
     assert packed > 15
     # Constants may be prepared before the loop.
-    assert scalar <= 4
+    assert scalar <= 6
     assert not re.search(r"\bv?sqrtsd\b", assembly)
