@@ -60,6 +60,7 @@ def execute(
         results.begin(start_from or job.settings.solution.startFrom)
         log = RunLog(job)
         _make_ready(job, executor)
+        results.write_start()
         log.begin()
         pace = _Pace()
         with progress_bar(job.cloud.start, job.settings.solution.endTime) as show:

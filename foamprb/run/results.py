@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.measures import released
 from foamprb.cloud.reasons import explain
+from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
@@ -22,7 +24,7 @@ from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoint, Checkpoints
 from foamprb.output.manifest import Manifest
 from foamprb.output.paraview_state import write_state
-from foamprb.output.pvd import Series, files_of, read_pvd
+from foamprb.output.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.output.tables import Column, write_table
 from foamprb.run.job import Job
 from foamprb.run.record import RECORD, renew_record, write_record
@@ -113,6 +115,26 @@ class Results:
         if start_from == "latestTime":
             log.info("No checkpoint in %s: beginning at the start time", self._checkpoints.folder)
         self._begin_anew()
+
+    def write_start(self) -> None:
+        """Write the snapshot of the start time, unless the run goes on from a later one.
+
+        It has the particles that appear at that time, as they are then.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written.
+        """
+        cloud = self._job.cloud
+        if cloud.step > 0 or self._series.entries:
+            return
+        # As the first step does.
+        cloud.load_flow(1)
+        file = with_ending(self._series.next(cloud.time), ".vtp")
+        self._manifest.expect([self._series.pvd, file])
+        particles = released(cloud.particles, cloud.flow, cloud.time)
+        self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
 
     def check(self) -> None:
         """Raise OSError if something could not be written meanwhile."""
