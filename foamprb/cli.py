@@ -102,6 +102,9 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument(
         "--device", choices=("cpu", "cuda"), default="cpu", help="what advances the particles [cpu]"
     )
+    run.add_argument(
+        "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
+    )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
         "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
@@ -130,6 +133,7 @@ def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         arguments.threads or executor.threads,
         _source(arguments),
         precompile=executor.precompiles and not arguments.dry_run,
+        tables=arguments.tables,
     )
     describe(job)
     if arguments.dry_run:

@@ -150,7 +150,7 @@ class Haemolysis:
         rows = np.flatnonzero(p.status != Status.PENDING)
         index = index_of_haemolysis(self.law, memory["dose"])
         write_table(
-            folder / "haemolysis.csv",
+            folder / f"haemolysis.{cloud.tables}",
             {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
              "fate": names_of(STATUS_NAMES, p.status[rows]), "residenceTime": (memory["t"] - p.t0)[rows],
              "haemolysis": index[rows]},
@@ -162,7 +162,7 @@ class Haemolysis:
         memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 4))])
         time, injector, n, mean = memory["history"].T
         write_table(
-            folder / "means.csv",
+            folder / f"means.{cloud.tables}",
             {"time": time, "injector": names_of(cloud.injectors, injector.astype(np.int64)),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip

@@ -141,7 +141,7 @@ def _failing(job: Job) -> str:
         return ""
     return (
         f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
-        f"than maxFailedFraction {most:g} allows; {job.folder / FAILURES} says why."
+        f"than maxFailedFraction {most:g} allows; {job.table(FAILURES)} says why."
     )
 
 

@@ -25,7 +25,7 @@ from foamprb.output.checkpoint import Checkpoint, Checkpoints
 from foamprb.output.manifest import Manifest
 from foamprb.output.paraview_state import write_state
 from foamprb.output.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.output.tables import Column, write_table
+from foamprb.output.tables import KINDS, Column, find_table, write_table
 from foamprb.run.job import Job
 from foamprb.run.record import RECORD, renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
@@ -33,8 +33,8 @@ from foamprb.settings.settings import StartFrom
 
 log = logging.getLogger("foamprb")
 
-FATES, FAILURES, CHECKPOINTS = "fates.csv", "failed.csv", "checkpoint"
-"""Two files and a folder in a run's folder."""
+FATES, FAILURES, CHECKPOINTS = "fates", "failed", "checkpoint"
+"""Two tables and a folder in a run's folder."""
 HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
 
@@ -82,7 +82,7 @@ class Results:
         }
         self._series = Series(job.folder, job.settings.name)
         self._manifest = Manifest(job.folder)
-        self._fates, self._failures = job.folder / FATES, job.folder / FAILURES
+        self._fates, self._failures = job.table(FATES), job.table(FAILURES)
         self._snapshot: Snapshot | None = None
 
     def begin(self, start_from: StartFrom | None) -> None:
@@ -102,7 +102,7 @@ class Results:
         self._fingerprint = fingerprint(job.settings, job.cloud)
         self._checkpoints = Checkpoints(job.folder / CHECKPOINTS)
         unfinished = self._checkpoints.files()
-        if start_from is None and unfinished and not self._fates.exists():
+        if start_from is None and unfinished and not find_table(job.folder, FATES):
             raise InputError(
                 f"{job.folder}: an unfinished run has come to t = {max(unfinished):g} s. To go on with it: "
                 "-resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
@@ -180,7 +180,7 @@ class Results:
         self._write_checkpoint(cloud, self._job.functions.state())
 
     def end(self) -> None:
-        """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed.
+        """Write ``fates``, a row per particle, and ``failed`` if any failed.
 
         Raises
         ------
@@ -227,6 +227,14 @@ class Results:
         """What a run writes once, when it begins: its record, and the state of ParaView that shows it."""
         return self._job.folder / RECORD, self._job.folder / f"{self._job.settings.name}.py"
 
+    def _last_tables(self) -> list[Path]:
+        """The tables that a run writes at its end, of every kind."""
+        return [self._job.folder / f"{name}.{kind}" for name in (FATES, FAILURES) for kind in KINDS]
+
+    def _other_kinds(self) -> set[str]:
+        """The endings of tables that this run does not write."""
+        return {f".{kind}" for kind in KINDS if kind != self._job.tables}
+
     def _function_folders(self) -> list[Path]:
         return [self._job.folder / name for name in self._job.functions.functions]
 
@@ -253,7 +261,7 @@ class Results:
         # lists other files.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [self._series.pvd, self._fates, self._failures]
+        lists = [self._series.pvd, *self._last_tables()]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         self._manifest.expect(self._descriptions())
         write_record(folder / RECORD, self._job)
@@ -275,13 +283,17 @@ class Results:
             log.warning("%s It is made anew; files of later times may remain.", error)
             manifest = Manifest(job.folder)
         self._remove_unfinished(manifest)
-        for table in (self._fates, self._failures):
+        for table in self._last_tables():
             table.unlink(missing_ok=True)
         self._series.relist(entries)
         renew_record(job.folder / RECORD, job)
         snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
         functions = self._function_folders()
-        tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
+        tables = [
+            file
+            for file in manifest.files
+            if any(folder in file.parents for folder in functions) and file.suffix not in self._other_kinds()
+        ]
         kept = {
             *self._descriptions(),
             self._series.pvd,
