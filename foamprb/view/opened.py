@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
 from foamprb.output.tables import KINDS, find_table, read_table
+from foamprb.output.vtk import PointCloud, poly_data
 from foamprb.view.results import Results, open_results
 
 __all__ = ["Run", "open_run"]
@@ -128,9 +129,10 @@ class Run:
             If the file is missing or damaged.
         """
         found = self._results.snapshot(len(self.times) - 1 if time is None else self._results.nearest(time))
-        mesh = pyvista.PolyData(found.points)
-        for name, array in found.arrays.items():
-            mesh.point_data[name] = array
+        given = self._results
+        mesh = pyvista.PolyData(
+            poly_data(PointCloud(found.time, found.points, found.arrays, given.units, given.names))
+        )
         mesh.field_data["time"] = [found.time]
         return mesh
 

@@ -109,7 +109,9 @@ class Results:
                     f"{self.folder / entry.file}: no array '{name}', which other times have; are these the "
                     "files of one run?"
                 )
-            found[name] = np.array(data.point_data[name])
+            # Of no bodies VTK forgets how many components there were.
+            shape = (-1,) if self.components[name] == 1 else (data.n_points, self.components[name])
+            found[name] = np.array(data.point_data[name]).reshape(shape)
         return Snapshot(entry.time, np.array(data.points, dtype=np.float64).reshape(-1, 3), found)
 
     def nearest(self, time: float) -> int:
