@@ -29,9 +29,7 @@ class PatchPostProcessing:
     """The particles that stick to a patch or leave through it: when, where, in what shape: ``<patch>.csv``.
 
     ``impactAngle`` is the angle between the velocity and the normal out of the fluid, ``axisAngle`` that
-    between the longest axis and the normal, both in degrees. A rebound is not recorded: a body can have many
-    in a step, of which the particle loop keeps the last velocity only, and a record of each would cost runs that
-    do not ask for it.
+    between the longest axis and the normal, both in degrees. A rebound is not recorded.
     """
 
     patches: Annotated[Words, Meaning("`(name name)`")]
