@@ -14,7 +14,7 @@ MU = NU * RHO
 
 flow = foamprb.analytic.womersley(RADIUS, NU, PERIOD, amplitude=0.05, mean_velocity=0.0)
 stiffness = np.array([10.0, 0.01])  # shear moduli, Pa
-start = np.tile([0.0, 0.7 * RADIUS, 0.0], (2, 1)) + [[10.0, 0.0, 0.0]]
+start = np.tile([10.0, 0.7 * RADIUS, 0.0], (2, 1))
 bodies = foamprb.spheres(start, d=1e-5, rho=RHO, mu=stiffness)
 water = foamprb.Medium(mu=MU, rho=RHO, gravity=(0.0, 0.0, 0.0))
 interactions = [foamprb.Stick(), foamprb.Escape(), foamprb.Escape()]
