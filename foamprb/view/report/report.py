@@ -83,11 +83,10 @@ def write_report(
     Raises
     ------
     InputError
-        There is no run, its files are damaged, it has not ended, or matplotlib is not installed.
+        There is no run, its files are damaged, or it has not ended.
     OSError
         If a file cannot be written.
     """
-    plots.require_matplotlib()
     run = open_run(case, cloud)
     if "fates" not in run.tables:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To go on: foamprb run -resume.")
