@@ -81,11 +81,6 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
     Returns
     -------
     Whether every row that has an allowed difference passed.
-
-    Raises
-    ------
-    InputError
-        If matplotlib is not installed.
     """
     plt = pyplot()
     sections = []
