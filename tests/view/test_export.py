@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from view_run import clouds, motion, write_run
+from view_run import clouds, motion, with_orientation, write_run
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 import foamprb
 from foamprb import read_case
 from foamprb.cli import main
-from foamprb.cloud.measures import quaternion
 from foamprb.errors import InputError
 from foamprb.output.ovito import write_dump
 from foamprb.output.vtk import PointCloud
@@ -65,14 +64,6 @@ def test_a_file_that_cannot_be_made_leaves_what_was_there(tmp_path):
     assert path.read_text() == "before"
     with pytest.raises(OSError, match=r"a\.vtkhdf"):
         write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], cloud)
-
-
-def with_orientation(cloud: PointCloud) -> PointCloud:
-    G = cloud.arrays["glyph"].reshape(-1, 3, 3).transpose(0, 2, 1)
-    axes = np.linalg.svd(G)[0]
-    axes[:, :, 2] *= np.sign(np.linalg.det(axes))[:, None]
-    q = np.stack(quaternion(tuple(axes.transpose(0, 2, 1).reshape(-1, 9).T)), axis=1)
-    return replace(cloud, arrays={**cloud.arrays, "orientation": q})
 
 
 def test_a_dump_has_ellipsoids_with_their_axes(tmp_path):
