@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 import foamprb
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
 from foamprb.run.estimates import declare as declare_numbers
-from foamprb.view.command import declare, declare_report, report, view
+from foamprb.view.command import declare, declare_export, declare_report, export, report, view
 
 if TYPE_CHECKING:
     from foamprb.flow.read.source import Source
@@ -58,12 +58,13 @@ def _parser() -> argparse.ArgumentParser:
     paraview.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
     paraview.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
     reporting = command("report", "write a page of what was run and what came of it")
+    exporting = command("export", "write the results for OpenFOAM, for OVITO, or as one VTKHDF file")
     validate = command("validate", "compare with independent solutions")
     estimating = command("estimate", "say from a few numbers which effects matter to a particle")
     helping = command("help", "say what an entry, a dictionary or a type of the settings is")
     command("compile", "compile the particle loops, so that no run has to")
     helping.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
-    for reading in (init, run, info, viewing, reporting):
+    for reading in (init, run, info, viewing, reporting, exporting):
         reading.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
         reading.add_argument("--decomposed", action="store_true", help="read the processor folders")
         reading.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
@@ -82,6 +83,7 @@ def _parser() -> argparse.ArgumentParser:
     declare(viewing)
     declare_numbers(estimating)
     declare_report(reporting)
+    declare_export(exporting)
     when = run.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
@@ -101,6 +103,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     run.add_argument(
         "--device", choices=("cpu", "cuda"), default="cpu", help="what advances the particles [cpu]"
+    )
+    run.add_argument(
+        "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
     )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
     validate.add_argument(
@@ -130,6 +135,7 @@ def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         arguments.threads or executor.threads,
         _source(arguments),
         precompile=executor.precompiles and not arguments.dry_run,
+        tables=arguments.tables,
     )
     describe(job)
     if arguments.dry_run:
@@ -196,6 +202,10 @@ def _report(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return report(arguments, _source(arguments))
 
 
+def _export(arguments: argparse.Namespace, _: Ranks | None) -> int:
+    return export(arguments, _source(arguments))
+
+
 def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.validation.registry import CASES
     from foamprb.validation.report import choose, validate
@@ -229,6 +239,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "view": _view,
     "paraview": _paraview,
     "report": _report,
+    "export": _export,
     "validate": _validate,
     "estimate": _estimate,
     "help": _help,

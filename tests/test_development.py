@@ -32,7 +32,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.cli import main
 case = sys.argv[1]
 assert main(["run", "-case", case, "-threads", "1"]) == 0
-cloud = pyvista.read(case + "/postProcessing/softCloud/softCloud_000001.vtp")
+cloud = pyvista.read(case + "/postProcessing/softCloud/softCloud_000002.vtp")
 flow = foamprb.read_case(case)
 points = np.asarray(cloud.points)
 u, _ = flow.sample(points, flow.locate(points), 0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +10,7 @@ import numpy as np
 from foam_writer import write_case
 from numpy.typing import NDArray
 
+from foamprb.cloud.measures import quaternion
 from foamprb.cloud.state import Status
 from foamprb.output.pvd import Series
 from foamprb.output.tables import write_table
@@ -89,6 +91,15 @@ def clouds(moved: Motion, first: int = 0) -> list[PointCloud]:
             )
         )
     return result
+
+
+def with_orientation(cloud: PointCloud) -> PointCloud:
+    """The same cloud, with the array of the bodies' frames."""
+    G = cloud.arrays["glyph"].reshape(-1, 3, 3).transpose(0, 2, 1)
+    axes = np.linalg.svd(G)[0]
+    axes[:, :, 2] *= np.sign(np.linalg.det(axes))[:, None]
+    q = np.stack(quaternion(tuple(axes.transpose(0, 2, 1).reshape(-1, 9).T)), axis=1)
+    return replace(cloud, arrays={**cloud.arrays, "orientation": q})
 
 
 def write_run(case: Path, moved: Motion, mesh: bool = True, fates: bool = False) -> Path:

@@ -345,6 +345,20 @@ def injected(particles: Particles) -> NDArray[np.int64]:
     return np.flatnonzero(particles.status != Status.PENDING)
 
 
+def released(particles: Particles, flow: Sampled, time: float) -> Particles:
+    """The same particles, among which those that are injected at ``time`` (s) have been.
+
+    They move with the fluid's velocity if none is given, and do not yet turn or deform.
+    """
+    now = (particles.status == Status.PENDING) & (particles.t0 <= time)
+    carried = np.flatnonzero(now & np.isnan(particles.v[:, 0]))
+    v = particles.v.copy()
+    for start in range(0, len(carried), PER_CONTEXT):
+        rows = carried[start : start + PER_CONTEXT]
+        v[rows] = flow.sample(particles.x[rows], particles.host[rows], time)[0]
+    return particles._replace(status=np.where(now, Status.ACTIVE, particles.status).astype(np.int8), v=v)
+
+
 def measure(c: Context) -> dict[str, NDArray[Any]]:
     """All of :data:`MEASURES`, by name."""
     return {name: np.asarray(m.value(c)) for name, m in MEASURES.items()}

@@ -46,6 +46,8 @@ class ObservedCloud:
     cloud: Cloud
     injectors: tuple[str, ...]
     patches: tuple[str, ...]
+    tables: str = "csv"
+    """The kind of the tables that functions write, which is the ending of their files."""
 
     @property
     def particles(self) -> Particles:

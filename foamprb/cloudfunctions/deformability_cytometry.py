@@ -129,7 +129,7 @@ class DeformabilityCytometry:
         rows = seen[:, 0].astype(np.int64)
         names = ("area", "perimeter", "a", "b", "deformation")
         write_table(
-            folder / "cytometry.csv",
+            folder / f"cytometry.{cloud.tables}",
             {"id": rows, "injector": names_of(cloud.injectors, cloud.particles.injector[rows]),
              "t": seen[:, 1], **columns("xyz", seen[:, 2:5]), "direction": seen[:, 5].astype(np.int64),
              **columns(names, seen[:, 6:])},

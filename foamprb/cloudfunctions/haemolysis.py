@@ -56,7 +56,10 @@ def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
 
 
 def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
-    """Shear rate, 1/s, that deforms a droplet so far in steady shear: 2 f₁ D/((1 − D²) f₂) (Arora 2006).
+    """Shear rate, 1/s, that deforms a droplet so far in steady shear: 2 f₁ D/((1 − D²) f₂).
+
+    So it is in the morphology equation of Arora, Behr & Pasquali (Artif. Organs 28, 1002, 2004), where
+    vorticity turns the droplet as much as strain deforms it (f₃ = f₂).
 
     Parameters
     ----------
@@ -100,7 +103,7 @@ class Haemolysis:
     f1: Annotated[
         float, Positive, Meaning("rate of recovery of Arora's droplet, for `deformation`", "1/s")
     ] = 5.0
-    f2: Annotated[float, Positive, Meaning("its coefficient of deformation", "1")] = 4.2298e-5
+    f2: Annotated[float, Positive, Meaning("its coefficient of deformation", "1")] = 4.2298e-4
     sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 1
 
     def __post_init__(self) -> None:
@@ -150,7 +153,7 @@ class Haemolysis:
         rows = np.flatnonzero(p.status != Status.PENDING)
         index = index_of_haemolysis(self.law, memory["dose"])
         write_table(
-            folder / "haemolysis.csv",
+            folder / f"haemolysis.{cloud.tables}",
             {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
              "fate": names_of(STATUS_NAMES, p.status[rows]), "residenceTime": (memory["t"] - p.t0)[rows],
              "haemolysis": index[rows]},
@@ -162,7 +165,7 @@ class Haemolysis:
         memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 4))])
         time, injector, n, mean = memory["history"].T
         write_table(
-            folder / "means.csv",
+            folder / f"means.{cloud.tables}",
             {"time": time, "injector": names_of(cloud.injectors, injector.astype(np.int64)),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip

@@ -90,7 +90,7 @@ class ParticleCollector:
         injector = cloud.particles.injector[rows]
         names = names_of(cloud.injectors, injector)
         write_table(
-            folder / "crossings.csv",
+            folder / f"crossings.{cloud.tables}",
             {"id": rows, "injector": names, "t": t, "x": x, "y": y, "z": z,
              "direction": sense.astype(np.int64), "D": D, "mass": mass},
         )  # fmt: skip
@@ -108,7 +108,7 @@ class ParticleCollector:
         memory["written"][0] = len(crossings)
         time, index, along, against, total, rate = memory["history"].T
         write_table(
-            folder / "collector.csv",
+            folder / f"collector.{cloud.tables}",
             {"time": time, "injector": names_of(cloud.injectors, index.astype(np.int64)),
              "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
              "mass": total, "massFlowRate": rate},

@@ -93,7 +93,7 @@ class ParticleHistogram:
         rows = np.flatnonzero(p.status != Status.PENDING)
         values = {name: exposure(memory, p)[rows] for name, exposure in _EXPOSURES.items()}
         write_table(
-            folder / "exposure.csv",
+            folder / f"exposure.{cloud.tables}",
             {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
              "fate": names_of(STATUS_NAMES, p.status[rows]), **values},
         )  # fmt: skip
@@ -104,7 +104,7 @@ class ParticleHistogram:
             table: dict[str, Column] = {"lower": edges[:-1], "upper": edges[1:]}
             for index, own in enumerate(cloud.injectors):
                 table[own] = np.histogram(x[injector == index], edges)[0]
-            write_table(folder / f"{name}.csv", table)
+            write_table(folder / f"{name}.{cloud.tables}", table)
 
 
 def _mean_deformation(memory: Memory, p: Particles) -> Floats:

@@ -77,7 +77,7 @@ class PatchPostProcessing:
             )
             n = cloud.cloud.contact_normals(rows)
             write_table(
-                folder / f"{file_name(name)}.csv",
+                folder / f"{file_name(name)}.{cloud.tables}",
                 {
                     "id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
                     "fate": names_of(STATUS_NAMES, p.status[rows]), "t": p.t[rows],

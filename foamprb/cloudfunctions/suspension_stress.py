@@ -50,7 +50,7 @@ class SuspensionStress:
         time, index, n, *values = memory["history"].T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
         write_table(
-            folder / "suspensionStress.csv",
+            folder / f"suspensionStress.{cloud.tables}",
             {
                 "time": time,
                 "injector": names_of(cloud.injectors, index.astype(np.int64)),

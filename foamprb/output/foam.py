@@ -1,17 +1,17 @@
-"""Fields in OpenFOAM's files."""
+"""OpenFOAM's files: fields on a mesh, and clouds of particles."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.output.atomic import atomic_write
 
-__all__ = ["PatchValues", "write_scalar_field"]
+__all__ = ["PatchValues", "write_lagrangian", "write_scalar_field"]
 
 Floats = NDArray[np.float64]
 
@@ -67,3 +67,72 @@ def _values(values: Floats) -> str:
 
 def _key(name: str) -> str:
     return name if name.replace("_", "").replace("-", "").isalnum() else f'"{name}"'
+
+
+_CLASSES = {1: "scalarField", 3: "vectorField", 6: "symmTensorField", 9: "tensorField"}
+_SYMMETRIC = [0, 3, 5, 1, 4, 2]
+"""Where xx xy xz yy yz zz stand among xx yy zz xy yz xz."""
+
+
+def write_lagrangian(
+    folder: Path, points: Floats, cells: NDArray[np.int64], arrays: Mapping[str, NDArray[Any]]
+) -> None:
+    """Write a cloud as OpenFOAM writes its own, plain text: ``positions``, and a file for each array.
+
+    Beside it ``<time>/uniform/lagrangian/<cloud>/cloudProperties`` says that these are positions.
+
+    Parameters
+    ----------
+    folder
+        ``<time>/lagrangian/<cloud>``.
+    points
+        Positions, (n, 3), m.
+    cells
+        The cell of the mesh that holds each of them.
+    arrays
+        Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9; of other arrays OpenFOAM
+        has no files, and they are left out. A value that is no number is written as 0.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written.
+    """
+    time = folder.parents[1]
+    own = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
+    with atomic_write(own) as temporary:
+        # Without it OpenFOAM would look for barycentric coordinates, and find no particles.
+        head = _header("dictionary", str(own.parent.relative_to(time.parent)), own.name)
+        temporary.write_text(f"{head}geometry        positions;\n", encoding="utf-8")
+    n = len(points)
+    lines = [
+        f"({x!r} {y!r} {z!r}) {c}\n" for (x, y, z), c in zip(points.tolist(), cells.tolist(), strict=True)
+    ]
+    _write_list(folder / "positions", "Cloud<passiveParticle>", n, lines)
+    for name, array in arrays.items():
+        components = 1 if array.ndim == 1 else array.shape[1]
+        if components not in _CLASSES:
+            continue
+        if array.dtype.kind == "f":
+            plain, kind = np.nan_to_num(array, nan=0.0, posinf=0.0, neginf=0.0), _CLASSES[components]
+        else:
+            plain, kind = array.astype(np.int64), "labelField"
+        rows = plain[:, _SYMMETRIC] if components == 6 else plain
+        if components == 1:
+            lines = [f"{value!r}\n" for value in rows.tolist()]
+        else:
+            lines = [f"({' '.join(map(repr, row))})\n" for row in rows.tolist()]
+        _write_list(folder / name, kind, n, lines)
+
+
+def _header(kind: str, location: str, name: str) -> str:
+    return (
+        f"FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {kind};\n"
+        f'    location    "{location}";\n    object      {name};\n}}\n\n'
+    )
+
+
+def _write_list(path: Path, kind: str, n: int, lines: Sequence[str]) -> None:
+    head = _header(kind, "/".join(path.parts[-4:-1]), path.name)
+    with atomic_write(path) as temporary:
+        temporary.write_text(f"{head}{n}\n(\n{''.join(lines)})\n", encoding="utf-8")

@@ -13,7 +13,12 @@ __all__ = ["fault_of_folder", "fault_of_word", "file_name"]
 
 _MOST_BYTES = 200
 """Of a name: file systems allow 255, of which suffixes and temporary names take some."""
-_RESULTS = frozenset({"checkpoint", "failed.csv", "fates.csv", "manifest", "manifest.json", "run.json"})
+_RESULTS = frozenset(
+    {
+        *("checkpoint", "manifest", "manifest.json", "run.json"),
+        *(f"{table}.{kind}" for table in ("fates", "failed") for kind in ("csv", "parquet")),
+    }
+)
 """What a run writes into the cloud's folder, beside the series of the cloud."""
 _NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 

@@ -16,6 +16,10 @@ from pathlib import Path
 from paraview import simple
 
 CLOUD = {name!r}
+# More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation,
+# so that a hundred thousand can be turned. Fewer are made one by one from glyph, with which a point of the
+# surface keeps its place on the body. 0: always as copies.
+MANY = 20000
 folder = Path(__file__).resolve().parent
 view = simple.GetActiveViewOrCreate("RenderView")
 
@@ -31,24 +35,36 @@ bounds = cloud.GetDataInformation().GetBounds()
 size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
 enlargement = max(1.0, 0.02 * size / high) if size > 0.0 else 1.0
 
-bodies = simple.TensorGlyph(
-    registrationName="bodies",
-    Input=cloud,
-    GlyphType="Sphere",
-    Tensors=["POINTS", "glyph"],
-    Scalars=["POINTS", "taylorDeformation"],
-    ExtractEigenvalues=0,
-    LimitScalingByEigenvalues=0,
-)
-# Fewer facets for more bodies, so that a hundred thousand can be turned.
 count = cloud.GetDataInformation().GetNumberOfPoints()
-bodies.GlyphType.Radius = 1.0
-bodies.GlyphType.ThetaResolution = bodies.GlyphType.PhiResolution = 8 if count > 5000 else 24
-# ParaView chooses another factor when it makes the filter, also where it is given 1.
-bodies.UpdatePipeline(scene.AnimationTime)
-bodies.ScaleFactor = enlargement
-shown = simple.Show(bodies, view)
-bodies.ScaleFactor = enlargement
+if count > MANY:
+    bodies = cloud
+    shown = simple.Show(cloud, view)
+    shown.SetRepresentationType("3D Glyphs")
+    shown.GlyphType = "Sphere"
+    shown.ScaleMode, shown.SelectScaleArray, shown.Scaling = "Vector Components", "semiAxes", 1
+    shown.OrientationMode, shown.SelectOrientationVectors, shown.Orient = "Quaternion", "orientation", 1
+    shown.ScaleFactor = enlargement
+    sphere = shown.GlyphType
+else:
+    bodies = simple.TensorGlyph(
+        registrationName="bodies",
+        Input=cloud,
+        GlyphType="Sphere",
+        Tensors=["POINTS", "glyph"],
+        Scalars=["POINTS", "taylorDeformation"],
+        ExtractEigenvalues=0,
+        LimitScalingByEigenvalues=0,
+    )
+    sphere = bodies.GlyphType
+# Fewer facets for more bodies.
+sphere.Radius = 1.0
+sphere.ThetaResolution = sphere.PhiResolution = 8 if count > 5000 else 24
+if bodies is not cloud:
+    # ParaView chooses another factor when it makes the filter, also where it is given 1.
+    bodies.UpdatePipeline(scene.AnimationTime)
+    bodies.ScaleFactor = enlargement
+    shown = simple.Show(bodies, view)
+    bodies.ScaleFactor = enlargement
 simple.ColorBy(shown, ("POINTS", "taylorDeformation"))
 shown.SetScalarBarVisibility(view, True)
 

@@ -1,10 +1,11 @@
-"""Tables as comma-separated text."""
+"""Tables: comma-separated text, or Parquet's binary columns."""
 
 from __future__ import annotations
 
 import csv
+import importlib
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import groupby
 from math import isfinite
@@ -20,6 +21,9 @@ from foamprb.output.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
+KINDS = ("csv", "parquet")
+"""The kinds of tables, which are the endings of their files."""
+
 # Rows converted to text at a time: bounds the memory, costs no time.
 _CHUNK = 16_384
 
@@ -29,16 +33,29 @@ _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
 
 
-def write_table(path: Path, columns: Mapping[str, Column]) -> None:
-    """Write a table with one line of column names, in one step.
+def require_kind(kind: str) -> None:
+    """Raise InputError if tables of a kind cannot be written and read here."""
+    if kind == "parquet":
+        _parquet("tables of Parquet")
 
-    A floating-point number is written with the fewest digits that read back as the same double; ``nan``,
-    ``inf`` and ``-inf`` are words. Text with a comma, a quote or a line break is quoted.
+
+def find_table(folder: Path, name: str) -> Path | None:
+    """The file of a table in a folder, of whatever kind; None if there is none."""
+    files = (folder / f"{name}.{kind}" for kind in KINDS)
+    return next((file for file in files if file.exists()), None)
+
+
+def write_table(path: Path, columns: Mapping[str, Column]) -> None:
+    """Write a table, in one step; the ending of the file says of which kind.
+
+    As text it has one line of column names. A floating-point number is written with the fewest digits that
+    read back as the same double; ``nan``, ``inf`` and ``-inf`` are words. Text with a comma, a quote or a
+    line break is quoted.
 
     Parameters
     ----------
     path
-        The file, ``.csv``.
+        The file, ``.csv`` or ``.parquet``.
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
 
@@ -46,6 +63,8 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
     ------
     ValueError
         If the columns differ in length, or one has more than one axis.
+    InputError
+        If the kind is Parquet, and pyarrow is not installed.
     OSError
         If the file cannot be written.
     """
@@ -53,14 +72,24 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
     lengths = {name: len(array) for name, array in arrays.items()}
     if len(set(lengths.values())) > 1:
         raise ValueError(f"Columns of a table differ in length: {lengths}.")
+    if path.suffix == ".parquet":
+        _write_parquet(path, arrays)
+        return
     with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         file.write(",".join(map(_cell, arrays)) + "\n")
         for rows in _chunks(list(arrays.values())):
             file.write("\n".join(map(",".join, rows)) + "\n")
 
 
-def read_table(path: Path) -> dict[str, NDArray[Any]]:
+def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
     """Read what :func:`write_table` has written.
+
+    Parameters
+    ----------
+    path
+        The file.
+    words
+        Columns that are words also where all of them look like numbers.
 
     Returns
     -------
@@ -69,8 +98,10 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
     Raises
     ------
     InputError
-        If the file is missing, or is no such table.
+        If the file is missing, or is no such table; if it is Parquet, and pyarrow is not installed.
     """
+    if path.suffix == ".parquet":
+        return _read_parquet(path)
     try:
         with path.open(encoding="utf-8", newline="") as file:
             rows = list(csv.reader(file))
@@ -79,12 +110,61 @@ def read_table(path: Path) -> dict[str, NDArray[Any]]:
     if not rows or any(len(row) != len(rows[0]) for row in rows):
         raise InputError(f"{path}: not a table: its lines have different numbers of columns.")
     names, *lines = rows
-    return {name: _typed([line[i] for line in lines]) for i, name in enumerate(names)}
+    return {name: _typed([line[i] for line in lines], name in words) for i, name in enumerate(names)}
 
 
-def _typed(words: list[str]) -> NDArray[Any]:
-    """Numbers, if all words are."""
-    for kind in (np.int64, np.float64):
+def _parquet(what: str) -> Any:
+    try:
+        importlib.import_module("pyarrow")
+        return importlib.import_module("pyarrow.parquet")
+    except ImportError as error:
+        raise InputError(f"{what} needs pyarrow: pip install 'foamprb[parquet]'.") from error
+
+
+def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Numbers keep their types. The bytes depend on nothing but the columns and the version of pyarrow."""
+    parquet = _parquet(str(path))
+    arrow = importlib.import_module("pyarrow")
+    columns = {name: arrow.array(_plain(array)) for name, array in arrays.items()}
+    kinds = {name: _plain(array).dtype.kind for name, array in arrays.items()}
+    # The bytes of doubles of like size are alike one by one, not all together.
+    split = [name for name, kind in kinds.items() if kind == "f"]
+    words = [name for name, kind in kinds.items() if kind == "O"]
+    with atomic_write(path) as temporary, temporary.open("wb") as file:
+        parquet.write_table(
+            arrow.table(columns), file, compression="zstd", use_dictionary=words, use_byte_stream_split=split
+        )
+
+
+def _plain(array: NDArray[Any]) -> NDArray[Any]:
+    """Numbers, or else words as Python's."""
+    if array.dtype.kind in _WIDE:
+        return array
+    found = array.tolist()
+    if found and all(type(value) in (int, float) for value in found):
+        return np.array(found)
+    return np.array([str(value) for value in found], dtype=object)
+
+
+def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
+    parquet = _parquet(str(path))
+    arrow = importlib.import_module("pyarrow")
+    try:
+        # From a file that is opened here: the name of one is not taken for a folder or an address.
+        with path.open("rb") as file:
+            table = parquet.read_table(file)
+    except (OSError, arrow.ArrowException) as error:
+        raise InputError(f"{path}: not a readable table ({error}).") from error
+    found = {name: column.to_numpy() for name, column in zip(table.column_names, table.columns, strict=True)}
+    return {
+        name: array.astype(str) if array.dtype.kind == "O" else array.astype(_WIDE[array.dtype.kind])
+        for name, array in found.items()
+    }
+
+
+def _typed(words: list[str], stay: bool) -> NDArray[Any]:
+    """Numbers, if all words are and may be."""
+    for kind in () if stay else (np.int64, np.float64):
         try:
             return np.array(words, dtype=str).astype(kind)
         except ValueError:

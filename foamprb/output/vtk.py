@@ -129,7 +129,7 @@ class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
             try:
                 snapshot = next(self.parts.snapshots)
                 self.layout = self.layout or layout(snapshot)
-                self._last = _poly_data(snapshot)
+                self._last = poly_data(snapshot)
             except Exception as error:
                 self.error = error
         if self._last is None:
@@ -269,7 +269,8 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
     _write(path, writer)
 
 
-def _poly_data(snapshot: PointCloud) -> vtkPolyData:
+def poly_data(snapshot: PointCloud) -> vtkPolyData:
+    """A cloud as VTK has it, with what :func:`write_snapshot` writes."""
     data = vtkPolyData()
     points = vtkPoints()
     points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))

@@ -40,6 +40,7 @@ from foamprb.flow.read.source import (
 )
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
+from foamprb.output.tables import require_kind
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
 from foamprb.settings.reading import read_settings
@@ -60,16 +61,22 @@ class Job:
     functions: CloudFunctions
     precompiler: Precompiler | None = None
     """The other process that compiles the loop, if there is one."""
+    tables: str = "csv"
+    """The kind of the tables, one of :data:`foamprb.output.tables.KINDS`."""
 
     @property
     def observed(self) -> ObservedCloud:
         """The cloud with the names of its injection models and patches."""
-        return ObservedCloud(self.cloud, self.injector_names, self.patch_names)
+        return ObservedCloud(self.cloud, self.injector_names, self.patch_names, self.tables)
 
     @property
     def folder(self) -> Path:
         """Where the results go."""
         return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
+
+    def table(self, name: str) -> Path:
+        """The file of a table in that folder."""
+        return self.folder / f"{name}.{self.tables}"
 
     @property
     def steps(self) -> int:
@@ -100,6 +107,7 @@ def prepare(
     threads: int | None = None,
     source: Source | None = None,
     precompile: bool = False,
+    tables: str = "csv",
 ) -> Job:
     """Read a case and place its particles.
 
@@ -118,12 +126,15 @@ def prepare(
         The mesh file or region to read, and the names of its fields, if they are not the usual ones.
     precompile
         Whether to compile the loop in another process meanwhile, if it has never been compiled.
+    tables
+        ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
 
     Raises
     ------
     InputError
         If the case, the flow or the settings cannot be used: what, where, and what is allowed.
     """
+    require_kind(tables)
     case = Path(case)
     source = source or Source()
     check_region(case, source)
@@ -143,7 +154,7 @@ def prepare(
                 log.warning("%s", note)
             else:
                 log.info("    %s", note)
-        return replace(assemble(settings, flow, threads), precompiler=precompiler)
+        return replace(assemble(settings, flow, threads, tables), precompiler=precompiler)
     except BaseException:
         if precompiler:
             precompiler.stop()
@@ -203,7 +214,7 @@ def _read_flow(settings: Settings, time: float | str | None, source: Source) -> 
     return read_flow(settings.case, "latestTime" if time is None else time, source)
 
 
-def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
+def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables: str = "csv") -> Job:
     """Put the particles that the settings ask for into a flow.
 
     Raises
@@ -238,12 +249,12 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None) -> Job:
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error
     injectors = tuple(injection.name for injection in settings.injections)
-    observed = ObservedCloud(cloud, injectors, tuple(patch.name for patch in flow.patches))
+    observed = ObservedCloud(cloud, injectors, tuple(patch.name for patch in flow.patches), tables)
     try:
         functions = CloudFunctions(settings.functions, observed)
     except InputError as error:
         raise InputError(f"{settings.file}: {error}") from error
-    return Job(settings, cloud, functions)
+    return Job(settings, cloud, functions, tables=tables)
 
 
 def _start(settings: Settings, flow: Flow) -> float:

@@ -217,7 +217,7 @@ class RunLog:
         if job.cloud.recovered:
             log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
         if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
-            log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.folder / FAILURES)
+            log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.table(FAILURES))
 
 
 @contextmanager

@@ -60,6 +60,7 @@ def execute(
         results.begin(start_from or job.settings.solution.startFrom)
         log = RunLog(job)
         _make_ready(job, executor)
+        results.write_start()
         log.begin()
         pace = _Pace()
         with progress_bar(job.cloud.start, job.settings.solution.endTime) as show:
@@ -140,7 +141,7 @@ def _failing(job: Job) -> str:
         return ""
     return (
         f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
-        f"than maxFailedFraction {most:g} allows; {job.folder / FAILURES} says why."
+        f"than maxFailedFraction {most:g} allows; {job.table(FAILURES)} says why."
     )
 
 

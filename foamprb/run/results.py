@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
+from foamprb.cloud.measures import released
 from foamprb.cloud.reasons import explain
+from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
@@ -22,8 +24,8 @@ from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoint, Checkpoints
 from foamprb.output.manifest import Manifest
 from foamprb.output.paraview_state import write_state
-from foamprb.output.pvd import Series, files_of, read_pvd
-from foamprb.output.tables import Column, write_table
+from foamprb.output.pvd import Series, files_of, read_pvd, with_ending
+from foamprb.output.tables import KINDS, Column, find_table, write_table
 from foamprb.run.job import Job
 from foamprb.run.record import RECORD, renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
@@ -31,8 +33,8 @@ from foamprb.settings.settings import StartFrom
 
 log = logging.getLogger("foamprb")
 
-FATES, FAILURES, CHECKPOINTS = "fates.csv", "failed.csv", "checkpoint"
-"""Two files and a folder in a run's folder."""
+FATES, FAILURES, CHECKPOINTS = "fates", "failed", "checkpoint"
+"""Two tables and a folder in a run's folder."""
 HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
 
@@ -80,7 +82,7 @@ class Results:
         }
         self._series = Series(job.folder, job.settings.name)
         self._manifest = Manifest(job.folder)
-        self._fates, self._failures = job.folder / FATES, job.folder / FAILURES
+        self._fates, self._failures = job.table(FATES), job.table(FAILURES)
         self._snapshot: Snapshot | None = None
 
     def begin(self, start_from: StartFrom | None) -> None:
@@ -100,7 +102,7 @@ class Results:
         self._fingerprint = fingerprint(job.settings, job.cloud)
         self._checkpoints = Checkpoints(job.folder / CHECKPOINTS)
         unfinished = self._checkpoints.files()
-        if start_from is None and unfinished and not self._fates.exists():
+        if start_from is None and unfinished and not find_table(job.folder, FATES):
             raise InputError(
                 f"{job.folder}: an unfinished run has come to t = {max(unfinished):g} s. To go on with it: "
                 "-resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
@@ -113,6 +115,26 @@ class Results:
         if start_from == "latestTime":
             log.info("No checkpoint in %s: beginning at the start time", self._checkpoints.folder)
         self._begin_anew()
+
+    def write_start(self) -> None:
+        """Write the snapshot of the start time, unless the run goes on from a later one.
+
+        It has the particles that appear at that time, as they are then.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be written.
+        """
+        cloud = self._job.cloud
+        if cloud.step > 0 or self._series.entries:
+            return
+        # As the first step does.
+        cloud.load_flow(1)
+        file = with_ending(self._series.next(cloud.time), ".vtp")
+        self._manifest.expect([self._series.pvd, file])
+        particles = released(cloud.particles, cloud.flow, cloud.time)
+        self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
 
     def check(self) -> None:
         """Raise OSError if something could not be written meanwhile."""
@@ -158,7 +180,7 @@ class Results:
         self._write_checkpoint(cloud, self._job.functions.state())
 
     def end(self) -> None:
-        """Write ``fates.csv``, a row per particle, and ``failed.csv`` if any failed.
+        """Write ``fates``, a row per particle, and ``failed`` if any failed.
 
         Raises
         ------
@@ -205,6 +227,14 @@ class Results:
         """What a run writes once, when it begins: its record, and the state of ParaView that shows it."""
         return self._job.folder / RECORD, self._job.folder / f"{self._job.settings.name}.py"
 
+    def _last_tables(self) -> list[Path]:
+        """The tables that a run writes at its end, of every kind."""
+        return [self._job.folder / f"{name}.{kind}" for name in (FATES, FAILURES) for kind in KINDS]
+
+    def _other_kinds(self) -> set[str]:
+        """The endings of tables that this run does not write."""
+        return {f".{kind}" for kind in KINDS if kind != self._job.tables}
+
     def _function_folders(self) -> list[Path]:
         return [self._job.folder / name for name in self._job.functions.functions]
 
@@ -231,7 +261,7 @@ class Results:
         # lists other files.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [self._series.pvd, self._fates, self._failures]
+        lists = [self._series.pvd, *self._last_tables()]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         self._manifest.expect(self._descriptions())
         write_record(folder / RECORD, self._job)
@@ -253,13 +283,17 @@ class Results:
             log.warning("%s It is made anew; files of later times may remain.", error)
             manifest = Manifest(job.folder)
         self._remove_unfinished(manifest)
-        for table in (self._fates, self._failures):
+        for table in self._last_tables():
             table.unlink(missing_ok=True)
         self._series.relist(entries)
         renew_record(job.folder / RECORD, job)
         snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
         functions = self._function_folders()
-        tables = [file for file in manifest.files if any(folder in file.parents for folder in functions)]
+        tables = [
+            file
+            for file in manifest.files
+            if any(folder in file.parents for folder in functions) and file.suffix not in self._other_kinds()
+        ]
         kept = {
             *self._descriptions(),
             self._series.pvd,

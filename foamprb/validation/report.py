@@ -57,17 +57,9 @@ def choose(cases: Mapping[str, Case], names: Sequence[str]) -> dict[str, Case]:
 
 
 def pyplot() -> Any:
-    """Matplotlib's pyplot, drawing to files.
+    """Matplotlib's pyplot, drawing to files."""
+    import matplotlib as mpl
 
-    Raises
-    ------
-    InputError
-        If matplotlib is not installed.
-    """
-    try:
-        import matplotlib as mpl
-    except ModuleNotFoundError:
-        raise InputError("the figures need matplotlib: pip install foamprb[plot]") from None
     mpl.use("Agg")
     from matplotlib import pyplot as plt
 
@@ -89,11 +81,6 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
     Returns
     -------
     Whether every row that has an allowed difference passed.
-
-    Raises
-    ------
-    InputError
-        If matplotlib is not installed.
     """
     plt = pyplot()
     sections = []

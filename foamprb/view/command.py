@@ -54,6 +54,26 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--dark", action="store_true", help="a picture, film or window on a dark ground")
 
 
+def declare_export(parser: argparse.ArgumentParser) -> None:
+    """Add the options of ``foamprb export``, besides those that say where the flow is."""
+    add = parser.add_argument
+    add("kind", choices=("openfoam", "vtkhdf", "ovito"), help="what for")
+    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
+    add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow with the mesh [latest]")
+
+
+def export(arguments: argparse.Namespace, source: Source) -> int:
+    """Do what the options say; the exit status."""
+    from foamprb.view.export import export as write
+
+    target = write(
+        arguments.kind, arguments.case, arguments.cloud, source, arguments.flowTime, arguments.output
+    )
+    log.info("Written: %s", target)
+    return 0
+
+
 def view(arguments: argparse.Namespace, source: Source) -> int:
     """Do what the options say; the exit status."""
     from foamprb.view.show import Request, open_in_browser, picture_of, write_page

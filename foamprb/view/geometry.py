@@ -102,7 +102,8 @@ def _smooth(nodes: Floats, triangles: Ints, share: float) -> tuple[Floats, Ints]
     data = data.compute_normals(
         cell_normals=False, split_vertices=True, feature_angle=_FEATURE_ANGLE, consistent_normals=False
     )
-    return np.asarray(data.points, dtype=np.float64), np.asarray(data.regular_faces, dtype=np.int64)
+    # Copies: what pyvista gives may be memory of the mesh, which ends here.
+    return np.array(data.points, dtype=np.float64), np.array(data.regular_faces, dtype=np.int64)
 
 
 def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:

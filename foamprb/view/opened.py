@@ -13,7 +13,8 @@ import pyvista
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
-from foamprb.output.tables import read_table
+from foamprb.output.tables import KINDS, find_table, read_table
+from foamprb.output.vtk import PointCloud, poly_data
 from foamprb.view.results import Results, open_results
 
 __all__ = ["Run", "open_run"]
@@ -76,9 +77,23 @@ class Run:
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Names of the tables that there are, without ``.csv``: ``fates``, ``exposure/exposure``, …."""
-        found = [file for pattern in ("*.csv", "*/*.csv") for file in self.folder.glob(pattern)]
-        return tuple(sorted(file.relative_to(self.folder).with_suffix("").as_posix() for file in found))
+        """Names of the tables that there are, without endings: ``fates``, ``exposure/exposure``, …."""
+        patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
+        found = {file.relative_to(self.folder) for pattern in patterns for file in self.folder.glob(pattern)}
+        return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
+
+    def file(self, table: str) -> Path:
+        """The file of one of :attr:`tables`.
+
+        Raises
+        ------
+        InputError
+            If there is no such table.
+        """
+        found = find_table(self.folder, table)
+        if found is None:
+            raise InputError(f"{self.folder}: no table '{table}'. {suggestion(table, self.tables)}")
+        return found
 
     def table(self, name: str = "fates") -> Table:
         """Return the columns of a table by name, (n,) each; the page on settings says what they are.
@@ -86,11 +101,9 @@ class Run:
         Raises
         ------
         InputError
-            If there is no such table, or it is damaged.
+            If there is no such table, or it is damaged; if it is Parquet, and pyarrow is not installed.
         """
-        if name not in self.tables:
-            raise InputError(f"{self.folder}: no table '{name}'. {suggestion(name, self.tables)}")
-        return read_table(self.folder / f"{name}.csv")
+        return read_table(self.file(name))
 
     def frame(self, name: str = "fates") -> Any:
         """Return a table as a data frame of pandas or, without it, of polars.
@@ -116,9 +129,10 @@ class Run:
             If the file is missing or damaged.
         """
         found = self._results.snapshot(len(self.times) - 1 if time is None else self._results.nearest(time))
-        mesh = pyvista.PolyData(found.points)
-        for name, array in found.arrays.items():
-            mesh.point_data[name] = array
+        given = self._results
+        mesh = pyvista.PolyData(
+            poly_data(PointCloud(found.time, found.points, found.arrays, given.units, given.names))
+        )
         mesh.field_data["time"] = [found.time]
         return mesh
 

@@ -447,7 +447,7 @@ def sphere_for(count: int) -> Shape:
     ball = pyvista.Sphere(radius=1.0, theta_resolution=around, phi_resolution=down)
     points = np.asarray(ball.points, dtype=np.float64)
     return Shape(
-        points / np.linalg.norm(points, axis=1, keepdims=True), np.asarray(ball.regular_faces, dtype=np.int64)
+        points / np.linalg.norm(points, axis=1, keepdims=True), np.array(ball.regular_faces, dtype=np.int64)
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.output.pvd import Entry, read_pvd
+from foamprb.output.tables import find_table, read_table
 
 Floats = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class Snapshot(NamedTuple):
 
 
 class Fates(NamedTuple):
-    """Columns of ``fates.csv``, a row for each of n bodies."""
+    """Columns of the table ``fates``, a row for each of n bodies."""
 
     ids: NDArray[np.int64]
     fate: list[str]
@@ -109,7 +109,9 @@ class Results:
                     f"{self.folder / entry.file}: no array '{name}', which other times have; are these the "
                     "files of one run?"
                 )
-            found[name] = np.array(data.point_data[name])
+            # Of no bodies VTK forgets how many components there were.
+            shape = (-1,) if self.components[name] == 1 else (data.n_points, self.components[name])
+            found[name] = np.array(data.point_data[name]).reshape(shape)
         return Snapshot(entry.time, np.array(data.points, dtype=np.float64).reshape(-1, 3), found)
 
     def nearest(self, time: float) -> int:
@@ -118,30 +120,29 @@ class Results:
 
     @property
     def has_fates(self) -> bool:
-        """Whether the run has ended and written ``fates.csv``."""
-        return (self.folder / "fates.csv").exists()
+        """Whether the run has ended and written its table ``fates``."""
+        return find_table(self.folder, "fates") is not None
 
     def fates(self) -> Fates | None:
-        """Read ``fates.csv``; None if the run has not written it, as it has not ended.
+        """Read the table ``fates``; None if the run has not written it, as it has not ended.
 
         Raises
         ------
         InputError
             If the file is damaged.
         """
-        path = self.folder / "fates.csv"
-        if not path.exists():
+        path = find_table(self.folder, "fates")
+        if path is None:
             return None
+        found = read_table(path, words=("fate", "patch"))
         try:
-            with path.open(encoding="utf-8", newline="") as file:
-                rows = list(csv.DictReader(file))
             return Fates(
-                np.array([int(row["id"]) for row in rows], dtype=np.int64),
-                [row["fate"] for row in rows],
-                [row["patch"] for row in rows],
-                *(np.array([float(row[key]) for row in rows]) for key in ("t0", "t1", "Ca")),
+                np.asarray(found["id"], dtype=np.int64),
+                found["fate"].tolist(),
+                found["patch"].tolist(),
+                *(np.asarray(found[key], dtype=np.float64) for key in ("t0", "t1", "Ca")),
             )
-        except (KeyError, TypeError, ValueError, csv.Error) as error:
+        except (KeyError, ValueError) as error:
             raise InputError(f"{path}: not the table that foamprb run writes ({error}).") from error
 
     def paths(self) -> Paths | None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from observing import MEAN, RADIUS, WATER, column, observe, pipe_cloud, table
+from scipy.integrate import quad, solve_ivp
 
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
@@ -64,10 +67,93 @@ def test_samples_of_a_changing_stress_converge_with_second_order(tmp_path):
     assert error[4] < 0.4 * error[8] < 0.16 * error[16] * 2.5
 
 
+@pytest.mark.parametrize("rate", [300.0, 5000.0, 42000.0])
+def test_the_shear_of_a_deformation_is_that_of_aroras_equation(rate):
+    """dS/dt = −f₁(S − g I) + f₂(ES + SE) + f₃(WS − SW), until it is steady; its semi-axes are √λ(S)."""
+    f1, f2 = Haemolysis(constants="Song").f1, Haemolysis(constants="Song").f2
+    # For blood: Arora, Behr & Pasquali (2004), and HemTracer's.
+    assert (f1, f2) == (5.0, 4.2298e-4)
+    gradient = np.array([[0.0, rate, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    E, W = 0.5 * (gradient + gradient.T), 0.5 * (gradient - gradient.T)
+
+    def slope(_, s):
+        S = s.reshape(3, 3)
+        second = 0.5 * (np.trace(S) ** 2 - np.trace(S @ S))
+        recovery = -f1 * (S - 3.0 * np.linalg.det(S) / second * np.eye(3))
+        return (recovery + f2 * (E @ S + S @ E) + f2 * (W @ S - S @ W)).ravel()
+
+    found = solve_ivp(slope, (0.0, 10.0), np.eye(3).ravel(), method="LSODA", rtol=1e-10, atol=1e-12)
+    axes = np.sqrt(np.linalg.eigvalsh(found.y[:, -1].reshape(3, 3)))
+    D = (axes[2] - axes[0]) / (axes[2] + axes[0])
+    assert effective_shear_rate(D, f1, f2) == pytest.approx(rate, rel=1e-6)
+
+
+# Five sums of a power law over a path, compared by Taskin et al. (ASAIO J. 58, 363, 2012); HemTracer has all.
+def power_law_of_each_step(law, t, tau):
+    return law.A * np.sum(np.diff(t) ** law.beta * tau[1:] ** law.alpha)
+
+
+def derivative_in_time(law, t, tau):
+    return law.A * law.beta * np.sum(t[1:] ** (law.beta - 1.0) * tau[1:] ** law.alpha * np.diff(t))
+
+
+def linearised(law, t, tau):
+    return law.A * np.sum(np.diff(t) * tau[1:] ** (law.alpha / law.beta)) ** law.beta
+
+
+def mechanical_dose(law, t, tau):
+    step = np.diff(t) * tau[1:] ** (law.alpha / law.beta)
+    return law.A * law.beta * np.sum(np.cumsum(step) ** (law.beta - 1.0) * step)
+
+
+def effective_time(law, t, tau):
+    index = 0.0
+    for h, stress in zip(np.diff(t), tau[1:], strict=True):
+        scale = law.A * stress**law.alpha
+        index = scale * ((index / scale) ** (1.0 / law.beta) + h) ** law.beta
+    return index
+
+
+@pytest.mark.parametrize("name", POWER_LAWS)
+def test_of_the_published_sums_those_agree_that_do_not_depend_on_the_steps(name, tmp_path):
+    """On a path whose stress is known at all times, with the index by quadrature as well."""
+
+    def u(x, y, z, t):
+        return 400.0 * (1.0 + 0.8 * math.sin(60.0 * t)) * y, 0.0 * x, 0.0 * z
+
+    law, end = POWER_LAWS[name], 0.1
+    body = spheres(np.zeros((1, 3)), d=6e-6, rho=WATER.rho, mu=100.0)
+    flow = analytic.function(u, length=1.0, time=0.1)
+    cloud = Cloud(body, flow, WATER, (), 2e-4, Models(integrator="stokes"))
+    observe(cloud, Haemolysis(constants=name), tmp_path, writes=(500,))
+    (found,) = column(table(tmp_path / "f/haemolysis.csv"), "haemolysis")
+
+    def stress(t):
+        return WATER.mu * 400.0 * (1.0 + 0.8 * np.sin(60.0 * t))
+
+    dose = quad(lambda t: stress(t) ** (law.alpha / law.beta), 0.0, end, epsabs=0.0, epsrel=1e-11, limit=200)[
+        0
+    ]
+    exact = law.A * dose**law.beta
+    assert found == pytest.approx(exact, rel=1e-4)
+    sums = {}
+    for n in (1000, 100_000):
+        t = np.linspace(0.0, end, n + 1)
+        for rule in (linearised, effective_time, mechanical_dose, derivative_in_time, power_law_of_each_step):
+            sums[rule, n] = rule(law, t, stress(t))
+    for rule in (linearised, effective_time):
+        assert sums[rule, 100_000] == pytest.approx(exact, rel=1e-4)
+    # Its first step, where the power of the dose is infinite, is of the order h^β.
+    assert abs(sums[mechanical_dose, 100_000] / exact - 1.0) < 0.1
+    assert abs(sums[mechanical_dose, 100_000] / exact - 1.0) < abs(sums[mechanical_dose, 1000] / exact - 1.0)
+    # The other two are another quantity where stress changes, and one that the number of steps decides.
+    assert abs(sums[derivative_in_time, 100_000] / exact - 1.0) > 0.01
+    grown = sums[power_law_of_each_step, 100_000] / sums[power_law_of_each_step, 1000]
+    assert grown == pytest.approx(100.0 ** (1.0 - law.beta), rel=0.01)
+
+
 def test_stress_from_the_deformation(tmp_path):
-    """In steady shear the droplet of Arora's that is deformed as far says which shear it is in."""
-    D = np.array([0.05, 0.3])
-    assert effective_shear_rate(D, 5.0, 4.2298e-5) == pytest.approx(2 * 5.0 * D / (1 - D**2) / 4.2298e-5)
+    """A body that stays deformed goes on being damaged."""
     p = spheres(np.zeros((1, 3)), d=6e-6, rho=1e3, mu=WATER.mu * 100.0 / 0.2)
     cloud = Cloud(p, analytic.shear(100.0), WATER, (), 1e-3, Models(integrator="stokes"))
     observe(

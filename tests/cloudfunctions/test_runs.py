@@ -12,9 +12,10 @@ from observing import column, table
 from paths import PIPE
 from pipe_case import copy_of_pipe, edit
 
-from foamprb import execute, prepare
+from foamprb import execute, open_run, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
+from foamprb.output.manifest import Manifest
 from foamprb.output.names import fault_of_folder
 
 BLOCK = """cloudFunctions
@@ -43,7 +44,8 @@ def cases(tmp_path_factory):
     return cases
 
 
-def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch):
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_a_stopped_run_goes_on_with_what_its_functions_saw(kind, tmp_path, monkeypatch):
     """Stopped between two looks and between two writings: the same files as of a run never stopped."""
     block = BLOCK.replace("0.02 0 0", "0.001 0 0")
     results = []
@@ -54,17 +56,34 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(tmp_path, monkeypatch
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
             monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 1000)
-            job = prepare(case, threads=1)
+            job = prepare(case, threads=1, tables=kind)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)
             assert 261 < job.cloud.step < 270
-        assert main(["run", "-case", str(case), "-resume"]) == 0
+        assert main(["run", "-case", str(case), "-resume", "-tables", kind]) == 0
         folder = case / "postProcessing/softCloud"
-        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".vtp")]
+        found = [file for file in folder.rglob("*.*") if file.suffix in (".csv", ".parquet", ".vtp")]
         results.append({str(file.relative_to(folder)): file.read_bytes() for file in found})
-    assert {"plane/crossings.csv", "spread/exposure.csv", "tracks/tracks.vtp"} <= results[0].keys()
-    assert len(results[0]["plane/crossings.csv"].splitlines()) > 1
+    tables = {file for file in results[0] if not file.endswith(".vtp")}
+    assert {f"plane/crossings.{kind}", f"spread/exposure.{kind}", f"fates.{kind}"} <= tables
+    assert all(file.endswith(kind) for file in tables)
+    assert "tracks/tracks.vtp" in results[0]
+    assert len(open_run(case).table("plane/crossings")["id"]) > 0
     assert results[0] == results[1]
+
+
+def test_a_run_that_goes_on_leaves_tables_of_one_kind(tmp_path):
+    case = copy_of_pipe(tmp_path)
+    edit(case, r"cloudFunctions\s*\{\}", BLOCK)
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
+    for end, options in (("0.004", ["-tables", "parquet"]), ("0.008", ["-resume"])):
+        edit(case, r"endTime\s+\S+;", f"endTime {end};")
+        assert main(["run", "-case", str(case), *options]) == 0
+    folder = case / "postProcessing/softCloud"
+    assert not list(folder.rglob("*.parquet"))
+    listed = Manifest.read(folder).files
+    assert listed == {file for file in folder.rglob("*") if file.is_file()} - {folder / "manifest.json"}
+    assert folder / "spread/exposure.csv" in listed
 
 
 def test_looking_changes_nothing(cases):

@@ -1,4 +1,5 @@
 import csv
+import importlib
 import math
 from pathlib import Path
 
@@ -7,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.output.tables import write_table
+from foamprb.errors import InputError
+from foamprb.output.tables import find_table, read_table, require_kind, write_table
 
 
 def read(path: Path) -> list[list[str]]:
@@ -69,3 +71,71 @@ def test_columns_that_are_no_table(tmp_path: Path, columns: dict[str, object], m
     with pytest.raises(ValueError, match=message):
         write_table(tmp_path / "t.csv", columns)  # type: ignore[arg-type]
     assert not list(tmp_path.iterdir())
+
+
+@given(
+    values=st.lists(st.floats(width=64), max_size=20),
+    texts=st.lists(st.text(st.characters(exclude_categories=["Cs"]))),
+)
+def test_parquet_gives_back_numbers_to_the_bit_and_words(
+    tmp_path_factory: pytest.TempPathFactory, values: list[float], texts: list[str]
+) -> None:
+    n = min(len(values), len(texts))
+    path = tmp_path_factory.mktemp("tables") / "t.parquet"
+    number = np.arange(n, dtype=np.int32)
+    x = np.array(values[:n], dtype=float)
+    write_table(path, {"x": x, "id": number, "list": values[:n], "w": texts[:n]})
+    found = read_table(path)
+    assert list(found) == ["x", "id", "list", "w"]
+    assert found["x"].tobytes() == x.tobytes()
+    if n:
+        assert found["list"].tobytes() == found["x"].tobytes()
+    assert (found["id"].dtype, found["id"].tolist()) == (np.int64, number.tolist())
+    assert found["w"].dtype.kind == "U"
+    # numpy cuts zeros off the end of a word.
+    assert found["w"].tolist() == [text.rstrip("\0") for text in texts[:n]]
+
+
+def test_parquet_has_the_columns_of_the_text(tmp_path: Path) -> None:
+    columns = {"id": [7, 8], "d": np.array([0.1, np.inf]), "fate": ["stuck", "1"], "mixed": [1, 2.5]}
+    found = []
+    for kind in ("csv", "parquet"):
+        write_table(tmp_path / f"t.{kind}", columns)
+        assert find_table(tmp_path, "t") == tmp_path / "t.csv"
+        found.append(read_table(tmp_path / f"t.{kind}"))
+    for name, column in found[0].items():
+        assert column.dtype.kind == found[1][name].dtype.kind
+        assert column.tolist() == found[1][name].tolist()
+    assert find_table(tmp_path, "u") is None
+    assert read_table(tmp_path / "t.csv", words=("id",))["id"].tolist() == ["7", "8"]
+
+
+def test_what_is_no_parquet_is_said(tmp_path: Path) -> None:
+    path = tmp_path / "t.parquet"
+    write_table(path, {"x": np.arange(1000.0)})
+    path.write_bytes(path.read_bytes()[:500])
+    with pytest.raises(InputError, match=r"t\.parquet: not a readable table \("):
+        read_table(path)
+    with pytest.raises(InputError, match=r"none\.parquet: not a readable table"):
+        read_table(tmp_path / "none.parquet")
+
+
+def test_parquet_without_pyarrow_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_table(tmp_path / "t.parquet", {"x": [1.0]})
+    load = importlib.import_module
+
+    def absent(name: str, package: str | None = None) -> object:
+        if name.startswith("pyarrow"):
+            raise ImportError(name)
+        return load(name, package)
+
+    monkeypatch.setattr(importlib, "import_module", absent)
+    require_kind("csv")
+    remedy = r"needs pyarrow: pip install 'foamprb\[parquet\]'"
+    with pytest.raises(InputError, match=f"tables of Parquet {remedy}"):
+        require_kind("parquet")
+    for use in (lambda path: write_table(path, {"x": [1.0]}), read_table):
+        with pytest.raises(InputError, match=rf"t\.parquet {remedy}"):
+            use(tmp_path / "t.parquet")

@@ -3,6 +3,7 @@ import json
 import shutil
 import subprocess
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 import pyvista
 from numpy.typing import NDArray
 from paths import ROOT
+from view_run import with_orientation
 
 from foamprb.cloud.state import Status
 from foamprb.output.pvd import Series
@@ -160,7 +162,7 @@ def test_bodies_are_the_unit_sphere_mapped_by_RF(duct: Path, tmp_path: Path) -> 
 
 
 def test_picture_shows_bodies_in_the_walls(duct: Path, tmp_path: Path) -> None:
-    write_run(duct, radius=5e-5)
+    write_run(duct, radius=1.5e-4)
     picture = tmp_path / "out.png"
     done = pvpython(SCRIPT, duct, "--time", 0.1, "--screenshot", picture, "--size", "800x450")
     assert done.returncode == 0, done.stderr
@@ -221,6 +223,26 @@ def test_pipe_of_the_cases(tmp_path: Path) -> None:
     done = pvpython(SCRIPT, case, "--screenshot", picture, "--size", "800x450")
     assert done.returncode == 0, done.stderr
     assert saturated(read_picture(picture)[:350]).mean() > 0.001
+
+
+def test_copies_of_one_sphere_look_as_the_bodies_do(duct: Path, tmp_path: Path) -> None:
+    cloud, _ = write_run(duct, radius=5e-5)
+    cloud = with_orientation(replace(cloud, arrays=cloud.arrays | {"semiAxes": 5e-5 * semi_axes(cloud)}))
+    series = Series(duct / "postProcessing" / "softCloud", "softCloud")
+    series.append(cloud)
+    found = []
+    for options in ((), ("--copies",)):
+        picture = tmp_path / f"out{len(found)}.png"
+        done = pvpython(SCRIPT, duct, "--screenshot", picture, "--size", "800x450", *options)
+        assert done.returncode == 0, done.stderr
+        found.append(saturated(read_picture(picture)[:350]))
+    assert found[0].mean() > 0.002
+    assert (found[0] & found[1]).sum() > 0.95 * (found[0] | found[1]).sum()
+
+
+def semi_axes(cloud: PointCloud) -> NDArray[Any]:
+    """Relative to the radius at rest, in falling order."""
+    return np.linalg.svd(cloud.arrays["deformationGradient"].reshape(-1, 3, 3), compute_uv=False)
 
 
 CAMERA = """

@@ -38,7 +38,7 @@ def truth(tmp_path_factory):
     case = short_case(tmp_path_factory.mktemp("truth"))
     assert main(["run", "-case", str(case), "-threads", "2"]) == 0
     found = results(case)
-    assert len(found) == 12
+    assert len(found) == 13
     assert b",stuck,wall," in found["fates.csv"]
     return found
 

@@ -6,12 +6,16 @@ import json
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+import pyvista
 from pipe_case import edit, message, results, short_case
 
 from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.manifest import Manifest
@@ -79,8 +83,9 @@ def test_a_file_is_listed_before_it_is_written(case, monkeypatch):
 
     monkeypatch.setattr(Path, "replace", listed)
     run(case)
-    # Manifest, record and state; manifest, cloud, list and checkpoint at six times; manifest and table.
-    assert len(seen) == 3 + 4 * 6 + 2
+    # Manifest, record and state; manifest, cloud and list at the start; these and a checkpoint at six times;
+    # manifest and table.
+    assert len(seen) == 3 + 3 + 4 * 6 + 2
 
 
 def test_a_new_run_removes_what_the_manifest_lists_and_nothing_else(case, truth):
@@ -120,9 +125,9 @@ def test_a_file_of_the_user_in_a_folder_of_a_function_is_not_listed(case):
 def leave_behind(case: Path) -> None:
     """What a killed run leaves that wrote the cloud of 4 ms with others, but no checkpoint."""
     folder = folder_of(case)
-    left = ["softCloud_000003.pvtp", "softCloud_000003/0.vtp", "softCloud_000003/1.vtp"]
+    left = ["softCloud_000004.pvtp", "softCloud_000004/0.vtp", "softCloud_000004/1.vtp"]
     Manifest(folder, Manifest.read(folder).files).expect([folder / name for name in left])
-    for name in (*left, "softCloud_000003/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
+    for name in (*left, "softCloud_000004/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).touch()
     series = Series(folder, "softCloud")
@@ -134,7 +139,7 @@ def test_a_killed_run_leaves_nothing_behind_for_the_next(option, stopped, truth)
     leave_behind(stopped)
     run(stopped, option)
     assert results(stopped) == truth
-    assert not (folder_of(stopped) / "softCloud_000003").exists()
+    assert not (folder_of(stopped) / "softCloud_000004").exists()
 
 
 def test_a_stopped_run_lists_what_it_has_written(stopped):
@@ -142,7 +147,7 @@ def test_a_stopped_run_lists_what_it_has_written(stopped):
     assert {file.relative_to(folder).as_posix() for file in Manifest.read(folder).files} == {
         "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "run.json", "softCloud.py",
         "softCloud.pvd",
-        "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp",
+        "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp", "softCloud_000003.vtp",
     }  # fmt: skip
 
 
@@ -247,9 +252,49 @@ def test_a_list_names_whole_files_only_while_others_are_removed(option, stopped,
 
     monkeypatch.setattr(Path, "unlink", check)
     run(stopped, option)
-    assert "softCloud_000003.pvtp" in removed
+    assert "softCloud_000004.pvtp" in removed
 
 
 def test_only_one_run_writes_to_a_folder(stopped, capsys):
     with atomic.only_writer(folder_of(stopped)):
         assert "another run is writing here" in message(stopped, capsys, "-overwrite")
+
+
+def cloud_at(case: Path, index: int) -> Any:
+    folder = folder_of(case)
+    return pyvista.read(folder / read_pvd(folder / "softCloud.pvd")[index].file)
+
+
+def test_the_first_snapshot_is_that_of_the_start(case):
+    """It has those that are injected then: at rest in shape, with the fluid's velocity or what is given."""
+    edit(case, r"SOI\s+0;", "SOI 0; // all at once")
+    run(case)
+    entries = read_pvd(folder_of(case) / "softCloud.pvd")
+    assert [e.time for e in entries] == pytest.approx([0.001 * n for n in range(7)], abs=1e-15)
+    job = prepare(case)
+    p, found = job.cloud.particles, cloud_at(case, 0)
+    rows = np.flatnonzero(p.t0 == 0.0)
+    assert 0 < len(rows) < p.size
+    assert found["origId"].tolist() == rows.tolist()
+    np.testing.assert_array_equal(found.points, p.x[rows])
+    u = job.cloud.flow.sample(p.x[rows], p.host[rows], 0.0)[0]
+    np.testing.assert_array_equal(found["U"], np.where(np.isnan(p.v[rows]), u, p.v[rows]))
+    np.testing.assert_array_equal(found["deformationGradient"], np.tile(np.eye(3).ravel(), (len(rows), 1)))
+    assert not found["age"].any()
+    assert found["active"].all()
+    # Nothing of it is seen in the run itself.
+    assert (p.status == Status.PENDING).all()
+
+
+def test_a_run_that_goes_on_from_before_its_first_step_lists_its_start_once(case, truth):
+    with pytest.raises(RunStopped):
+        execute(prepare(case), stop=lambda: True)
+    assert [file.name for file in (folder_of(case) / "checkpoint").iterdir()] == ["0.checkpoint"]
+    run(case, "-resume")
+    assert results(case) == truth
+
+
+def test_a_run_whose_particles_come_later_begins_with_an_empty_snapshot(case):
+    edit(case, r"SOI\s+0;", "SOI 0.0015;")
+    run(case)
+    assert [cloud_at(case, n).n_points > 0 for n in range(3)] == [False, False, True]

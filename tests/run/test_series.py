@@ -66,7 +66,7 @@ def test_velocities_between_the_times_are_those_of_the_line(case, random):
 def test_the_time_of_the_run_is_that_of_the_flow(case):
     folder = run(case, "-time", "0:1.5")
     entries = read_pvd(folder / "softCloud.pvd")
-    assert [entry.time for entry in entries] == pytest.approx([0.4, 0.8, 1.2])
+    assert [entry.time for entry in entries] == pytest.approx([0.0, 0.4, 0.8, 1.2])
     with (folder / "fates.csv").open() as file:
         row = next(csv.DictReader(file))
     assert (float(row["t0"]), float(row["t1"])) == (0.3, pytest.approx(1.2))
@@ -81,7 +81,7 @@ def test_a_run_starts_at_the_first_time_that_is_selected(case):
     edit(case, "SOI 0.3", "SOI 0.6")
     edit(case, "writeInterval 0.4", "writeInterval 0.35")
     folder = run(case, "-time", "0.5:")
-    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.85, 1.2])
+    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.5, 0.85, 1.2])
 
 
 def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
@@ -89,7 +89,7 @@ def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
     folder = run(case, "-time", "0.5:")
     with (folder / "fates.csv").open() as file:
         assert [float(row["t0"]) for row in csv.DictReader(file)] == [0.5, 0.5]
-    assert read_pvd(folder / "softCloud.pvd")[0].time == pytest.approx(0.9)
+    assert read_pvd(folder / "softCloud.pvd")[1].time == pytest.approx(0.9)
 
 
 def test_a_first_time_at_rest_is_named_where_nothing_enters(case, capsys):
@@ -126,7 +126,7 @@ def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):
     folder = run(case, "-resume")
     again = whole / "postProcessing/softCloud"
     assert (folder / "fates.csv").read_bytes() == (again / "fates.csv").read_bytes()
-    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.4, 0.8, 1.2])
+    assert [e.time for e in read_pvd(folder / "softCloud.pvd")] == pytest.approx([0.0, 0.4, 0.8, 1.2])
 
 
 def test_a_run_does_not_go_on_in_another_flow(case, capsys):

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import builtins
-
 import mpmath
 import numpy as np
 import pytest
@@ -334,16 +332,3 @@ class TestCommand:
     def test_an_unknown_case_is_an_error_that_says_what_was_meant(self, capsys):
         assert main(["validate", "-case", "rotatoin"]) == 1
         assert "Did you mean 'rotation'" in capsys.readouterr().err
-
-    def test_without_matplotlib_the_message_says_what_to_install(self, tmp_path, monkeypatch, capsys):
-        real = builtins.__import__
-
-        def refuse(name, *arguments, **options):
-            if name.startswith("matplotlib"):
-                raise ModuleNotFoundError(name)
-            return real(name, *arguments, **options)
-
-        monkeypatch.setattr(builtins, "__import__", refuse)
-        assert main(["validate", "-case", "rotation", "-output", str(tmp_path / "r")]) == 1
-        assert "pip install foamprb[plot]" in capsys.readouterr().err
-        assert not (tmp_path / "r").exists()

@@ -230,6 +230,9 @@ class TestDamage:
 
     def test_a_damaged_table(self, case):
         (case / "postProcessing/softCloud/fates.csv").write_text("id,fate\n0\n")
+        with pytest.raises(InputError, match=r"fates\.csv: not a table: its lines have different"):
+            open_results(case).fates()
+        (case / "postProcessing/softCloud/fates.csv").write_text("id,fate\n0,stuck\n")
         with pytest.raises(InputError, match=r"fates\.csv: not the table"):
             open_results(case).fates()
 

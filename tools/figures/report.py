@@ -1,7 +1,7 @@
 """The picture of the page that ``foamprb report`` writes: docs/report.png.
 
 Runs the pipe of the tree with the settings of ``foamprb init``, and opens its report in Chromium. Needs
-Chromium on PATH and the extras ``report`` and ``browser``.
+Chromium on PATH and the extra ``browser``.
 """
 
 from __future__ import annotations

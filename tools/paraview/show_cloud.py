@@ -78,6 +78,7 @@ def show(
     time: float | None = None,
     scale: float | None = None,
     camera: Camera = Camera(),  # noqa: B008
+    copies: bool = False,
 ) -> Scene:
     """Build the picture of a run in the active view.
 
@@ -93,6 +94,8 @@ def show(
         How many times larger the bodies are drawn; by default such that they can be seen.
     camera
         From where to look; by default at the plane of a two-dimensional case, else at the longest side.
+    copies
+        Whether the graphics card draws the bodies as copies of one sphere, for many of them.
     """
     simple._DisableFirstRenderCameraReset()
     view = simple.GetActiveViewOrCreate("RenderView")
@@ -119,9 +122,15 @@ def show(
     if scale is None:
         scale = automatic_scale(point_array(cloud, "d"), outline(walls, positions(cloud)))
     # Tensor Glyph calls an empty input an error.
-    bodies = draw_bodies(shown, scale, len(points)) if len(points) else None
-    if bodies is not None:
+    bodies = None
+    if len(points):
+        bodies = shown if copies else draw_bodies(shown, scale, len(points))
         show_bodies(bodies, deformation.max(), view)
+        if copies:
+            show_as_copies(simple.GetDisplayProperties(bodies, view), scale, len(points))
+        else:
+            # ParaView chooses another factor when it shows a filter that was given 1.
+            bodies.ScaleFactor = scale
     annotate_time(cloud, view)
     annotate(caption(scale, len(points)), view, "Upper Right Corner")
     look_at(case, walls, points, view, camera)
@@ -267,10 +276,25 @@ def draw_bodies(cloud: Any, scale: float, count: int) -> Any:
         ScaleFactor=scale,
     )
     bodies.GlyphType.Radius = 1.0
-    bodies.GlyphType.ThetaResolution, bodies.GlyphType.PhiResolution = (
-        (16, 9) if count > MANY_BODIES else (48, 25)
-    )
+    bodies.GlyphType.ThetaResolution, bodies.GlyphType.PhiResolution = resolution(count)
     return bodies
+
+
+def show_as_copies(display: Any, scale: float, count: int) -> None:
+    """Draw a sphere at each point, with its semi-axes and orientation, by the graphics card."""
+    display.SetRepresentationType("3D Glyphs")
+    display.GlyphType = "Sphere"
+    display.GlyphType.Radius = 1.0
+    display.GlyphType.ThetaResolution, display.GlyphType.PhiResolution = resolution(count)
+    display.ScaleMode, display.SelectScaleArray, display.Scaling = "Vector Components", "semiAxes", 1
+    display.OrientationMode, display.SelectOrientationVectors = "Quaternion", "orientation"
+    display.Orient = 1
+    display.ScaleFactor = scale
+
+
+def resolution(count: int) -> tuple[int, int]:
+    """Facets of a body around and along its axis, fewer for many of them."""
+    return (16, 9) if count > MANY_BODIES else (48, 25)
 
 
 def show_bodies(bodies: Any, largest: float, view: Any) -> None:
@@ -533,6 +557,11 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     parser.add_argument(
         "--zoom", type=magnification, default=1.0, help="come nearer by this factor (default: 1)"
     )
+    parser.add_argument(
+        "--copies",
+        action="store_true",
+        help="let the graphics card draw copies of a sphere, for many bodies",
+    )
     parser.add_argument("--screenshot", type=Path, help="write this picture and stop")
     parser.add_argument("--size", type=picture_size, default=(1600, 900), help="of the picture, as 1600x900")
     return parser.parse_args(arguments)
@@ -582,9 +611,8 @@ def main(arguments: list[str]) -> None:
         raise SystemExit(f"{options.case}: no such folder.")
     view = simple.CreateView("RenderView")
     view.ViewSize = options.size
-    show(
-        options.case.resolve(), options.cloud, options.time, options.scale, Camera(options.view, options.zoom)
-    )
+    camera = Camera(options.view, options.zoom)
+    show(options.case.resolve(), options.cloud, options.time, options.scale, camera, options.copies)
     if options.screenshot:
         simple.SaveScreenshot(str(options.screenshot), view, ImageResolution=options.size)
     else:

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.errors import InputError
 from foamprb.view.colours import NAMES, readable
 from foamprb.view.geometry import Geometry
 from foamprb.view.report.deposits import Deposits
@@ -23,7 +22,6 @@ __all__ = [
     "curves",
     "histogram",
     "on_geometry",
-    "require_matplotlib",
     "shares",
     "unrolled",
 ]
@@ -74,14 +72,6 @@ class Plot(NamedTuple):
     """By itself, on white."""
     png: bytes
     """The same, 200 dots an inch."""
-
-
-def require_matplotlib() -> None:
-    """Raise InputError if matplotlib is not installed."""
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        raise InputError("the report needs matplotlib: pip install 'foamprb[report]'.") from None
 
 
 @contextmanager

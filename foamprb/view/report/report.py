@@ -83,14 +83,13 @@ def write_report(
     Raises
     ------
     InputError
-        There is no run, its files are damaged, it has not ended, or matplotlib is not installed.
+        There is no run, its files are damaged, or it has not ended.
     OSError
         If a file cannot be written.
     """
-    plots.require_matplotlib()
     run = open_run(case, cloud)
     if "fates" not in run.tables:
-        raise InputError(f"{run.folder}: no fates.csv, the run has not ended. To go on: foamprb run -resume.")
+        raise InputError(f"{run.folder}: no fates, the run has not ended. To go on: foamprb run -resume.")
     target = output or run.folder / "report.html"
     given = _Given(run, run.table("fates"), _geometry(case, source), tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
@@ -398,7 +397,7 @@ def _what(given: _Given) -> Section:
 
 def _files(given: _Given, target: Path, beside: Path) -> Section:
     folder, name = given.run.folder, given.run.name
-    shown = [folder / f"{name}.pvd", *(folder / f"{table}.csv" for table in given.run.tables)]
+    shown = [folder / f"{name}.pvd", *map(given.run.file, given.run.tables)]
     shown += [path for path in (folder / "run.json", folder / f"{name}.html") if path.exists()]
     shown += sorted(folder.glob("*/tracks.vtp"))
     items = [

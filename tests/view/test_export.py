@@ -1,0 +1,154 @@
+"""Results in the files of other programs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import pyvista
+from view_run import clouds, motion, with_orientation, write_run
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+import foamprb
+from foamprb import read_case
+from foamprb.cli import main
+from foamprb.errors import InputError
+from foamprb.output.ovito import write_dump
+from foamprb.output.vtk import PointCloud
+from foamprb.output.vtkhdf import write_vtkhdf
+
+
+@pytest.fixture
+def case(tmp_path):
+    write_run(tmp_path, motion(9, 5))
+    return tmp_path
+
+
+def export(case: Path, kind: str, *options: str) -> None:
+    assert main(["export", kind, "-case", str(case), *options]) == 0
+
+
+def test_one_file_has_every_array_of_every_time(case):
+    export(case, "vtkhdf")
+    run = foamprb.open_run(case)
+    reader = vtkHDFReader()
+    reader.SetFileName(str(run.folder / "softCloud.vtkhdf"))
+    reader.UpdateInformation()
+    key = reader.GetExecutive().TIME_STEPS()
+    times = reader.GetOutputInformation(0).Get(key)
+    np.testing.assert_allclose(times, run.times, rtol=1e-7)
+    for time, exact in zip(times, run.times, strict=True):
+        reader.UpdateTimeStep(time)
+        found, expected = pyvista.wrap(reader.GetOutputDataObject(0)), run.snapshot(exact)
+        np.testing.assert_array_equal(found.points, expected.points)
+        for name in expected.point_data:
+            np.testing.assert_array_equal(found.point_data[name], expected.point_data[name])
+    # Bodies that come later are not there at first.
+    assert run.snapshot(0.0).n_points < run.snapshot().n_points
+
+
+def test_a_file_that_cannot_be_made_leaves_what_was_there(tmp_path):
+    path = tmp_path / "a.vtkhdf"
+    path.write_text("before")
+
+    def cloud(index):
+        if index:
+            raise InputError("damaged")
+        return PointCloud(0.0, np.zeros((2, 3)), {"d": np.ones(2)})
+
+    with pytest.raises(InputError, match="damaged"):
+        write_vtkhdf(path, [0.0, 1.0], cloud)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+    assert path.read_text() == "before"
+    with pytest.raises(OSError, match=r"a\.vtkhdf"):
+        write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], cloud)
+
+
+def test_a_dump_has_ellipsoids_with_their_axes(tmp_path):
+    given = [with_orientation(cloud) for cloud in clouds(motion(9, 5))]
+    empty = {name: array[:0] for name, array in given[0].arrays.items()}
+    write_dump(tmp_path / "own.dump", [replace(given[0], points=given[0].points[:0], arrays=empty), *given])
+    frames = (tmp_path / "own.dump").read_text().split("ITEM: UNITS\nmicro\n")[1:]
+    assert len(frames) == 6
+    assert len(frames[0].splitlines()) == 11
+    for frame, cloud in zip(frames[1:], given, strict=True):
+        lines, cloud_of = frame.splitlines(), cloud.arrays
+        assert float(lines[1]) == cloud.time
+        assert int(lines[5]) == len(cloud.points)
+        names = lines[10].split()[2:]
+        rows = np.array([line.split() for line in lines[11:]], dtype=float)
+        column = dict(zip(names, rows.T, strict=True))
+        np.testing.assert_array_equal(column["id"], cloud_of["origId"] + 1)
+        np.testing.assert_allclose(rows[:, 2:5], 1e6 * cloud.points, rtol=1e-8)
+        # R U Rᵀ by shape and quaternion is the square root of G Gᵀ.
+        w, x, y, z = (column[f"quat{c}"] for c in "wijk")
+        R = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+            ]
+        ).transpose(2, 0, 1)
+        radii = 0.5e-6 * np.stack([column[f"shape{c}"] for c in "xyz"], axis=1)
+        G = cloud_of["glyph"].reshape(-1, 3, 3).transpose(0, 2, 1)
+        found = R @ (radii[:, :, None] ** 2 * R.transpose(0, 2, 1))
+        np.testing.assert_allclose(found, G @ G.transpose(0, 2, 1), rtol=1e-5, atol=1e-9)
+
+
+def numbers(path: Path) -> np.ndarray:
+    text = path.read_text()
+    return np.array(text[text.index("\n(") :].replace("(", " ").replace(")", " ").split(), dtype=float)
+
+
+def test_openfoams_files_name_the_cell_of_each_body(case):
+    export(case, "openfoam")
+    run = foamprb.open_run(case)
+    cloud, folder = run.snapshot(), run.folder / "openfoam/0.4/lagrangian/softCloud"
+    here = cloud["status"] <= 2
+    assert here.sum() == cloud.n_points - 1
+    rows = numbers(folder / "positions").reshape(-1, 4)
+    np.testing.assert_array_equal(rows[:, :3], cloud.points[here])
+    flow = read_case(case)
+    np.testing.assert_array_equal(rows[:, 3], flow.cell_of(flow.locate(cloud.points[here])))
+    F = numbers(folder / "deformationGradient").reshape(-1, 9)
+    np.testing.assert_array_equal(F, cloud["deformationGradient"][here])
+    assert "class       labelField;" in (folder / "origId").read_text()
+    np.testing.assert_array_equal(numbers(folder / "d"), cloud["d"][here])
+    assert (run.folder / "openfoam/constant/polyMesh/points").exists()
+
+
+def test_openfoams_files_go_into_the_case_if_asked(case):
+    export(case, "openfoam", "-output", str(case))
+    assert (case / "0.4/lagrangian/softCloud/positions").exists()
+    assert not (case / "constant").is_symlink()
+
+
+def test_a_body_a_little_outside_is_in_the_cell_at_the_wall(case):
+    from foamprb.view.export import _cells
+
+    flow = read_case(case)
+    inside = np.array([[0.31, 0.47, 1e-6], [0.8, 1.0 - 1e-6, 0.2]])
+    outside = inside + np.array([[0.0, 0.0, -2e-6], [0.0, 2e-6, 0.0]])
+    np.testing.assert_array_equal(_cells(flow, outside), _cells(flow, inside))
+
+
+def test_what_cannot_be_exported_is_said(case, capsys, tmp_path_factory):
+    empty = tmp_path_factory.mktemp("empty")
+    assert main(["export", "vtkhdf", "-case", str(empty)]) == 1
+    assert "no results here" in capsys.readouterr().err
+    assert main(["export", "excel", "-case", str(case)]) == 1
+    assert "vtkhdf" in capsys.readouterr().err
+
+
+def test_a_stress_has_openfoams_order(tmp_path):
+    from foamprb.output.foam import write_lagrangian
+
+    stress = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, np.nan]])
+    folder = tmp_path / "0.1/lagrangian/c"
+    write_lagrangian(folder, np.zeros((1, 3)), np.array([7]), {"S": stress, "q": np.zeros((1, 4))})
+    # xx yy zz xy yz xz become xx xy xz yy yz zz; what is no number becomes 0.
+    assert numbers(folder / "S").tolist() == [1.0, 4.0, 0.0, 2.0, 5.0, 3.0]
+    assert 'location    "0.1/lagrangian/c";' in (folder / "S").read_text()
+    assert not (folder / "q").exists()
