@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -73,7 +74,9 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         period=solution.period,
         startFrom=solution.startFrom,
         maxFailedFraction=solution.maxFailedFraction,
-        limits=Limits(solution.maxStretch, solution.maxSize, solution.maxSubSteps),
+        limits=Limits(
+            solution.maxStretch, solution.maxSize, solution.maxSubSteps, solution.maxCells or math.inf
+        ),
     )
 
 
