@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, TextIO
 
 import foamprb
 from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
+from foamprb.memory import OutOfMemory, forget, ran_out, require_start
 from foamprb.run.estimates import declare as declare_numbers
 from foamprb.view.command import declare, declare_export, declare_report, export, report, view
 
@@ -296,6 +297,9 @@ def _do(words: Sequence[str], ranks: Ranks | None) -> int:
     if parsed.command is None:
         _parser().print_help()
         return 1
+    forget()
+    if parsed.command != "help":
+        require_start()
     return _COMMANDS[parsed.command](parsed, ranks)
 
 
@@ -316,10 +320,12 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
         with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
-    except (InputError, RunStopped, RankError, OSError) as error:
-        if "--debug" in words:
+    except Exception as error:
+        reason = ran_out(error) or error
+        known = isinstance(reason, InputError | RunStopped | RankError | OSError | OutOfMemory)
+        if not known or "--debug" in words:
             raise
-        print(f"--> foamprb Error : {error}", file=sys.stderr)
+        print(f"--> foamprb Error : {reason}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)

@@ -27,7 +27,7 @@ from foamprb.cloud.state import Particles, Reason
 
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
-    FLOW_NOT_FINITE, STRETCHED, TOO_LARGE, WALLS_TOO_MANY, SUB_STEPS,
+    FLOW_NOT_FINITE, STRETCHED, TOO_LARGE, WALLS_TOO_MANY, SUB_STEPS, CELLS_TOO_MANY,
 ) = (int(reason) for reason in Reason if reason)  # fmt: skip
 
 

@@ -205,7 +205,10 @@ class Cloud:
         length = limits.max_size * self.flow.width
         listed = self.flow.lists_walls and bool(self._touchable)
         reach = self.reach if listed else np.inf
-        return Bounds(limits.max_stretch, length, float(limits.max_sub_steps), reach, self._reach_grows)
+        return Bounds(
+            limits.max_stretch, length, float(limits.max_sub_steps), reach, self._reach_grows,
+            limits.max_cells,
+        )  # fmt: skip
 
     def begin(self, steps: int) -> None:
         """Let the executor begin with steps while this process does something else, if it is one that can.

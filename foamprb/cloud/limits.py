@@ -25,9 +25,12 @@ class Limits:
     """Longest semi-axis over the flow's width; at ½ a body is as long as the flow is wide."""
     max_sub_steps: float = 10_000.0
     """Most time steps that a particle takes in one tracking step, those that are repeated among them."""
+    max_cells: float = math.inf
+    """Longest semi-axis over the size of the cell that holds the centre, the cube root of its volume."""
 
     def __post_init__(self) -> None:
-        if not (self.max_stretch > 1.0 and self.max_size > 0.0 and self.max_sub_steps >= 1.0):
+        sizes = self.max_size > 0.0 and self.max_cells > 0.0
+        if not (self.max_stretch > 1.0 and sizes and self.max_sub_steps >= 1.0):
             raise ValueError(f"{self} is out of bounds.")
 
 
@@ -43,3 +46,5 @@ class Bounds(NamedTuple):
     """Distance within which all walls are listed, m."""
     reach_grows: bool = False
     """Whether they can be listed farther away, for a body that needs it."""
+    cells: float = math.inf
+    """Semi-axis over the size of the cell."""

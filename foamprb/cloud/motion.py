@@ -1,7 +1,8 @@
 """What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
 
-The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross`` and ``recover`` are bound to the flow that was
-chosen when the loop is compiled, ``turn_along`` and ``bounce_along`` to a model of the surroundings.
+The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
+those of the flow that was chosen when the loop is compiled, ``turn_along`` and ``bounce_along`` to a model of
+the surroundings.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
+    CELLS_TOO_MANY,
     FLOW_NOT_FINITE,
     LOST,
     NOT_FINITE,
@@ -31,6 +33,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Status
+from foamprb.flow.analytic import cell_volume_free as cell_volume
 from foamprb.flow.analytic import cross_free as cross
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
@@ -128,8 +131,17 @@ def reach_end(
     store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
         spent *= touch(flow, patches, s, i, start)
+    if s.bounds.cells < math.inf and s.status[i] == ACTIVE:
+        fail_in_small_cell(flow, s, i)
     s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
     return mended
+
+
+def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
+    """End the particle in lane i if its longest semi-axis is longer than so many sizes of its cell."""
+    longest = s.block[at.R * LANES + i] * longest_stretch(load9(s.block, at.F, i))
+    if longest**3 > s.bounds.cells**3 * cell_volume(flow, s.host[i]):
+        fail(s, i, CELLS_TOO_MANY)
 
 
 def between(a: Vector, b: Vector, f: float) -> Vector:
@@ -387,5 +399,5 @@ def longest_of(p: Particles) -> float:
     return longest
 
 
-RARE: tuple[Callable[..., Any], ...] = (fail, beyond, last_inside, move_back)
+RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, last_inside, move_back)
 """What few steps need: compiled on its own, it does not swell the loops."""

@@ -25,6 +25,8 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
         hint = f"maxStretch is {limits.max_stretch:g}; it has no steady shape there"
     elif reason == Reason.TOO_LARGE:
         hint = f"maxSize is {limits.max_size:g}; no gradient is uniform over such a body"
+    elif reason == Reason.CELLS_TOO_MANY:
+        hint = f"maxCells is {limits.max_cells:g}"
     elif reason == Reason.WALLS_TOO_MANY:
         hint = "no gradient is uniform over such a body"
     elif reason == Reason.SUB_STEPS:

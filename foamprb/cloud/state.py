@@ -42,6 +42,7 @@ class Reason(IntEnum):
     TOO_LARGE = 8
     WALLS_TOO_MANY = 9
     SUB_STEPS = 10
+    CELLS_TOO_MANY = 11
 
 
 REASONS: dict[Reason, str] = {
@@ -56,6 +57,7 @@ REASONS: dict[Reason, str] = {
     Reason.TOO_LARGE: "its longest semi-axis is beyond maxSize of the flow's width",
     Reason.WALLS_TOO_MANY: "it is so many cells long that the walls near it cannot be listed",
     Reason.SUB_STEPS: "it needs more than maxSubSteps time steps in one tracking step",
+    Reason.CELLS_TOO_MANY: "its longest semi-axis is beyond maxCells of the cell that holds its centre",
 }
 """What happened, as the end of a sentence on a particle."""
 

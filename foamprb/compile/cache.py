@@ -123,14 +123,16 @@ def _read(file: Path, root: Path) -> bytes:
         descriptor = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
         return b""
-    with os.fdopen(descriptor, "rb") as opened:
+    try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode) or not _is_trusted(file, lambda: status, root):
             return b""
-        try:
+        with os.fdopen(descriptor, "rb", closefd=False) as opened:
             data = opened.read()
-        except OSError:
-            return b""
+    except OSError:
+        return b""
+    finally:
+        os.close(descriptor)
     head, data = data[: len(_MAGIC) + 32], data[len(_MAGIC) + 32 :]
     return data if head == _MAGIC + hashlib.sha256(data).digest() else b""
 

@@ -1,7 +1,7 @@
 """Flows in closed form, behind the same interface as a mesh: for tests, validation and first steps.
 
 A flow gives the particle loop a tuple of numbers (:meth:`arrays`) and plain functions of it
-(:attr:`kernels`): ``sample``, ``walk``, ``gap``, ``normal`` and ``recover``; see
+(:attr:`kernels`): ``sample``, ``walk``, ``gap``, ``normal``, ``recover`` and perhaps others; see
 :mod:`foamprb.flow.walk` for what each returns.
 """
 
@@ -92,6 +92,11 @@ def cross_free(flow: Any, triangle: int, x: Vector) -> tuple[int, Vector, Tensor
 def recover_free(flow: Any, x: Vector) -> int:
     """The flow is everywhere."""
     return 0
+
+
+def cell_volume_free(flow: Any, host: int) -> float:
+    """There are no cells."""
+    return math.inf
 
 
 def everywhere(points: Floats) -> NDArray[np.bool_]:

@@ -108,7 +108,8 @@ class Flow(Sampled, Protocol):
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;
-    * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside.
+    * ``recover(flow, x) -> host``: the host of a point, sought from nothing; −1 outside;
+    * ``cell_volume(flow, host) -> V``: of the cell of a host, m³; a flow without cells need not have it.
     """
 
     span: tuple[float, float]

@@ -19,7 +19,7 @@ from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import cross, follow, normal, recover, sample, turbulence, walk
+from foamprb.flow.walk import cell_volume, cross, follow, normal, recover, sample, turbulence, walk
 from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
 
 LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, planes_among, seek)
@@ -126,6 +126,7 @@ class MeshFlow:
         "cross": cross,
         "recover": recover,
         "turbulence": turbulence,
+        "cell_volume": cell_volume,
     }
     """The functions that a particle loop calls, by the names under which it calls them."""
     lists_walls = True

@@ -25,6 +25,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import blend_turbulence, corners, interpolate, inward, shape
+from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walls import gap as gap_mesh
@@ -125,6 +126,11 @@ def recover(flow: SeriesArrays, x: Vector) -> int:
     return locate(flow.mesh, x)
 
 
+def cell_volume(flow: SeriesArrays, host: int) -> float:
+    """:func:`foamprb.flow.walk.cell_volume`."""
+    return cell_volume_mesh(flow.mesh, host)
+
+
 class SeriesFlow:
     """A flow given by u and ∇u at the nodes of a mesh at several times, linear between them.
 
@@ -165,6 +171,7 @@ class SeriesFlow:
         "cross": cross,
         "recover": recover,
         "turbulence": turbulence,
+        "cell_volume": cell_volume,
     }
 
     def __init__(

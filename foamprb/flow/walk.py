@@ -191,6 +191,15 @@ def recover(flow: MeshArrays, x: Vector) -> int:
     return locate(flow, x)
 
 
+def cell_volume(flow: MeshArrays, host: int) -> float:
+    """Volume of the cell to which a tetrahedron belongs, of which the faces are made of triangles, m³."""
+    cell = flow.tets[host, 0] - flow.n_points
+    volume = 0.0
+    for tet in range(flow.cell_start[cell], flow.cell_start[cell + 1]):
+        volume += frame(flow, tet)[4]
+    return volume / 6.0
+
+
 def normal(flow: MeshArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
     """Unit normal of a boundary triangle, pointing into the mesh; it is flat, so x does not matter."""
     return inward(flow, triangle)

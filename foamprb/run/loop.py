@@ -9,14 +9,19 @@ import numpy as np
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Executor
+from foamprb.cloud.injection.room import BYTES
 from foamprb.cloud.measures import context
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
+from foamprb.memory import require, wants
 from foamprb.parallel.signals import caught_signals
 from foamprb.run.job import Job
 from foamprb.run.log import RunLog, log_compiling, progress_bar
 from foamprb.run.results import FAILURES, HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.settings import StartFrom
+
+_COPIES, _BESIDE = 0.5 * BYTES, 1e8
+"""Address space for each particle, for the copy that is written; and for threads and libraries, bytes."""
 
 
 def execute(
@@ -55,7 +60,11 @@ def execute(
         writing to the same folder.
     RunStopped
         If ``stop`` said so, too many particles failed, or results could not be written.
+    OutOfMemory
+        If the address space of this process is limited, and too small.
     """
+    wants("particles", job.cloud.particles.size, BYTES)
+    require(_COPIES * job.cloud.particles.size + _BESIDE)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
         log = RunLog(job)

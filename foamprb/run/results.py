@@ -19,6 +19,7 @@ from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
+from foamprb.memory import OutOfMemory, ran_out
 from foamprb.output.atomic import only_writer, remove_unfinished
 from foamprb.output.background import Writer
 from foamprb.output.checkpoint import Checkpoint, Checkpoints
@@ -47,7 +48,7 @@ def open_results(job: Job) -> Iterator[Results]:
     InputError
         If another run writes there.
     RunStopped
-        In place of any OSError within: results could not be written.
+        In place of any OSError within: results could not be written; or memory ran out.
     """
     try:
         with only_writer(job.folder), Writer() as writer:
@@ -55,8 +56,11 @@ def open_results(job: Job) -> Iterator[Results]:
     except BrokenPipeError:
         # It comes from the log, which nobody reads any more.
         raise
-    except OSError as error:
-        raise RunStopped(f"{str(error).rstrip('.')}. {HOW_TO_GO_ON}") from error
+    except Exception as error:
+        reason = ran_out(error) or error
+        if not isinstance(reason, OSError | OutOfMemory):
+            raise
+        raise RunStopped(f"{str(reason).rstrip('.')}. {HOW_TO_GO_ON}") from error
 
 
 class Results:

@@ -150,6 +150,19 @@ class Solution:
     maxSubSteps: Annotated[
         float, _FROM_ONE, Meaning("one that needs more time steps in one `deltaT` fails", "1")
     ] = Limits.max_sub_steps
+    maxCells: (
+        Annotated[
+            float,
+            Positive,
+            Meaning(
+                "one whose longest semi-axis is more times the size of the cell that holds its centre (the "
+                "cube root of its volume) fails",
+                "1",
+                "none",
+            ),
+        ]
+        | None
+    ) = None
     active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
     coupled: Annotated[bool, _NOT_COUPLED] = False
     transient: Annotated[

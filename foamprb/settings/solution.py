@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -74,7 +75,9 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         rotatingZones=solution.rotatingZones,
         startFrom=solution.startFrom,
         maxFailedFraction=solution.maxFailedFraction,
-        limits=Limits(solution.maxStretch, solution.maxSize, solution.maxSubSteps),
+        limits=Limits(
+            solution.maxStretch, solution.maxSize, solution.maxSubSteps, solution.maxCells or math.inf
+        ),
     )
 
 

@@ -108,6 +108,53 @@ class TestSize:
         assert MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3))).width == pytest.approx(1.0)
 
 
+class TestCells:
+    @staticmethod
+    def flow(several: bool):
+        """Shear of 1/s along x, at two times or steady, in hexahedra and smaller prisms."""
+        from mesh_shapes import block, box_patches
+
+        from foamprb.flow.mesh.mesh import build_mesh
+        from foamprb.flow.meshflow import MeshFlow
+        from foamprb.flow.series import SeriesFlow
+
+        shape = block(3, 0.0, "mixed")
+        mesh = build_mesh(shape, box_patches(shape))
+        points = np.concatenate([mesh.points, mesh.centres])
+        l = np.zeros((len(points), 3, 3))
+        l[:, 0, 2] = 1.0
+        u = np.einsum("nij,nj->ni", l, points - 0.5)
+        return SeriesFlow(mesh, [0.0, 100.0], lambda _: (u, l)) if several else MeshFlow(mesh, u, l)
+
+    @pytest.mark.parametrize("several", [False, True])
+    @pytest.mark.parametrize("integrator", INTEGRATORS)
+    def test_one_that_outgrows_its_cell_fails_and_says_so(self, several, integrator):
+        flow = self.flow(several)
+        x = np.array([[0.3, 0.4, 0.5], [0.7, 0.6, 0.5]])
+        size = flow.cell_size(flow.locate(x))
+        p = spheres(x, d=0.8 * 2.0 * size, rho=1e3, mu=[1e-2, 1e3])
+        limits = Limits(max_cells=1.0, max_size=1e3)
+        models = Models(integrator=integrator, touching="centre")
+        walls = [Rebound() for _ in flow.patches]
+        cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
+        cloud.carry(200)
+        assert reasons(cloud) == [Reason.CELLS_TOO_MANY, Reason.NONE]
+        longest = p.R * np.linalg.norm(p.F.reshape(-1, 3, 3), 2, axis=(1, 2)) / flow.cell_size(p.host)
+        # What is compared is a bound of the longest stretch from above.
+        assert 0.97 < longest[0] < 1.02
+        assert longest[1] < 1.0
+        assert "(maxCells is 1)" in explain(p.reason[0], models, limits)
+
+    def test_without_the_limit_a_body_may_be_many_cells_wide(self):
+        flow = self.flow(False)
+        p = spheres([[0.5, 0.5, 0.5]], d=50.0, rho=1e6, mu=1e3)
+        walls = [Rebound() for _ in flow.patches]
+        models, limits = Models(touching="centre"), Limits(max_size=1e3)
+        cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
+        cloud.carry(10)
+        assert p.status[0] == Status.ACTIVE
+
+
 class TestCost:
     def test_a_particle_that_needs_more_steps_than_it_may_fails(self):
         for most, reason in ((3, Reason.SUB_STEPS), (1e6, Reason.NONE)):

@@ -25,7 +25,14 @@ from foamprb.body.tensor import (
 from foamprb.body.traction import disturbance
 from foamprb.cloud import measures
 from foamprb.cloud.executor import longest_semi_axis
-from foamprb.cloud.measures import MEASURES, context, contexts, gradients, measure
+from foamprb.cloud.measures import (
+    MEASURES,
+    context,
+    contexts,
+    gradients,
+    measure,
+    shape_stokes_number,
+)
 from foamprb.cloud.state import Particles, Status
 
 MU = 1.8e-5
@@ -170,3 +177,12 @@ def test_a_copy_of_what_changes_stays_as_it_was(flow):
     assert again.particles.F is snapshot.particles.F
     assert np.array_equal(again.particles.F, cloud.particles.F)
     assert (snapshot.step, again.step) == (1, 4)
+
+
+def test_the_shape_stokes_number_is_the_largest_shear_rate_times_relaxation_time():
+    """γ̇ τ_s with τ_s = ρ R²/(15 μ_f) of a body without viscosity; twice the rate is twice the number."""
+    p = spheres(np.zeros((2, 3)), d=[2e-3, 4e-3], rho=900.0, mu=1.0)
+    p.host[:] = 0
+    for rate in (3.0, 6.0):
+        found = shape_stokes_number(p, analytic.shear(rate), 0.05, 0.0)
+        assert found == pytest.approx(rate * 900.0 * 4e-6 / (15.0 * 0.05), rel=1e-9)

@@ -282,6 +282,19 @@ class TestOwners:
         store.save("key", 2)
         assert store.load("key") == 2
 
+    @pytest.mark.usefixtures("folder")
+    def test_a_folder_in_the_place_of_a_file_stops_nobody(self):
+        store = Store("name")
+        store.save("key", 1)
+        file = store._file("key")
+        file.unlink()
+        file.mkdir()
+        assert store.load("key") is None
+        # It stays there, and what is compiled is not kept.
+        store.save("key", 2)
+        assert store.load("key") is None
+        assert [path.name for path in file.parent.iterdir()] == [file.name]
+
 
 def re_path(record):
     """The path that a warning names."""

@@ -17,6 +17,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_times
 from foamprb.flow.series import SeriesFlow
 
@@ -300,3 +301,19 @@ def test_times_are_selected_as_by_openfoam(case, selection, chosen):
 def test_times_that_are_not_there_are_named(case, selection, message):
     with pytest.raises(InputError, match=message):
         select_times(case, selection)
+
+
+def test_between_two_times_every_component_is_their_mean_by_time():
+    """Of velocity and gradient; the numbers at the nodes are of no meaning, and all different."""
+    shape = block(2, 0.2)
+    mesh = build_mesh(shape, box_patches(shape))
+    random, n = np.random.default_rng(2), len(mesh.nodes)
+    fields = [(random.normal(size=(n, 3)), random.normal(size=(n, 3, 3))) for _ in range(2)]
+    series = SeriesFlow(mesh, [0.0, 2.0], lambda k: fields[k])
+    x = random.uniform(0.1, 0.9, (20, 3))
+    hosts = series.locate(x)
+    (u0, l0), (u1, l1) = (MeshFlow(mesh, *field).sample(x, hosts, 0.0) for field in fields)
+    u, l = series.sample(x, hosts, 0.5)
+    np.testing.assert_allclose(u, 0.75 * u0 + 0.25 * u1, atol=1e-13)
+    np.testing.assert_allclose(l, 0.75 * l0 + 0.25 * l1, atol=1e-13)
+    assert np.unique(np.round(l, 6)).size == l.size

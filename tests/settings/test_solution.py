@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
 import pytest
 from cloud_dictionary import Reader
 
+from foamprb.cloud.limits import Limits
 from foamprb.errors import InputError
 
 OWN = "deltaT          2e-05;\n    endTime         0.4;"
@@ -101,3 +103,10 @@ def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, messag
     assert str(caught.value).startswith("constant/softCloudProperties, line ")
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_limits_of_particles_are_those_of_their_entries(read: Reader) -> None:
+    limits = read((OWN, f"{OWN} maxStretch 5; maxSize 0.25; maxSubSteps 7; maxCells 2;")).solution.limits
+    assert limits == Limits(max_stretch=5.0, max_size=0.25, max_sub_steps=7.0, max_cells=2.0)
+    assert read((OWN, OWN)).solution.limits == Limits()
+    assert Limits().max_cells == math.inf

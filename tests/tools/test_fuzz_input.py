@@ -33,6 +33,28 @@ def test_damaged_input_ends_in_a_message_or_a_correct_run(tool, tmp_path):
     assert seen == {"message", "run", "other"}
 
 
+def test_a_damaged_cache_ends_in_the_same_run(tool, tmp_path):
+    failures: list[str] = []
+    outcomes = tool.fuzz_caches(2, 1, tmp_path, failures.append)
+    assert not failures, "\n".join(failures)
+    assert outcomes == {("the cache", "run"): 2}
+
+
+def test_every_damage_of_a_cache_changes_it(tool, tmp_path):
+    for number, (name, change) in enumerate(tool.CACHE_DAMAGES.items()):
+        cache = tmp_path / str(number)
+        for folder in "ab":
+            (cache / folder).mkdir(parents=True)
+            (cache / folder / "x.code").write_bytes(folder.encode() * 1000)
+        path = cache / "a/x.code"
+        change(path, tool.random.Random(3))
+        whole = path.is_file() and path.read_bytes() == b"a" * 1000
+        closed = (
+            not (path.exists() and path.stat().st_mode & 0o022) and not path.parent.stat().st_mode & 0o022
+        )
+        assert not (whole and closed), name
+
+
 def test_a_failure_is_seen(tool, tmp_path):
     """The sound inputs with other sizes than they have: every one must be told."""
     inputs = tool.sound_inputs(tmp_path)

@@ -137,7 +137,42 @@ def test_survivors_are_what_no_test_notices(tool, tree, tmp_path):
     assert again == results
     table = tool.table(results)
     n = len(results)
-    assert f"| `body/` | {n} | {n - 2} | 0 | 2 | {1 - 2 / n:.0%} |" in table
+    assert f"| `body/` | {n} | {n - 2} | 0 | 2 | 0 | {1 - 2 / n:.0%} |" in table
+    # Interrupted before the tests that are further off were asked, it asks those, and nothing else.
+    record = tmp_path / "out/results.jsonl"
+    lines = [line.replace('"survived"', '"unjudged"') for line in record.read_text().splitlines()]
+    record.write_text("\n".join(lines) + "\n")
+    said.clear()
+    third = tool.run(tree, tmp_path / "out", chosen, said.append)
+    assert [r.outcome for r in third] == [r.outcome for r in results]
+    assert len([line for line in said if line.startswith(("survived", "caught"))]) == 2
+
+
+def test_the_nearest_tests_are_those_that_import_a_file_by_the_fewest_steps(tool, tmp_path):
+    for name, text in (
+        ("foamprb/body/shape.py", ""),
+        ("foamprb/body/__init__.py", "from foamprb.body.shape import area\n"),
+        ("foamprb/body/other.py", "import foamprb.body.shape\n"),
+        ("tests/shapes.py", "from foamprb.body.shape import area\n"),
+        ("tests/body/test_a.py", "from foamprb.body.other import what\nfrom shapes import ball\n"),
+        ("tests/body/test_b.py", "from foamprb.body import shape\n"),
+        ("tests/body/test_c.py", "import math\n"),
+        ("tests/body/test_shape.py", "import math\n"),
+        ("tests/cloud/test_shape.py", "from foamprb.body import shape\n"),
+    ):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    near = tool.nearest(tool.imports(tmp_path), "foamprb/body/shape.py")
+    assert near == [f"tests/body/test_{name}.py" for name in ("shape", "b", "a", "c")]
+
+
+def test_interval_of_a_score(tool):
+    """Wilson (1927): by numbers that fulfil (p − k/n)² = z² p (1 − p)/n at both ends."""
+    for noticed, n in ((14, 16), (0, 5), (300, 300), (270, 300)):
+        for p in tool.interval(noticed, n):
+            assert (p - noticed / n) ** 2 == pytest.approx(1.959963984540054**2 * p * (1.0 - p) / n, abs=1e-9)
+    low, high = tool.interval(270, 300)
+    assert low < 0.9 < high
 
 
 def test_tests_that_do_not_end_are_out_of_time(tool, tree, tmp_path):

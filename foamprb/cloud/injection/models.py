@@ -16,7 +16,7 @@ from typing import Annotated, Literal, NamedTuple, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.injection.room import require_room
+from foamprb.cloud.injection.room import BYTES, require_room
 from foamprb.cloud.state import Particles, empty
 from foamprb.dictionary.constraints import (
     Angle,
@@ -31,6 +31,7 @@ from foamprb.dictionary.constraints import (
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
+from foamprb.memory import wants
 
 Floats = NDArray[np.float64]
 log = logging.getLogger("foamprb")
@@ -365,6 +366,7 @@ def release(model: Injection, flow: Flow, random: np.random.Generator, read: Rea
     """
     places = model.places(flow, random, read)
     n = len(places.t)
+    wants("particles", n, BYTES)
     p = empty(n)
     p.x[:] = p.x0[:] = places.x
     p.host[:] = places.hosts

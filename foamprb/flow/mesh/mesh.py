@@ -25,8 +25,11 @@ from foamprb.flow.mesh.faces import choose_bases
 from foamprb.flow.mesh.geometry import Faces, boundary_geometry, cell_geometry, inward_normals, order_faces
 from foamprb.flow.mesh.lists import Index, int32
 from foamprb.flow.mesh.tetrahedra import cut_into_tetrahedra, turn_alike
+from foamprb.memory import wants
 
 _MOST_TURNS = 5
+CELL_BYTES = 3000.0
+"""Memory for each cell while a flow is read, about; a third of it is kept."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +126,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         Cells of another type; a face of three cells; an open cell; boundary faces that no patch has or two
         patches have; patch faces that are not on the boundary.
     """
+    wants("cells", grid.n_cells, CELL_BYTES)
     points = np.ascontiguousarray(grid.points, dtype=np.float64)
     half, cell_point_start, cell_points = list_half_faces(grid, source)
     mate = match_half_faces(half, source)

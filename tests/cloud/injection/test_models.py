@@ -26,13 +26,14 @@ from foamprb.cloud.injection.models import (
     PatchInjection,
     given_shear_modulus,
 )
-from foamprb.cloud.injection.room import BYTES, memory
+from foamprb.cloud.injection.room import BYTES
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
+from foamprb.memory import memory
 
 CONE = {
     "positionAxis": (((0.1, 0.0, 0.0), (1.0, 1.0, 0.0)), ((0.2, 0.0, 0.0), (0.0, 0.0, -3.0))),

@@ -1,0 +1,402 @@
+"""Where rigid particles go in OpenFOAM's elbow: foamprb and OpenFOAM's tracking, on finer and finer meshes.
+
+Usage: python tools/figures/elbow.py [-levels N] [-folder DIR] [-write PAGE]
+
+The mesh of the icoFoam tutorial `elbow` is refined by cutting each triangle into four. icoFoam computes the
+flow on the finest mesh; on a coarser one a cell has the mean of the cells of which it consists. So the flow
+is the same one on all meshes, as well as each can hold it, and what differs is how a particle is taken
+through it. 60 particles, so small and stiff that both programs should find the same, start at the two inlets:
+foamprb with `rosenbrock`, and icoUncoupledKinematicParcelFoam with `sphereDrag` and each of its two
+interpolations of U. Their places at all seconds are compared with those that the *other* program finds, on
+the same mesh and on the finest one, so that no program is measured by itself.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gzip
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, read_case, spheres
+from foamprb.cloud.patches import Interaction, Mirror
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+TUTORIAL = Path("/usr/share/doc/openfoam-examples/examples/incompressible/icoFoam/elbow")
+BEGIN, END = "<!-- elbow -->", "<!-- end of elbow -->"
+EMPTY = "frontAndBackPlanes"
+DIAMETER, DENSITY, FLUID, NU = 1e-4, 1e5, 1.0, 0.01
+SECONDS = 30
+SETTLED = (40.0, 10.0, 5.0, 2.0)
+"""Seconds that icoFoam runs on each mesh, from the flow on the one before."""
+HEADER = 'FoamFile {{ version 2.0; format ascii; class {}; location "{}"; object {}; }}\n'
+
+
+class Plane(NamedTuple):
+    """Triangles, and the edges of each patch; what is above and below them is empty."""
+
+    points: Floats
+    """(n, 2), m."""
+    triangles: Ints
+    edges: dict[str, Ints]
+    z: tuple[float, float]
+
+    @property
+    def centres(self) -> Floats:
+        """(n, 2), m."""
+        return self.points[self.triangles].mean(axis=1)
+
+    def refined(self) -> Plane:
+        """Each triangle in four, number 4 t to 4 t + 3 of triangle t, and each edge in two."""
+        a, b, c = self.triangles.T
+        sides = np.sort(np.concatenate([[a, b], [b, c], [c, a]], axis=1).T, axis=1)
+        pairs, which = np.unique(sides, axis=0, return_inverse=True)
+        n, ab, bc, ca = len(self.points), *(len(self.points) + which.reshape(3, -1))
+        children = [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        middle = {(int(i), int(j)): n + k for k, (i, j) in enumerate(pairs)}
+        edges = {}
+        for name, old in self.edges.items():
+            halves = [middle[int(min(i, j)), int(max(i, j))] for i, j in old]
+            edges[name] = np.concatenate(
+                [np.column_stack([old[:, 0], halves]), np.column_stack([halves, old[:, 1]])]
+            )
+        return Plane(
+            np.concatenate([self.points, self.points[pairs].mean(axis=1)]),
+            np.transpose(children, (2, 0, 1)).reshape(-1, 3),
+            edges,
+            self.z,
+        )
+
+    def write(self, path: Path) -> None:
+        """As a mesh of prisms in Gmsh's format 2.2."""
+        n = len(self.points)
+        nodes = np.concatenate([np.column_stack([self.points, np.full(n, z)]) for z in self.z])
+        names = [EMPTY, *self.edges]
+        elements = [(2, 1, row) for row in (*self.triangles, *(self.triangles[:, ::-1] + n))]
+        for k, edges in enumerate(self.edges.values()):
+            elements += [(3, 2 + k, row) for row in np.column_stack([edges, edges[:, ::-1] + n])]
+        elements += [(6, 100, row) for row in np.column_stack([self.triangles, self.triangles + n])]
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", f"{len(names) + 1}"]
+        lines += [f'2 {1 + k} "{name}"' for k, name in enumerate(names)] + [
+            '3 100 "fluid"',
+            "$EndPhysicalNames",
+        ]
+        lines += [
+            "$Nodes",
+            f"{len(nodes)}",
+            *(f"{k + 1} {x!r} {y!r} {z!r}" for k, (x, y, z) in enumerate(nodes.tolist())),
+        ]
+        lines += ["$EndNodes", "$Elements", f"{len(elements)}"]
+        for k, (kind, tag, row) in enumerate(elements):
+            lines.append(f"{k + 1} {kind} 2 {tag} {tag} {' '.join(str(i + 1) for i in row)}")
+        path.write_text("\n".join([*lines, "$EndElements", ""]))
+
+
+class Run(NamedTuple):
+    """Places of all particles at each second, (times, n, 2), NaN where one is not in the flow."""
+
+    name: str
+    level: int
+    dt: float
+    places: Floats
+
+
+def sh(case: Path, *words: str) -> None:
+    """Run one of OpenFOAM's programs."""
+    with (case / f"log.{words[0]}").open("w") as log:
+        subprocess.run([*words, "-case", str(case)], check=True, stdout=log, stderr=log)
+
+
+def put(case: Path, name: str, text: str, kind: str = "dictionary") -> None:
+    """Write a file of a case."""
+    path = case / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(HEADER.format(kind, Path(name).parent, path.name) + text)
+
+
+def change(path: Path, entries: Mapping[str, object]) -> None:
+    """Give entries of a dictionary other values."""
+    text = path.read_text()
+    for key, value in entries.items():
+        text = re.sub(rf"(\n{key}\s+)[^;]+", rf"\g<1>{value}", text)
+    path.write_text(text)
+
+
+def tutorial(case: Path) -> Plane:
+    """Copy the tutorial, and read its mesh."""
+    shutil.copytree(TUTORIAL, case)
+    for file in case.rglob("*.gz"):
+        file.with_suffix("").write_bytes(gzip.decompress(file.read_bytes()))
+    sh(case, "fluentMeshToFoam", str(case / "elbow.msh"))
+    mesh = read_case(case, "0").mesh
+    low = mesh.points[:, 2] < mesh.points[:, 2].mean()
+    numbers = np.cumsum(low) - 1
+    cells = mesh.cell_points.reshape(-1, 6)
+    triangles = numbers[cells[low[cells]].reshape(-1, 3)]
+    turned = area(mesh.points[low, :2], triangles) < 0.0
+    triangles[turned] = triangles[turned, ::-1]
+    edges = {}
+    for k, patch in enumerate(mesh.patches):
+        if patch.name != EMPTY:
+            faces = np.arange(mesh.patch_start[k], mesh.patch_start[k + 1]) + mesh.n_internal
+            corners = mesh.face_points[mesh.face_start[faces][:, None] + np.arange(4)]
+            edges[patch.name] = numbers[corners[low[corners]].reshape(-1, 2)]
+    z = mesh.points[:, 2]
+    return Plane(mesh.points[low, :2], triangles, edges, (float(z.min()), float(z.max())))
+
+
+def write_mesh(plane: Plane, case: Path) -> None:
+    """Put a mesh into a case, with OpenFOAM's converter."""
+    plane.write(case / "mesh.msh")
+    sh(case, "gmshToFoam", str(case / "mesh.msh"))
+    boundary = case / "constant/polyMesh/boundary"
+    text = boundary.read_text()
+    for name in (EMPTY, *plane.edges):
+        kind = "empty" if name == EMPTY else "wall" if name.startswith("wall") else "patch"
+        text = re.sub(rf"(\b{name}\s*\{{[^}}]*?type\s+)\w+", rf"\g<1>{kind}", text)
+    boundary.write_text(text)
+
+
+def order(plane: Plane, case: Path) -> Ints:
+    """The triangle of each cell of a case."""
+    centres = read_case(case, "0").mesh.centres[:, :2]
+    distance, triangle = cKDTree(plane.centres).query(centres)
+    if distance.max() > 1e-4 or len(np.unique(triangle)) < len(plane.triangles):
+        raise SystemExit(f"{case}: the cells are not those that were written")
+    return np.asarray(triangle, dtype=np.int64)
+
+
+def read_u(path: Path) -> Floats:
+    """Values of a field of vectors in the cells, written as text."""
+    text = path.read_text()
+    found = re.search(r"internalField\s+nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text, re.DOTALL)
+    if found is None:
+        raise SystemExit(f"{path}: no list of vectors")
+    return np.array(found[1].replace("(", " ").replace(")", " ").split(), dtype=float).reshape(-1, 3)
+
+
+def write_u(case: Path, u: Floats) -> None:
+    """Replace the values of ``0/U``."""
+    values = "\n".join(f"({a:.17g} {b:.17g} {c:.17g})" for a, b, c in u.tolist())
+    field = f"internalField nonuniform List<vector> {len(u)} (\n{values}\n);"
+    path = case / "0/U"
+    path.write_text(re.sub(r"internalField[^;]*;", field, path.read_text()))
+
+
+def solve(folder: Path, levels: int) -> list[Path]:
+    """Cases of all meshes with the flow of the finest one, the coarsest first."""
+    base = folder / "base"
+    planes = [tutorial(base)]
+    for _ in range(levels - 1):
+        planes.append(planes[-1].refined())
+    u: Floats = np.empty((0, 3))
+    cases = []
+    for level, plane in enumerate(planes):
+        case = folder / f"level{level}"
+        for name in ("0", "system"):
+            shutil.copytree(base / name, case / name)
+        (case / "constant").mkdir()
+        shutil.copy(base / "constant/transportProperties", case / "constant")
+        end, dt = SETTLED[level], 0.05 / 2**level
+        control = {"endTime": end, "deltaT": dt, "writeInterval": round(end / dt), "writePrecision": 15}
+        change(case / "system/controlDict", control)
+        write_mesh(plane, case)
+        triangle = order(plane, case)
+        if level > 0:
+            write_u(case, np.repeat(u, 4, axis=0)[triangle])
+        sh(case, "icoFoam")
+        u = np.empty((len(plane.triangles), 3))
+        u[triangle] = read_u(case / f"{end:g}/U")
+        cases.append(case)
+    for case, plane in zip(reversed(cases), reversed(planes), strict=True):
+        write_u(case, u[order(plane, case)])
+        areas = area(plane.points, plane.triangles)
+        if case is not cases[0]:
+            u = (u * areas[:, None]).reshape(-1, 4, 3).sum(axis=1) / areas.reshape(-1, 4, 1).sum(axis=1)
+    return cases
+
+
+def area(points: Floats, triangles: Ints) -> Floats:
+    """Of each triangle, m², negative if it turns clockwise."""
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    p, q = b - a, c - a
+    return np.asarray(0.5 * (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]))
+
+
+def starts(case: Path) -> Floats:
+    """60 places near the inlets, half at each."""
+    z = read_case(case, "0").mesh.points[:, 2].mean()
+    share = (np.arange(30) + 0.5) / 30.0
+    left = np.column_stack([np.full(30, 0.5), 16.0 * share, np.full(30, z)])
+    below = np.column_stack([52.6 + 3.9 * share, np.full(30, -4.3), np.full(30, z)])
+    return np.concatenate([left, below])
+
+
+CLOUD = """
+solution
+{{
+    active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3;
+    interpolationSchemes {{ rho cell; U {scheme}; mu cell; }}
+    integrationSchemes {{ U analytical; }}
+}}
+constantProperties {{ rho0 {density}; }}
+subModels
+{{
+    particleForces {{ sphereDrag; }}
+    injectionModels
+    {{
+        all
+        {{
+            type manualInjection; massTotal 0; parcelBasisType fixed; nParticle 1; SOI 0; U0 (0 0 0);
+            positionsFile "places";
+            sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {diameter}; }} }}
+        }}
+    }}
+    dispersionModel none; surfaceFilmModel none; stochasticCollisionModel none; collisionModel none;
+    patchInteractionModel localInteraction;
+    localInteractionCoeffs
+    {{
+        patches
+        (
+            "wall.*" {{ type rebound; e 1; mu 0; }}
+            "(velocity|pressure).*" {{ type escape; }}
+            frontAndBackPlanes {{ type none; }}
+        );
+    }}
+}}
+cloudFunctions {{}}
+"""
+CONTROL = """
+application icoUncoupledKinematicParcelFoam;
+startFrom startTime; startTime 0; stopAt endTime; endTime {end}; deltaT {dt};
+writeControl timeStep; writeInterval {interval}; purgeWrite 0; writeFormat ascii; writePrecision 12;
+timeFormat general; timePrecision 9; runTimeModifiable no;
+"""
+
+
+def openfoam(case: Path, level: int, scheme: str, dt: float) -> Run:
+    """OpenFOAM's own tracking."""
+    copy = case.with_name(f"{case.name}-{scheme}-{dt:g}")
+    shutil.copytree(case / "0", copy / "0")
+    shutil.copytree(case / "constant", copy / "constant")
+    shutil.copytree(case / "system", copy / "system")
+    x = starts(case)
+    places = "\n".join(f"({a:.17g} {b:.17g} {c:.17g})" for a, b, c in x.tolist())
+    put(copy, "constant/places", f"(\n{places}\n)\n", "vectorField")
+    cloud = CLOUD.format(scheme=scheme, density=DENSITY, diameter=DIAMETER)
+    put(copy, "constant/kinematicCloudProperties", cloud)
+    put(copy, "constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);\n", "uniformDimensionedVectorField")
+    put(copy, "constant/turbulenceProperties", "simulationType laminar;\n")
+    put(copy, "constant/transportProperties", f"transportModel Newtonian; rhoInf {FLUID}; nu {NU};\n")
+    put(copy, "system/controlDict", CONTROL.format(end=SECONDS, dt=dt, interval=round(1.0 / dt)))
+    sh(copy, "icoUncoupledKinematicParcelFoam")
+    found = np.full((SECONDS, len(x), 2), np.nan)
+    for t in range(SECONDS):
+        cloud_folder = copy / f"{t + 1}/lagrangian/kinematicCloud"
+        who = [int(word) for word in _list(cloud_folder / "origId")]
+        where = [line.strip("(").split(")")[0].split() for line in _list(cloud_folder / "positions")]
+        found[t, who] = np.array(where, dtype=float).reshape(-1, 3)[:, :2]
+    return Run(f"OpenFOAM, {scheme}", level, dt, found)
+
+
+def _list(path: Path) -> list[str]:
+    """Lines of a list that is written as text; one of equal numbers is written as one."""
+    text = path.read_text()
+    same = re.search(r"\n(\d+)\s*\{(\S+)\}", text)
+    if same:
+        return [same[2]] * int(same[1])
+    found = re.search(r"\n\d+\s*\n?\((.*)\)", text, re.DOTALL)
+    return found[1].strip().splitlines() if found else []
+
+
+def foamprb(case: Path, level: int, dt: float) -> Run:
+    """Ours, with bodies that are stiff."""
+    flow, x = read_case(case, "0"), starts(case)
+    p = spheres(x, d=DIAMETER, rho=DENSITY, mu=1e6)
+    p.v[:] = 0.0
+    actions: list[Interaction] = [
+        Mirror() if patch.name == EMPTY else Rebound() if patch.name.startswith("wall") else Escape()
+        for patch in flow.patches
+    ]
+    models = Models(integrator="rosenbrock", touching="centre")
+    cloud = Cloud(p, flow, Medium(FLUID * NU, FLUID, (0.0, 0.0, 0.0)), actions, dt, models, 1)
+    found = np.full((SECONDS, p.size, 2), np.nan)
+    for t in range(SECONDS):
+        cloud.advance(round(1.0 / dt))
+        active = p.status == Status.ACTIVE
+        found[t, active] = p.x[active, :2]
+    return Run("foamprb", level, dt, found)
+
+
+def distances(a: Run, b: Run) -> Floats:
+    """Of a particle in one run and in the other, at all times at which both have it, m."""
+    apart = np.linalg.norm(a.places - b.places, axis=2)
+    return np.asarray(apart[np.isfinite(apart)])
+
+
+def fates(a: Run, b: Run) -> int:
+    """For how many particles both runs say alike whether it is in the flow in the end."""
+    ends = (np.isfinite(run.places[-1, :, 0]) for run in (a, b))
+    return int(np.equal(*ends).sum())
+
+
+def table(runs: Sequence[Run], cells: Sequence[int]) -> str:
+    """Each run against the other program's on the same mesh, and against its best on the finest mesh."""
+    finest = {(run.name, run.level): run for run in sorted(runs, key=lambda run: -run.dt)}
+    rows = [
+        "| | cells | step, s | on the same mesh: median, m | 95 % | fates alike "
+        "| on the finest: median, m | 95 % | fates alike |",
+        f"|---|---|---|{'---|' * 6}",
+    ]
+    for run in sorted(runs, key=lambda run: (run.name, run.level, -run.dt)):
+        other = "OpenFOAM, cellPoint" if run.name == "foamprb" else "foamprb"
+        row = [run.name, f"{cells[run.level]}", f"{run.dt:g}"]
+        for reference in (finest[other, run.level], finest[other, len(cells) - 1]):
+            row += [f"{x:.2g}" for x in np.percentile(distances(run, reference), [50, 95])]
+            row.append(f"{fates(run, reference)} of {run.places.shape[1]}")
+        rows.append(f"| {' | '.join(row)} |")
+    return "\n".join(rows)
+
+
+def compare(folder: Path, levels: int) -> tuple[list[Run], list[int]]:
+    """All runs, and the numbers of cells."""
+    cases = solve(folder, levels)
+    cells = [len(read_u(case / "0/U")) for case in cases]
+    runs = [foamprb(cases[0], 0, 0.1)]
+    runs += [foamprb(case, level, 0.01) for level, case in enumerate(cases)]
+    for scheme in ("cell", "cellPoint"):
+        runs += [openfoam(cases[0], 0, scheme, dt) for dt in (0.1, 0.01)]
+        runs += [openfoam(case, level, scheme, 0.0025) for level, case in enumerate(cases)]
+    return runs, cells
+
+
+def main() -> None:
+    """Compare, and print or write the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter, add_help=False
+    )
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.add_argument("-levels", type=int, default=3, choices=(2, 3, 4), help="number of meshes [3]")
+    parser.add_argument("-folder", type=Path, help="where the cases are left [nowhere]")
+    parser.add_argument("-write", type=Path, metavar="PAGE", help=f"put the table into a page, after {BEGIN}")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        text = table(*compare(options.folder or Path(folder), options.levels))
+    print(text)
+    if options.write:
+        before, _, rest = options.write.read_text().partition(BEGIN)
+        options.write.write_text(f"{before}{BEGIN}\n{text}\n{END}{rest.partition(END)[2]}")
+
+
+if __name__ == "__main__":
+    main()
