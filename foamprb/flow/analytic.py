@@ -128,7 +128,13 @@ class AnalyticFlow:
         """Return infinity: the flow is known at all times."""
         return math.inf
 
-    def arrays(self, reach: float, touchable: Sequence[int]) -> Any:  # noqa: ARG002
+    def arrays(
+        self,
+        reach: float,  # noqa: ARG002
+        touchable: Sequence[int],  # noqa: ARG002
+        sight: float = 0.0,  # noqa: ARG002
+        seen: Sequence[int] = (),  # noqa: ARG002
+    ) -> Any:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 

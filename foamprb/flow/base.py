@@ -126,8 +126,12 @@ class Flow(Sampled, Protocol):
             If the flow does not reach so far, or cannot be read.
         """
 
-    def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
-        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell.
+    def arrays(
+        self, reach: float, touchable: Sequence[int], sight: float = 0.0, seen: Sequence[int] = ()
+    ) -> Any:
+        """What the kernels read; ``gap`` finds the ``touchable`` patches within ``reach`` (m) of a cell.
+
+        ``walls`` finds those that are ``seen`` to a distance of ``sight`` (m).
 
         It is a tuple with names, perhaps with others in it. Where the contents of a large array, of many kB,
         have changed in place, a number or a small array has changed as well.

@@ -207,12 +207,18 @@ class SeriesFlow:
             self._prefetch(following)
         return self._time(last)
 
-    def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> SeriesArrays:
+    def arrays(
+        self,
+        reach: float = 0.0,
+        touchable: Sequence[int] | None = None,
+        sight: float = 0.0,
+        seen: Sequence[int] = (),
+    ) -> SeriesArrays:
         """What the kernels read, at the times that were loaded last; see :meth:`MeshFlow.arrays`."""
         nodes = self._fields.shape[1]
         places = [self._in_memory[self._index(level)] for level in self._levels]
         return SeriesArrays(
-            self._steady.arrays(reach, touchable),
+            self._steady.arrays(reach, touchable, sight, seen),
             np.array([self._time(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, 12),

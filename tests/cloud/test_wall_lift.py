@@ -180,7 +180,7 @@ def still(mesh):
 def look(flow, x, cut, chosen):
     """The walls around points, as lists of (h, n)."""
     names = [index for index, yes in enumerate(chosen) if yes]
-    arrays = flow.arrays(cut, names)
+    arrays = flow.arrays(0.0, (), cut, names)
     kernel = link(flow.kernels["walls"])
     hosts = flow.locate(np.asarray(x))
     found = []
@@ -282,6 +282,5 @@ def test_walls_are_seen_from_a_mesh_as_from_a_half_space():
     Cloud(q, analytic.shear_over_wall(RATE), OIL, [Stick()], 1e-4, same, threads=1).advance(20)
     assert p.x == pytest.approx(q.x, rel=1e-9)
     assert p.x[0, 2] > 0.06
-    assert (
-        walls(flow.arrays(0.16, [0, 1, 2]), p.host[0], tuple(p.x[0]), 0.01, np.ones(3, np.int8)).h1 == np.inf
-    )
+    arrays = flow.arrays(0.0, (), 0.16, [0, 1, 2])
+    assert walls(arrays, p.host[0], tuple(p.x[0]), 0.01, np.ones(3, np.int8)).h1 == np.inf
