@@ -37,6 +37,7 @@ Particles in a flow:
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    FaxenCorrection     the mean over the body of a flow that is curved
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
     Stick               a patch that holds the particles that touch it
@@ -72,6 +73,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.patches import Escape, Rebound, Stick
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.surroundings.brownian import BrownianMotion
+    from foamprb.cloud.surroundings.faxen import FaxenCorrection
     from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
     from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
@@ -95,6 +97,7 @@ _HOMES = {
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
     "FailedParticlesWarning": "foamprb.errors",
+    "FaxenCorrection": "foamprb.cloud.surroundings.faxen",
     "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
     "Job": "foamprb.run.job",
@@ -136,6 +139,7 @@ __all__ = [
     "Division",
     "Escape",
     "FailedParticlesWarning",
+    "FaxenCorrection",
     "Gravity",
     "InputError",
     "Job",

@@ -114,6 +114,9 @@ class Cloud:
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)
+            for kernel in model.needs:
+                if kernel not in self.flow.kernels:
+                    raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self._reach_grows = True
         self._largest = float(p.R.max(initial=0.0))
         self._refuse_large()

@@ -97,6 +97,8 @@ class Flow(Sampled, Protocol):
       nearest touchable wall, infinite when none is near;
     * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as
       ``foamprb.flow.planes`` has them; a flow without walls need not have it;
+    * ``curvature(flow, host, x, t) -> (u_xx, u_yy, u_zz, u_xy, u_yz, u_xz)``: second derivatives of the
+      velocity, 1/(m s); a flow need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;

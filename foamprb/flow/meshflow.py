@@ -19,7 +19,7 @@ from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import cross, follow, normal, recover, sample, walk
+from foamprb.flow.walk import cross, curvature, follow, normal, recover, sample, walk
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
 from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, pairs_near
 
@@ -128,6 +128,7 @@ class MeshFlow:
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "curvature": curvature,
         "walk": walk,
         "gap": gap,
         "walls": walls,

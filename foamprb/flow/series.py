@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra
@@ -24,7 +25,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import corners, interpolate, inward, shape
+from foamprb.flow.walk import corners, curvature_in, interpolate, inward, shape
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
 from foamprb.flow.walls import gap as gap_mesh
@@ -54,9 +55,7 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
 
     At a loaded time ∂u/∂t is that of the interval after it, if that is loaded.
     """
-    k = 0
-    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
-        k += 1
+    k = _interval(flow, t)
     w = shape(flow.mesh, host, x)
     u0, l0 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k]), w)
     u1, l1 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k + 1]), w)
@@ -70,6 +69,30 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
         l0[6] + s * (l1[6] - l0[6]), l0[7] + s * (l1[7] - l0[7]), l0[8] + s * (l1[8] - l0[8]),
     )  # fmt: skip
     return u, l, (d[0] / length, d[1] / length, d[2] / length)
+
+
+def _interval(flow: SeriesArrays, t: float) -> int:
+    """Number of the interval between loaded times that holds t."""
+    k = 0
+    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
+        k += 1
+    return k
+
+
+def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
+    """As :func:`foamprb.flow.walk.curvature`, linear in time."""
+    k = _interval(flow, t)
+    s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
+    a = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
+    b = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k + 1])
+    return (
+        _between(a[0], b[0], s), _between(a[1], b[1], s), _between(a[2], b[2], s),
+        _between(a[3], b[3], s), _between(a[4], b[4], s), _between(a[5], b[5], s),
+    )  # fmt: skip
+
+
+def _between(a: Vector, b: Vector, s: float) -> Vector:
+    return a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -132,6 +155,7 @@ class SeriesFlow:
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "curvature": curvature,
         "walk": walk,
         "gap": gap,
         "walls": walls,

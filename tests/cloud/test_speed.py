@@ -22,6 +22,7 @@ from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.total import compose as surrounding
 from foamprb.cloud.surroundings.total import with_rows
 from foamprb.cloud.surroundings.wall_lift import WallLift
@@ -39,7 +40,7 @@ SLOWER = 2.5
 FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm=0.5))
 # It goes through a single lane.
 _NO_VECTORS = (dense_newton,)
-AROUND = (WallLift(), foamprb.BrownianMotion(T=300.0))
+AROUND = (FaxenCorrection(), WallLift(), foamprb.BrownianMotion(T=300.0))
 STAGES = {stage: INTEGRATORS["stokes"] for model in AROUND for stage in model.stages()}
 STAGES |= {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}
 

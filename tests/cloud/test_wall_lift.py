@@ -111,6 +111,24 @@ def test_without_mobility_it_settles_as_if_alone():
     assert -p.v[0, 2] == pytest.approx(settling_speed(), rel=1e-3)
 
 
+@pytest.mark.parametrize(("h", "miss"), [(5.0, 0.01), (3.0, 0.02), (2.0, 0.05)])
+def test_a_soft_sphere_that_settles_deforms_as_in_the_stokes_flow_around_it(h, miss):
+    """Along and across the wall at once, from round, in one short step."""
+    g = np.array([0.6, 0.0, -0.8]) * 1e4
+    mu, force = 1e4, 4.0 / 3.0 * np.pi * R**3 * 1000.0 * g
+    p = carried(
+        spheres([(0.0, 0.0, h * R)], d=2.0 * R, rho=2000.0, mu=mu, poissons_ratio=0.4999),
+        1, medium=Medium(MU_F, 1000.0, tuple(g)), flow=STILL, dt=1e-12,
+    )  # fmt: skip
+    l = p.A[0].reshape(3, 3) @ np.linalg.inv(p.F[0].reshape(3, 3))
+    scale = np.linalg.norm(force) / (MU_F * R**2)
+    exact = ref.Ellipsoid(np.eye(3), h).free_motion(
+        np.eye(3), np.zeros((3, 3)), force / np.linalg.norm(force)
+    )
+    strain, expected = 0.5 * (l + l.T) / scale, 0.5 * (exact.l + exact.l.T)
+    assert abs(strain - expected).max() < miss * abs(expected).max()
+
+
 def test_lift_is_the_same_with_a_little_inertia():
     """As small as here, γ̇ τ of 1e-5, and of a body that is incompressible but for 1e-4."""
     p, q = (

@@ -34,6 +34,9 @@ class Surrounding:
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
 
+    needs: ClassVar[tuple[str, ...]] = ()
+    """Kernels of a flow (:class:`foamprb.flow.base.Flow`) without which it cannot be."""
+
     @classmethod
     def stages(cls) -> tuple[Callable[..., None], ...]:
         """What is compiled once for all flows."""

@@ -37,6 +37,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.body.wall import (
+    force_gradient,
     hindered_resistance,
     hindrance,
     stresslet_gradient,
@@ -83,6 +84,8 @@ class WallRows(NamedTuple):
     sent_back: Annotated[int, Row(9, "1/s", "velocity gradient that the walls send back")]
     least_gap: Annotated[int, Row(1, "1", "least gap, in radii", 1.0)]
     wall_lift: Annotated[int, Row(3, "m/s", "velocity that they send back")]
+    load: Annotated[int, Row(3, "N", "force of the particle on the fluid")]
+    by_load: Annotated[int, Row(9, "1/s", "velocity gradient that they send back of it")]
     hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
 
 
@@ -111,7 +114,9 @@ def look_for_walls(
 def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     """Add what the walls send back of the particles' stresslets to u and l, and hold back what falls.
 
-    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition.
+    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition. The
+    gradient of the image of a load deforms; what the stresslet that a rigid body answers with does to the
+    velocity is a part of the mobility.
     """
     _, least_gap, strain, hindered, _ = coefficients
     most = 0
@@ -123,6 +128,16 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     for i in range(LANES):
         nothing = scale(0.0, load9(block, at.l, i))
         store9(block, near.hindrance, i, nothing)
+        store9(block, near.by_load, i, nothing)
+        store3(block, near.load, i, exerted(block, i, medium, share))
+    for wall in range(most):
+        pick_wall(block, wall, share, least_gap)
+        for i in range(LANES):
+            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+            E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
+            E = scale(strain * block[near.there * LANES + i], E)
+            store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
+    for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
         store9(block, near.alone, i, S)
@@ -163,7 +178,8 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
         some = (h[0] < far) | (h[1] < far) | (h[2] < far)
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
-        store9(block, at.l, i, choose(some, add(l, scale(strain, load9(block, near.sent_back, i))), l))
+        E = add(scale(strain, load9(block, near.sent_back, i)), load9(block, near.by_load, i))
+        store9(block, at.l, i, choose(some, add(l, E), l))
         store3(
             block,
             at.u,
@@ -229,7 +245,11 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
 
 
 def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
-    """l_s of a body without inertia in the flow of lane i, in the particle frame, 1/s; keeps its mobility."""
+    """l_s of a body without inertia in the flow of lane i, in the particle frame, 1/s; keeps its mobility.
+
+    The gradient that the image of the load makes is seen here only: the stresslet is then that by which the
+    body differs from a rigid one, whose own is in the hindrance.
+    """
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
     store9(block, near.gives_normal, i, m.normal)
@@ -237,7 +257,8 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     store3(block, near.gives_slip, i, m.slip)
     b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
-    return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, load9(block, at.l, i)))
+    l = add(load9(block, at.l, i), load9(block, near.by_load, i))
+    return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
 
 
 def giving_way(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
@@ -265,7 +286,7 @@ def standing_firm(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # n
     return scale(0.0, E)
 
 
-def load_of(block: Any, i: int, medium: Medium) -> Vector:
+def load_of(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
     """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
     _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
@@ -273,6 +294,15 @@ def load_of(block: Any, i: int, medium: Medium) -> Vector:
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
     return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
+
+
+def dragging(block: Any, i: int, medium: Medium, share: float) -> Vector:
+    """What a body with inertia exerts on the fluid, N: the drag, turned round."""
+    Q, k, u = load9(block, at.Q, i), resistances(block, i), load3(block, at.u, i)
+    v, w = load3(block, at.v, i), load3(block, at.new_v, i)
+    v = select(share > 0.0, w[0], v[0]), select(share > 0.0, w[1], v[1]), select(share > 0.0, w[2], v[2])
+    f = dot_vector(Q, (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
+    return vector_dot((medium.mu * k[0] * f[0], medium.mu * k[1] * f[1], medium.mu * k[2] * f[2]), Q)
 
 
 def no_thermal_force(_block: Any, _i: int) -> Vector:
@@ -300,7 +330,7 @@ def _hindrance_of(block: Any, i: int, wall: int) -> Tensor:
 def held_back(block: Any, i: int, medium: Medium) -> Vector:
     """What the walls take off the velocity relative to the fluid, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
     Q, k = load9(block, at.Q, i), resistances(block, i)
-    f = dot_vector(Q, load_of(block, i, medium))
+    f = dot_vector(Q, load3(block, near.load, i))
     v = dot_vector(inverse(hindered_resistance(k, load9(block, near.hindrance, i))), f)
     c = 1.0 / medium.mu
     w = (c * (v[0] - f[0] / k[0]), c * (v[1] - f[1] / k[1]), c * (v[2] - f[2] / k[2]))
@@ -327,6 +357,7 @@ def _nearest_walls(
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
 body_response: Callable[..., Tensor] = giving_way
+exerted: Callable[..., Vector] = load_of
 thermal_force: Callable[..., Vector] = no_thermal_force
 
 
@@ -380,6 +411,7 @@ class WallLift(Surrounding):
         motion: Mapping[str, Callable[..., Any]] = {
             "body_gradient": moving_gradient if inertia else balanced_gradient,
             "body_response": standing_firm if inertia else giving_way,
+            "exerted": dragging if inertia else load_of,
         }
         return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
 
