@@ -105,7 +105,8 @@ def _settling(h: float, g: tuple[float, float, float], height: float = np.inf) -
     """
     p = spheres([[0.0, 0.0, h * R]], d=2.0 * R, rho=2.0 * RHO, mu=1e3, poissons_ratio=0.4999)
     still = analytic.shear_over_wall(0.0) if height == np.inf else analytic.slit(height * R, 0.0)
-    _advance(p, still, g, 1e-6, 20)
+    # Until it has taken on the strain that the walls ask of it.
+    _advance(p, still, g, 1e-6, 80)
     v: Floats = p.v[0]
     return v
 

@@ -92,7 +92,8 @@ def settling_speed():
 @pytest.mark.parametrize("h", [10.0, 3.0, 1.5, 1.1])
 def test_a_stiff_sphere_settles_towards_a_wall_as_brenner_says(h):
     heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
-    p = carried(particles(h, 1e-4, rho=2000.0), 20, medium=heavy, flow=STILL, dt=1e-6)
+    # Until it has taken on the strain that the wall asks of it: before, it falls faster.
+    p = carried(particles(h, 1e-4, rho=2000.0), 80, medium=heavy, flow=STILL, dt=1e-6)
     assert -p.v[0, 2] * ref.brenner_drag(h) == pytest.approx(settling_speed(), rel=6e-3)
 
 
@@ -111,9 +112,11 @@ def test_without_mobility_it_settles_as_if_alone():
     assert -p.v[0, 2] == pytest.approx(settling_speed(), rel=1e-3)
 
 
-@pytest.mark.parametrize(("h", "miss"), [(5.0, 0.01), (3.0, 0.02), (2.0, 0.05)])
-def test_a_soft_sphere_that_settles_deforms_as_in_the_stokes_flow_around_it(h, miss):
-    """Along and across the wall at once, from round, in one short step."""
+@pytest.mark.parametrize(
+    ("h", "miss", "slow"), [(5.0, 5e-3, 1e-3), (3.0, 0.01, 1e-3), (2.0, 0.03, 5e-3), (1.3, 0.1, 0.05)]
+)
+def test_a_soft_sphere_that_settles_falls_and_deforms_as_in_the_stokes_flow_around_it(h, miss, slow):
+    """Along and across the wall at once, from round, in one short step: faster than a rigid sphere."""
     g = np.array([0.6, 0.0, -0.8]) * 1e4
     mu, force = 1e4, 4.0 / 3.0 * np.pi * R**3 * 1000.0 * g
     p = carried(
@@ -127,6 +130,7 @@ def test_a_soft_sphere_that_settles_deforms_as_in_the_stokes_flow_around_it(h, m
     )
     strain, expected = 0.5 * (l + l.T) / scale, 0.5 * (exact.l + exact.l.T)
     assert abs(strain - expected).max() < miss * abs(expected).max()
+    assert p.v[0, ::2] / (scale * R) == pytest.approx(exact.v[::2], rel=slow)
 
 
 def test_lift_is_the_same_with_a_little_inertia():

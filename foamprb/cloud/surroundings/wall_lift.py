@@ -137,7 +137,15 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
             E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
             E = scale(strain * block[near.there * LANES + i], E)
             store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
+    # What the walls send back of the stresslet with which a rigid body answers.
     for i in range(LANES):
+        E = load9(block, near.by_load, i)
+        store9(block, near.sent_back, i, E)
+        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
+    for wall in range(most):
+        add_sent_back(block, wall, share, least_gap, medium, strain)
+    for i in range(LANES):
+        store9(block, near.by_load, i, load9(block, near.sent_back, i))
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
         store9(block, near.alone, i, S)
@@ -146,12 +154,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         for i in range(LANES):
             store9(block, near.sent_back, i, scale(0.0, load9(block, at.l, i)))
         for wall in range(most):
-            pick_wall(block, wall, share, least_gap)
-            for i in range(LANES):
-                n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-                E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-                E = scale(block[near.there * LANES + i], E)
-                store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), E))
+            add_sent_back(block, wall, share, least_gap, medium, 1.0)
         for i in range(LANES):
             E = scale(strain, load9(block, near.sent_back, i))
             S = stresslet(block, i, medium, E, body_response(block, i, medium, E))
@@ -190,6 +193,18 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
                 select(some, u[2] + w[2], u[2]),
             ),
         )
+
+
+def add_sent_back(
+    block: Any, wall: int, share: float, least_gap: float, medium: Medium, factor: float
+) -> None:
+    """Add the gradient that one of the walls sends back of the stresslets, times a factor, to its rows."""
+    pick_wall(block, wall, share, least_gap)
+    for i in range(LANES):
+        n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+        E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+        E = scale(factor * block[near.there * LANES + i], E)
+        store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), E))
 
 
 def pick_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
