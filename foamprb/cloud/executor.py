@@ -29,8 +29,8 @@ def available_threads() -> int:
     return len(os.sched_getaffinity(0))
 
 
-AT_ONCE = 20_000_000
-"""Steps of a particle that threads take in some seconds; to take up its state and put it down costs a few."""
+AT_ONCE = 200_000_000
+"""Steps of a particle that threads take in a minute or so; to take up its state and put it down costs one."""
 
 
 class Executor(ABC):
@@ -42,7 +42,9 @@ class Executor(ABC):
     """
 
     at_once: int
-    """Number of steps of a particle that it takes in a second or so."""
+    """Largest number of steps of a particle that it takes in a call."""
+    heeds_stop: bool = True
+    """Whether ``stop`` ends a call of :meth:`advance` before its steps are done."""
     precompiles: bool = False
     """Whether another process may compile the loop for it before it is wanted."""
     signals: Sequence[int] = ()
@@ -77,7 +79,8 @@ class Executor(ABC):
         Parameters
         ----------
         flow, stop
-            As of :meth:`foamprb.cloud.tracker.Tracker.advance`; ``stop`` need not be heeded.
+            As of :meth:`foamprb.cloud.tracker.Tracker.advance`; only :attr:`heeds_stop` says that ``stop``
+            is asked.
         steps
             Their number.
         """

@@ -127,7 +127,8 @@ class Device(Executor):
         If there is no device.
     """
 
-    at_once = 1_000_000_000
+    at_once = 10_000_000_000
+    heeds_stop = False
 
     def __init__(self) -> None:
         self._name = device_name()

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import AT_ONCE, Executor
+from foamprb.cloud.executor import Executor
 from foamprb.cloud.measures import context
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
@@ -172,13 +172,17 @@ def _advance(
     return True
 
 
-_CALL, _FIRST_CALL = 0.25, 250_000
-"""Seconds that the steps taken at once should take; steps of a particle that take about as long."""
+_FIRST_CALL = 1 / 800
+"""Share of the most that an executor takes in a call: some tenths of a second."""
+_CALL, _PROMPT = 2.0, 0.25
+"""Seconds that a call should take, where a stop ends it and where it does not."""
+_FEW, _LONG = 16, 30.0
+"""Steps that a call has anyway where a stop ends it, unless they take longer than so many seconds."""
 _SLOWER, _FASTER = 0.1, 4.0
 
 
 class _Pace:
-    """How many steps are taken at once, so that the run is asked some times a second how far it is."""
+    """How many steps are taken at once: enough that taking particles up and putting them down costs little."""
 
     def __init__(self) -> None:
         self._steps: float = 0.0
@@ -193,7 +197,10 @@ class _Pace:
         cloud.carry(steps, stop)
         if compiled:
             seconds = clock.perf_counter() - started
-            self._steps = steps * min(_FASTER, max(_SLOWER, _CALL / (seconds + 1e-9)))
+            wanted = _PROMPT
+            if cloud.executor.heeds_stop:
+                wanted = max(_CALL, min(_LONG, _FEW * seconds / steps))
+            self._steps = steps * min(_FASTER, max(_SLOWER, wanted / (seconds + 1e-9)))
 
     def begin(self, cloud: Cloud, target: int) -> None:
         """Let the executor begin with the steps that :meth:`advance` takes next."""
@@ -203,6 +210,6 @@ class _Pace:
     def _at_once(self, cloud: Cloud, target: int) -> int:
         counts = cloud.counts()
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
-        most = cloud.executor.at_once // work
-        steps = min(most, self._steps or _FIRST_CALL * cloud.executor.at_once // (AT_ONCE * work))
+        most = cloud.executor.at_once / work
+        steps = min(most, self._steps or _FIRST_CALL * most)
         return min(target - cloud.step, max(1, int(steps)))
