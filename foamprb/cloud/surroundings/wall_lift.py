@@ -129,23 +129,9 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         nothing = scale(0.0, load9(block, at.l, i))
         store9(block, near.hindrance, i, nothing)
         store9(block, near.by_load, i, nothing)
-        store3(block, near.load, i, exerted(block, i, medium, share))
-    for wall in range(most):
-        pick_wall(block, wall, share, least_gap)
-        for i in range(LANES):
-            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-            E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
-            E = scale(strain * block[near.there * LANES + i], E)
-            store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
-    # What the walls send back of the stresslet with which a rigid body answers.
+    if hindered > 0.0:
+        strain_by_load(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
-        E = load9(block, near.by_load, i)
-        store9(block, near.sent_back, i, E)
-        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
-    for wall in range(most):
-        add_sent_back(block, wall, share, least_gap, medium, strain)
-    for i in range(LANES):
-        store9(block, near.by_load, i, load9(block, near.sent_back, i))
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
         store9(block, near.alone, i, S)
@@ -193,6 +179,29 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
                 select(some, u[2] + w[2], u[2]),
             ),
         )
+
+
+def strain_by_load(
+    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
+) -> None:
+    """The gradient by which the image of a load deforms, and that of the rigid stresslet that answers it."""
+    for i in range(LANES):
+        store3(block, near.load, i, load_of(block, i, medium))
+    for wall in range(most):
+        pick_wall(block, wall, share, least_gap)
+        for i in range(LANES):
+            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+            E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
+            E = scale(strain * block[near.there * LANES + i], E)
+            store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
+    for i in range(LANES):
+        E = load9(block, near.by_load, i)
+        store9(block, near.sent_back, i, E)
+        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
+    for wall in range(most):
+        add_sent_back(block, wall, share, least_gap, medium, strain)
+    for i in range(LANES):
+        store9(block, near.by_load, i, load9(block, near.sent_back, i))
 
 
 def add_sent_back(
@@ -301,7 +310,7 @@ def standing_firm(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # n
     return scale(0.0, E)
 
 
-def load_of(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
+def load_of(block: Any, i: int, medium: Medium) -> Vector:
     """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
     _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
@@ -309,15 +318,6 @@ def load_of(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
     return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
-
-
-def dragging(block: Any, i: int, medium: Medium, share: float) -> Vector:
-    """What a body with inertia exerts on the fluid, N: the drag, turned round."""
-    Q, k, u = load9(block, at.Q, i), resistances(block, i), load3(block, at.u, i)
-    v, w = load3(block, at.v, i), load3(block, at.new_v, i)
-    v = select(share > 0.0, w[0], v[0]), select(share > 0.0, w[1], v[1]), select(share > 0.0, w[2], v[2])
-    f = dot_vector(Q, (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
-    return vector_dot((medium.mu * k[0] * f[0], medium.mu * k[1] * f[1], medium.mu * k[2] * f[2]), Q)
 
 
 def no_thermal_force(_block: Any, _i: int) -> Vector:
@@ -372,7 +372,6 @@ def _nearest_walls(
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
 body_response: Callable[..., Tensor] = giving_way
-exerted: Callable[..., Vector] = load_of
 thermal_force: Callable[..., Vector] = no_thermal_force
 
 
@@ -426,7 +425,6 @@ class WallLift(Surrounding):
         motion: Mapping[str, Callable[..., Any]] = {
             "body_gradient": moving_gradient if inertia else balanced_gradient,
             "body_response": standing_firm if inertia else giving_way,
-            "exerted": dragging if inertia else load_of,
         }
         return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
 
