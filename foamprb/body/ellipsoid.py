@@ -13,7 +13,9 @@ import numpy as np
 
 from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, select, transpose
 
-_DUPLICATIONS = 5
+_DUPLICATIONS, _FEW_DUPLICATIONS = 5, 3
+COMPACT = 4.0
+"""Axis ratio up to which :func:`integrals_of_compact` holds."""
 
 
 class Integrals(NamedTuple):
@@ -65,6 +67,11 @@ def _ring_tail(x: Scalar, y: Scalar, z: Scalar) -> Scalar:
     return 0.4 * series * inverse * inverse * np.sqrt(inverse)
 
 
+def integrals_of_compact(semi_axes: Vector) -> Integrals:
+    """The same as :func:`integrals` with two duplications fewer; 3e-15 off for axis ratios up to 4."""
+    return _duplicated(semi_axes, _FEW_DUPLICATIONS)
+
+
 def integrals(semi_axes: Vector) -> Integrals:
     """Jeffery's integrals for an ellipsoid with the given semi-axes, in any order.
 
@@ -78,6 +85,10 @@ def integrals(semi_axes: Vector) -> Integrals:
     semi_axes
         a, b, c > 0, in any unit of length.
     """
+    return _duplicated(semi_axes, _DUPLICATIONS)
+
+
+def _duplicated(semi_axes: Vector, times: int) -> Integrals:
     a, b, c = semi_axes
     x, y, z = a * a, b * b, c * c
     x0, y0, z0 = x, y, z
@@ -85,7 +96,7 @@ def integrals(semi_axes: Vector) -> Integrals:
     alpha, beta, gamma = zero, zero, zero
     alpha_ring, beta_ring, gamma_ring = zero, zero, zero
     weight = 1.0
-    for _ in range(_DUPLICATIONS):
+    for _ in range(times):
         sx, sy, sz = np.sqrt(x), np.sqrt(y), np.sqrt(z)
         p, q, r = sy + sz, sz + sx, sx + sy
         # d = 1/(s_x s_y s_z p q r)

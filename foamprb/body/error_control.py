@@ -53,6 +53,13 @@ def strain_by(Omega: Tensor, b_e: Tensor) -> Tensor:
     return add(T, transpose(T))
 
 
+def strain_in_frame(Omega: Tensor, b_e: Tensor) -> Tensor:
+    """The same for a diagonal b_e: that of a body that is a sphere at rest, in its particle frame."""
+    x, y, z = b_e[0], b_e[4], b_e[8]
+    p, q, r = Omega[1] * y + Omega[3] * x, Omega[2] * z + Omega[6] * x, Omega[5] * z + Omega[7] * y
+    return (2.0 * Omega[0] * x, p, q, p, 2.0 * Omega[4] * y, r, q, r, 2.0 * Omega[8] * z)
+
+
 def strain_scale(b_e: Tensor, Omega: Tensor) -> Scalar:
     """Largest |b_e − I| at the two ends of a step Ω, and at least :data:`LEAST_STRAIN`."""
     start = add_identity(b_e, -1.0)

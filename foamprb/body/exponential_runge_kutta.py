@@ -24,7 +24,7 @@ A step goes as follows; tensors are components in the particle frame of its star
 from __future__ import annotations
 
 from foamprb.body.relaxation import Relaxation, Response, relaxing, respond
-from foamprb.body.tensor import Scalar, Tensor, add, add_identity, dot, inverse, scale
+from foamprb.body.tensor import ZERO, Scalar, Tensor, add, add_identity, dot, inverse, scale
 from foamprb.body.turning import commutator
 
 NODE = 0.25
@@ -38,12 +38,12 @@ OVERSHOOT = 1.2
 def group_exponential(K: Tensor) -> Tensor:
     """Exp K to sixth order, and a rotation for a skew K: within 1e-5 for a turn of half a radian.
 
-    exp K = (1 − k)⁻¹·(1 + k) with k = tanh(K/2) = K/2 − K³/24 + K⁵/240 + O(K⁷). One term more than
-    :func:`foamprb.body.tensor.exponential`, as no estimate sees the error of the exponential.
+    exp K = (1 − k)⁻¹·(1 + k) = 2 (1 − k)⁻¹ − 1 with k = tanh(K/2) = K/2 − K³/24 + K⁵/240 + O(K⁷). One term
+    more than :func:`foamprb.body.tensor.exponential`, as no estimate sees the error of the exponential.
     """
     square = dot(K, K)
     k = dot(K, add_identity(dot(square, add_identity(scale(1.0 / 240.0, square), -1.0 / 24.0)), 0.5))
-    return dot(inverse(add_identity(scale(-1.0, k), 1.0)), add_identity(k, 1.0))
+    return add_identity(scale(2.0, inverse(add_identity(scale(-1.0, k), 1.0))), -1.0)
 
 
 def algebra_rate(Omega: Tensor, l: Tensor) -> Tensor:
@@ -77,8 +77,7 @@ def first_argument(
     turning
         :func:`foamprb.body.turning.turning_gradient`, 1/s².
     """
-    nothing = scale(0.0, l_s)
-    return respond(n, quarter, NODE * h, l_s, scale(NODE, _plus(change, h, turning)), nothing)
+    return respond(n, quarter, NODE * h, l_s, scale(NODE, _plus(change, h, turning)), ZERO)
 
 
 def slope(n: Relaxation, Omega: Tensor, g: Tensor, l_s: Tensor, change: Tensor, per_step: Scalar) -> Tensor:
@@ -100,10 +99,9 @@ def second_order(
     n: Relaxation, whole: Response, h: Scalar, l_s: Tensor, change: Tensor, slope: Tensor
 ) -> tuple[Tensor, Tensor, Tensor]:
     """Ω of order 2 at the end of the step, and the parts of it that the fluid's gradient and N' have."""
-    nothing = scale(0.0, l_s)
-    first = respond(n, whole, h, l_s, nothing, nothing)
-    fluid = respond(n, whole, h, nothing, change, nothing)
-    own = respond(n, whole, h, nothing, slope, nothing)
+    first = respond(n, whole, h, l_s, ZERO, ZERO)
+    fluid = respond(n, whole, h, ZERO, change, ZERO)
+    own = respond(n, whole, h, ZERO, slope, ZERO)
     return add(first, add(fluid, own)), fluid, own
 
 

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
 from foamprb.body.inertial_runge_kutta import GAMMA, R1, R2, R3
-from foamprb.body.tensor import Scalar, Vector, reciprocals
+from foamprb.body.tensor import Scalar, Vector, reciprocals, scale_vector
 
 Motion = tuple[Vector, Vector]
 """A change of x and one of v, or rates of both."""
+NOTHING: Motion = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
 
 
 def combine(a: Scalar, u: Vector, b: Scalar, v: Vector) -> Vector:
@@ -56,7 +57,7 @@ def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
         x, y = _both(1.0, _mix(k, u, v, w), 1.0, (x, y))
     y = _times(d, y)
     x = combine(1.0, x, gh, y)
-    return combine(h, x, 0.0, x), combine(h, y, 0.0, y)
+    return scale_vector(h, x), scale_vector(h, y)
 
 
 def fluid_changes(rate: Vector, h: Scalar, du: Vector, a_u: Vector) -> tuple[Vector, Vector]:
@@ -74,9 +75,8 @@ def fluid_changes(rate: Vector, h: Scalar, du: Vector, a_u: Vector) -> tuple[Vec
 
 def first_motion(rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector) -> Motion:
     """Change of x and v within a quarter of the step; ``start`` are v, m/s, and dv/dt, m/s², at its start."""
-    nothing = combine(0.0, change, 0.0, change)
-    linear = (nothing, combine(NODE, change, -NODE, bend))
-    return respond(rate, NODE * h, start, linear, (nothing, combine(2.0 * NODE * NODE, bend, 0.0, bend)))
+    linear = (NOTHING[0], combine(NODE, change, -NODE, bend))
+    return respond(rate, NODE * h, start, linear, (NOTHING[0], scale_vector(2.0 * NODE * NODE, bend)))
 
 
 def slope(rate: Vector, moved: Motion, at: Motion, start: Motion, change: Vector, per_step: Scalar) -> Motion:
@@ -94,31 +94,31 @@ def slope(rate: Vector, moved: Motion, at: Motion, start: Motion, change: Vector
     stiff = (moved[1], _times(rate, moved[1]))
     x = combine(1.0, combine(1.0, at[0], -1.0, start[0]), -1.0, stiff[0])
     v = combine(1.0, combine(1.0, at[1], -1.0, start[1]), 1.0, stiff[1])
-    return combine(per_step, x, 0.0, x), combine(per_step, combine(1.0, v, -1.0, change), 0.0, v)
+    return scale_vector(per_step, x), scale_vector(per_step, combine(1.0, v, -1.0, change))
 
 
 def second_order(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
 ) -> Motion:
     """Change of x and v over the step, of order 2."""
-    nothing = combine(0.0, change, 0.0, change)
-    linear = _both(1.0, slope, 1.0, (nothing, combine(1.0, change, -1.0, bend)))
-    return respond(rate, h, start, linear, (nothing, combine(2.0, bend, 0.0, bend)))
+    linear = (slope[0], combine(1.0, slope[1], 1.0, combine(1.0, change, -1.0, bend)))
+    return respond(rate, h, start, linear, (NOTHING[0], scale_vector(2.0, bend)))
 
 
 def last_motion(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
 ) -> Motion:
     """Change of x and v at the end of the step, for the last evaluation."""
-    return second_order(rate, h, start, change, bend, _both(OVERSHOOT, slope, 0.0, slope))
+    more = scale_vector(OVERSHOOT, slope[0]), scale_vector(OVERSHOOT, slope[1])
+    return second_order(rate, h, start, change, bend, more)
 
 
 def third_order(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion, last: Motion
 ) -> Motion:
     """Change of x and v over the step, of order 3."""
-    nothing = combine(0.0, change, 0.0, change)
     f = 1.0 / (1.0 - NODE)
     curve = _both(f, last, -f, slope)
-    linear = _both(1.0, _both(1.0, last, -1.0, curve), 1.0, (nothing, combine(1.0, change, -1.0, bend)))
-    return respond(rate, h, start, linear, _both(2.0, curve, 2.0, (nothing, bend)))
+    fluid = NOTHING[0], combine(1.0, change, -1.0, bend)
+    linear = _both(1.0, _both(1.0, last, -1.0, curve), 1.0, fluid)
+    return respond(rate, h, start, linear, _both(2.0, curve, 2.0, (NOTHING[0], bend)))

@@ -25,9 +25,20 @@ from typing import NamedTuple
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
 from foamprb.body.rosenbrock import Stiffness, elastic_response
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot_vector, inverse, reciprocals, scale, skew
+from foamprb.body.tensor import (
+    ZERO,
+    Scalar,
+    Tensor,
+    Vector,
+    add,
+    dot_vector,
+    inverse,
+    reciprocals,
+    scale,
+    skew,
+)
 from foamprb.body.traction import roscoe
-from foamprb.body.turning import commutator, shape_spin
+from foamprb.body.turning import shape_spin, turned
 
 GAMMA = 0.435866521508458999416
 """The root of γ³ − 3γ² + 3/2 γ = 1/6 between 1/3 and 1.07."""
@@ -46,6 +57,7 @@ R3 = _partial_fractions(1.0 / 6.0, GAMMA**3 - 1.5 * GAMMA**2, 0.5 * GAMMA**3)
 
 Pair = tuple[Tensor, Tensor]
 """A change of Ω and one of l_s, or rates of both."""
+NOTHING: Pair = ZERO, ZERO
 
 
 class Resolvent(NamedTuple):
@@ -95,9 +107,8 @@ def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
         y - gh * q[0] + gh2 * k[0], gh2 * k[1] - gh * q[1],
         gh2 * k[2] - gh * q[2], x - gh * q[3] + gh2 * k[3],
     )  # fmt: skip
-    zero = 0.0 * gh
-    first = (p23[0], p23[1], p23[2], p23[3], p13[0], p13[1], p13[2], p13[3], zero)
-    second = (p12[0], p12[1], p12[2], p12[3], zero, zero, zero, zero, zero)
+    first = (p23[0], p23[1], p23[2], p23[3], p13[0], p13[1], p13[2], p13[3], 0.0)
+    second = (p12[0], p12[1], p12[2], p12[3], 0.0, 0.0, 0.0, 0.0, 0.0)
     return Resolvent(gh, inverse(M), (first, second))
 
 
@@ -131,7 +142,7 @@ def _traction_response(n: Stiffness, Y: Tensor) -> Tensor:
     )  # fmt: skip
 
 
-def _over_b(b: Vector, T: Tensor) -> Tensor:
+def over_b(b: Vector, T: Tensor) -> Tensor:
     """T b⁻¹ for the diagonal b."""
     x, y, z = reciprocals(b)
     return (T[0] * x, T[1] * y, T[2] * z, T[3] * x, T[4] * y, T[5] * z, T[6] * x, T[7] * y, T[8] * z)
@@ -140,7 +151,7 @@ def _over_b(b: Vector, T: Tensor) -> Tensor:
 def stiff_rate(n: Stiffness, v: Pair) -> Pair:
     """J v."""
     X, Y = v
-    return Y, _over_b(n.b, add(_traction_response(n, Y), scale(-1.0, elastic_response(n, X))))
+    return Y, over_b(n.b, add(_traction_response(n, Y), scale(-1.0, elastic_response(n, X))))
 
 
 def combine(a: Scalar, u: Pair, b: Scalar, v: Pair) -> Pair:
@@ -181,9 +192,8 @@ def fluid_change(stretches: Vector, g: Integrals, c: Scalar, mu_f: Scalar, dl_f:
         Change of l_f, 1/s.
     """
     x, y, z = stretches
-    rest = scale(0.0, dl_f)
-    stress = scale(c * x * y * z * mu_f, roscoe(stretches, g, dl_f, rest))
-    return _over_b((x * x, y * y, z * z), stress)
+    stress = scale(c * x * y * z * mu_f, roscoe(stretches, g, dl_f, ZERO))
+    return over_b((x * x, y * y, z * z), stress)
 
 
 def turning_acceleration(
@@ -217,11 +227,10 @@ def turning_acceleration(
         Kirchhoff stress, Pa.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
-    turned = commutator(W, l_s)
-    seen = fluid_change(stretches, g, c, mu_f, commutator(W, l_f))
-    stress = scale(-c, commutator(add(own, scale(-1.0, W)), tau))
-    stress = add(stress, add(elastic_response(n, own), scale(-1.0, _traction_response(n, turned))))
-    return add(add(commutator(W, rate), scale(-1.0, seen)), _over_b(n.b, stress))
+    seen = fluid_change(stretches, g, c, mu_f, turned(W, l_f))
+    stress = scale(-c, turned(add(own, scale(-1.0, W)), tau))
+    stress = add(stress, add(elastic_response(n, own), scale(-1.0, _traction_response(n, turned(W, l_s)))))
+    return add(add(turned(W, rate), scale(-1.0, seen)), over_b(n.b, stress))
 
 
 def first_argument(
@@ -240,9 +249,8 @@ def first_argument(
     turning
         :func:`turning_acceleration`.
     """
-    nothing = scale(0.0, change)
-    bent = (nothing, scale(NODE, add(change, scale(h, turning))))
-    return respond(n, quarter, NODE * h, rate, bent, (nothing, nothing))
+    bent = (ZERO, scale(NODE, add(change, scale(h, turning))))
+    return respond(n, quarter, NODE * h, rate, bent, NOTHING)
 
 
 def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step: Scalar) -> Pair:
@@ -268,10 +276,9 @@ def second_order(
     n: Stiffness, whole: Resolvent, h: Scalar, rate: Pair, change: Tensor, slope: Pair, share: Scalar
 ) -> tuple[Pair, Pair]:
     """Ω and change of l_s of order 2, and the part of them by the slope and a share of the fluid's change."""
-    zero = scale(0.0, change)
-    nothing = (zero, zero)
-    two = respond(n, whole, h, rate, combine(1.0, slope, 1.0, (zero, change)), nothing)
-    return two, respond(n, whole, h, nothing, combine(1.0, slope, share, (zero, change)), nothing)
+    two = respond(n, whole, h, rate, (slope[0], add(slope[1], change)), NOTHING)
+    judged = (slope[0], add(slope[1], scale(share, change)))
+    return two, respond(n, whole, h, NOTHING, judged, NOTHING)
 
 
 def last_argument(
@@ -285,9 +292,8 @@ def last_argument(
     turning: Tensor,
 ) -> Pair:
     """Ω and change of l_s at the end of the step, for the last evaluation; ``bend`` is quadratic in time."""
-    zero = scale(0.0, change)
     known = add(add(change, scale(-1.0, bend)), scale((1.0 - OVERSHOOT) * h, turning))
-    return respond(n, whole, h, rate, combine(OVERSHOOT, slope, 1.0, (zero, known)), (zero, scale(2.0, bend)))
+    return respond(n, whole, h, rate, combine(OVERSHOOT, slope, 1.0, (ZERO, known)), (ZERO, scale(2.0, bend)))
 
 
 def third_order(
@@ -301,8 +307,7 @@ def third_order(
     last: Pair,
 ) -> Pair:
     """Ω and change of l_s of order 3, from the slopes of the second and the last evaluation."""
-    zero = scale(0.0, change)
     f = 1.0 / (1.0 - NODE)
     curve = combine(f, last, -f, slope)
-    linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (zero, add(change, scale(-1.0, bend))))
-    return respond(n, whole, h, rate, linear, combine(2.0, curve, 2.0, (zero, bend)))
+    linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (ZERO, add(change, scale(-1.0, bend))))
+    return respond(n, whole, h, rate, linear, combine(2.0, curve, 2.0, (ZERO, bend)))

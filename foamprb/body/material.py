@@ -22,6 +22,7 @@ import numpy as np
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
+    Vector,
     add,
     cofactor,
     det,
@@ -242,6 +243,17 @@ def finger(F: Tensor, M: Tensor) -> Tensor:
         (F₀ F₀)⁻¹ of the symmetric F₀ that makes the shape at rest of that sphere.
     """
     return dot(dot(F, M), transpose(F))
+
+
+def finger_of_sphere_in_frame(stretches: Vector, _G: Tensor, _M: Tensor) -> Tensor:
+    """b_e of a body that is a sphere at rest, in its particle frame: :func:`finger_in_frame` for M = I."""
+    x, y, z = stretches
+    return (x * x, 0.0, 0.0, 0.0, y * y, 0.0, 0.0, 0.0, z * z)
+
+
+def finger_in_frame(_stretches: Vector, G: Tensor, M: Tensor) -> Tensor:
+    """:func:`finger` of a body in its particle frame, where its stretches are known; G = Q·F."""
+    return finger(G, M)
 
 
 def metric_at_rest(F0: Tensor) -> Tensor:

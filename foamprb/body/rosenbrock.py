@@ -53,6 +53,12 @@ def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tens
     return add_identity(T, J * wJ)
 
 
+def kirchhoff_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """The same for a diagonal b: that of a body that is a sphere at rest, in its particle frame."""
+    x, y, z = _principal_kirchhoff((b[0], b[4], b[8]), J, mu, lame, k)
+    return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
+
+
 def _principal_invariants(e: Vector) -> tuple[Scalar, Scalar]:
     return e[0] + e[1] + e[2], e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
 
@@ -217,17 +223,16 @@ def inertial_stiffness(
     p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k, ratio)
     q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k, ratio)
     r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k, ratio)
-    zero = 0.0 * f
-    first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], zero)
-    second = (f * r[0], f * r[1], f * r[2], f * r[3], zero, zero, zero, zero, zero)
+    first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], 0.0)
+    second = (f * r[0], f * r[1], f * r[2], f * r[3], 0.0, 0.0, 0.0, 0.0, 0.0)
     (s23, s13, s12), (e1, e2, e3) = e.shear, e.squares
     stiff_first = (
         c * s23 * e3, c * s23 * e2, c * s23 * e3, c * s23 * e2,
-        c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1, zero,
+        c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1, 0.0,
     )  # fmt: skip
     stiff_second = (
         c * s12 * e2, c * s12 * e1, c * s12 * e2, c * s12 * e1,
-        zero, zero, zero, zero, zero,
+        0.0, 0.0, 0.0, 0.0, 0.0,
     )  # fmt: skip
     return Stiffness(b, traction, (first, second), elastic, (stiff_first, stiff_second))
 

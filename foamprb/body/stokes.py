@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.rosenbrock import Elasticity, disturbance_normal, solve_pair
+from foamprb.body.rosenbrock import Elasticity, solve_pair
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -48,18 +48,17 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
         Viscosity of the solid over that of the fluid.
     """
     a, b, c = semi_axes
-    one = 0.0 * a + 1.0
-    zero = 0.0 * a
-    p, _ = disturbance_normal(semi_axes, g, (-one, zero, zero))
-    q, _ = disturbance_normal(semi_axes, g, (zero, -one, zero))
-    r, _ = disturbance_normal(semi_axes, g, (zero, zero, -one))
+    s = g.star
+    f = 8.0 / (6.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) * (a * b * c))
+    # s̃_aa of unit d_cc; minus two of the first where a is c, as s̃ is traceless.
+    p, q, r = f * s[0], f * s[1], f * s[2]
     # The sum of d_s,aa vanishes, so ones may be added everywhere; they keep the matrix regular.
     own = 1.0 - eta
     n = 1.0 + 2.0 * own
     T = (
-        p[0] + n, q[0] + 1.0, r[0] + 1.0,
-        p[1] + 1.0, q[1] + n, r[1] + 1.0,
-        p[2] + 1.0, q[2] + 1.0, r[2] + n,
+        n - 2.0 * p, q + 1.0, r + 1.0,
+        p + 1.0, n - 2.0 * q, r + 1.0,
+        p + 1.0, q + 1.0, n - 2.0 * r,
     )  # fmt: skip
     W = inverse(T)
     rows = (W[0] + W[1] + W[2], W[3] + W[4] + W[5], W[6] + W[7] + W[8])
@@ -73,10 +72,10 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     x, y, z = a * a, b * b, c * c
     k = 2.0 / (a * b * c)
     p1, p2, p3 = g.ring[0] * (y + z), g.ring[1] * (x + z), g.ring[2] * (x + y)
-    r = reciprocals((k - own * p1, k - own * p2, k - own * p3))
-    s = reciprocals((y + z, x + z, x + y))
-    slip = ((y - z) * s[0], (x - z) * s[1], (x - y) * s[2])
-    return Mobility(normal, (p1 * r[0], p2 * r[1], p3 * r[2]), slip, own)
+    t = reciprocals((k - own * p1, k - own * p2, k - own * p3))
+    u = reciprocals((y + z, x + z, x + y))
+    slip = ((y - z) * u[0], (x - z) * u[1], (x - y) * u[2])
+    return Mobility(normal, (p1 * t[0], p2 * t[1], p3 * t[2]), slip, own)
 
 
 def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:

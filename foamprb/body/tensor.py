@@ -20,6 +20,9 @@ _TINY = 1e-300
 _SMALL = 1e-150
 
 
+ZERO: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
 def select(condition: Any, a: Scalar, b: Scalar) -> Scalar:
     """``a`` where ``condition`` holds, else ``b``; both are evaluated."""
     return np.where(condition, a, b)
@@ -68,8 +71,7 @@ def sym(T: Tensor) -> Tensor:
 def skew(T: Tensor) -> Tensor:
     """The skew part ½(T − Tᵀ)."""
     p, q, r = 0.5 * (T[1] - T[3]), 0.5 * (T[2] - T[6]), 0.5 * (T[5] - T[7])
-    zero = 0.0 * p
-    return (zero, p, q, -p, zero, r, -q, -r, zero)
+    return (0.0, p, q, -p, 0.0, r, -q, -r, 0.0)
 
 
 def dev(T: Tensor) -> Tensor:

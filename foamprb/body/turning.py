@@ -21,6 +21,22 @@ def commutator(S: Tensor, T: Tensor) -> Tensor:
     return add(dot(S, T), scale(-1.0, dot(T, S)))
 
 
+def turned(W: Tensor, T: Tensor) -> Tensor:
+    """W T − T W for a skew W: the rate at which T changes if it turns with the spin W."""
+    p, q, r = W[1], W[2], W[5]
+    return (
+        p * (T[3] + T[1]) + q * (T[6] + T[2]),
+        p * (T[4] - T[0]) + q * T[7] + r * T[2],
+        p * T[5] + q * (T[8] - T[0]) - r * T[1],
+        p * (T[4] - T[0]) + q * T[5] + r * T[6],
+        r * (T[7] + T[5]) - p * (T[1] + T[3]),
+        r * (T[8] - T[4]) - p * T[2] - q * T[3],
+        p * T[7] + q * (T[8] - T[0]) - r * T[3],
+        r * (T[8] - T[4]) - p * T[6] - q * T[1],
+        -q * (T[2] + T[6]) - r * (T[5] + T[7]),
+    )
+
+
 def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
     """The spin W, 1/s, that accounts best for the change of b = F Fᵀ, in a section that is not round.
 
@@ -39,8 +55,7 @@ def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
     w12 = _spin(x, y, l_s[1], l_s[3])
     w13 = _spin(x, z, l_s[2], l_s[6])
     w23 = _spin(y, z, l_s[5], l_s[7])
-    zero = 0.0 * w12
-    return (zero, w12, w13, -w12, zero, w23, -w13, -w23, zero)
+    return (0.0, w12, w13, -w12, 0.0, w23, -w13, -w23, 0.0)
 
 
 def _spin(bi: Scalar, bj: Scalar, lij: Scalar, lji: Scalar) -> Scalar:
@@ -52,8 +67,7 @@ def _stress_of_spin(e: Elasticity, W: Tensor) -> Tensor:
     """Change of τ by a spin, Pa/s, as the Jacobian has it, the off-diagonal elastic stretch left out."""
     x, y, z = e.squares
     p, q, r = e.shear[0] * W[5] * (z - y), e.shear[1] * W[2] * (z - x), e.shear[2] * W[1] * (y - x)
-    zero = 0.0 * p
-    return (zero, r, q, r, zero, p, q, p, zero)
+    return (0.0, r, q, r, 0.0, p, q, p, 0.0)
 
 
 def turning_gradient(
@@ -82,7 +96,7 @@ def turning_gradient(
         Elastic stress over μ_f, 1/s.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
-    stress = commutator(add(W, scale(-1.0, own)), sigma)
+    stress = turned(add(W, scale(-1.0, own)), sigma)
     stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, own)))
-    seen = velocity_gradient(m, stress, commutator(W, l_f))
-    return add(commutator(W, l_s), scale(-1.0, seen))
+    seen = velocity_gradient(m, stress, turned(W, l_f))
+    return add(turned(W, l_s), scale(-1.0, seen))

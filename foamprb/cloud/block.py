@@ -10,7 +10,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.ellipsoid import Integrals, integrals
+from foamprb.body.ellipsoid import COMPACT, Integrals, integrals, integrals_of_compact
 from foamprb.body.material import metric_at_rest
 from foamprb.body.tensor import (
     Tensor,
@@ -193,6 +193,14 @@ def load_integrals(block: Any, i: int) -> Integrals:
     )
 
 
+def store_integrals(block: Any, i: int, g: Integrals) -> None:
+    """Put Jeffery's integrals into lane i."""
+    store3(block, at.alpha, i, g.alpha)
+    store3(block, at.ring, i, g.ring)
+    store3(block, at.star, i, g.star)
+    block[at.chi * LANES + i] = g.chi
+
+
 def new_frames(block: Any) -> None:
     """Particle frame and stretches of the new deformation gradient, from the frame of the last one."""
     frame_stage(block)
@@ -222,7 +230,7 @@ def renew_frames(block: Any) -> None:
     if found:
         stretch_stage(block)
         straighten(block, _STORED_SKEWNESS)
-        integrals_stage(block)
+        new_integrals(block)
 
 
 def frame_stage(block: Any) -> None:
@@ -283,12 +291,12 @@ def accept_stage(block: Any, tolerance: float) -> None:
         store9(block, at.A, i, choose(sound, A, load9(block, at.A, i)))
         store9(block, at.frame, i, choose(sound, load9(block, at.Q, i), load9(block, at.frame, i)))
         w = load3(block, at.v, i)
-        store3(
-            block,
-            at.v,
-            i,
-            (select(sound, v[0], w[0]), select(sound, v[1], w[1]), select(sound, v[2], w[2])),
-        )
+        store3(block, at.v, i, choose3(sound, v, w))
+
+
+def choose3(condition: Any, v: Vector, w: Vector) -> Vector:
+    """V where the condition holds, else w."""
+    return select(condition, v[0], w[0]), select(condition, v[1], w[1]), select(condition, v[2], w[2])
 
 
 def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
@@ -300,14 +308,37 @@ def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
     )  # fmt: skip
 
 
-def integrals_stage(block: Any) -> None:
+def new_integrals(block: Any) -> None:
     """Jeffery's integrals of the stretches."""
+    compact_stage(block)
+    elongated = 0
     for i in range(LANES):
-        g = integrals(load3(block, at.stretch, i))
-        store3(block, at.alpha, i, g.alpha)
-        store3(block, at.ring, i, g.ring)
-        store3(block, at.star, i, g.star)
-        block[at.chi * LANES + i] = g.chi
+        if is_elongated(load3(block, at.stretch, i)):
+            elongated += 1
+    if elongated:
+        elongated_stage(block)
+
+
+def is_elongated(stretches: Vector) -> Any:
+    """Whether the integrals of a body want more work."""
+    x, y, z = stretches
+    return np.maximum(np.maximum(x, y), z) > COMPACT * np.minimum(np.minimum(x, y), z)
+
+
+def compact_stage(block: Any) -> None:
+    """Jeffery's integrals of the stretches, of bodies that are not elongated."""
+    for i in range(LANES):
+        store_integrals(block, i, integrals_of_compact(load3(block, at.stretch, i)))
+
+
+def elongated_stage(block: Any) -> None:
+    """Those of the others; the rest stays as it is."""
+    for i in range(LANES):
+        stretches, known = load3(block, at.stretch, i), load_integrals(block, i)
+        g, elongated = integrals(stretches), is_elongated(stretches)
+        alpha = choose3(elongated, g.alpha, known.alpha)
+        ring, star = choose3(elongated, g.ring, known.ring), choose3(elongated, g.star, known.star)
+        store_integrals(block, i, Integrals(alpha, ring, star, select(elongated, g.chi, known.chi)))
 
 
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
@@ -340,5 +371,7 @@ def idle_lanes(block: Any, dt: float) -> None:
         block[at.dt * LANES + i] = dt
 
 
-BLOCK_STAGES = (frame_stage, stretch_stage, straighten_stage, integrals_stage, accept_stage)
+BLOCK_STAGES = (
+    frame_stage, stretch_stage, straighten_stage, compact_stage, elongated_stage, accept_stage
+)  # fmt: skip
 """The stages that every integrator has."""

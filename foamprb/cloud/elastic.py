@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
+from foamprb.body.rosenbrock import Elasticity, elasticity
+from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import at

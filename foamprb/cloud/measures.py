@@ -36,10 +36,12 @@ from foamprb.body.traction import disturbance
 from foamprb.cloud.block import (
     ROWS,
     at,
-    integrals_stage,
+    compact_stage,
+    elongated_stage,
     load3,
     load9,
     load_integrals,
+    new_integrals,
     resume_frames,
     store3,
     store9,
@@ -203,7 +205,7 @@ def find_out(
             block[at.R * LANES + i] = R[k]
         resume_frames(block)
         sort_stage(block)
-        integrals_stage(block)
+        new_integrals(block)
         report_stage(block, mu)
         for i in range(min(LANES, n - start)):
             for c in range(9):
@@ -214,7 +216,7 @@ def find_out(
                 found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
 
 
-_STAGES = (stretch_stage, straighten_stage, integrals_stage, sort_stage, report_stage)
+_STAGES = (stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage)
 """Compiled each on its own; the particle loop has most of them as well."""
 
 

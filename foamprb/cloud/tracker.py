@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.drag import DRAGS
-from foamprb.body.material import MATERIALS
-from foamprb.body.material import finger as finger_of_ellipsoid
+from foamprb.body.error_control import strain_in_frame
+from foamprb.body.material import MATERIALS, finger, finger_in_frame
+from foamprb.body.rosenbrock import kirchhoff
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
@@ -110,7 +111,7 @@ class Tracker:
         patches: Sequence[Patch] = (),
     ) -> None:
         self._made_of = models, kernels, medium, interactions, dt, start, shaped, tense, patches
-        bindings = dict(kernels)
+        bindings: dict[str, Any] = dict(kernels)
         if models.touching == "centre":
             bindings["gap"] = gap_free
         bindings["traction"] = TRACTIONS[models.traction]
@@ -119,8 +120,11 @@ class Tracker:
         bindings["derivatives"] = material.derivatives
         if material.dilation is not None:
             bindings["dilation"] = material.dilation
+        # In its particle frame the elastic strain of a sphere is diagonal.
         if shaped:
-            bindings["finger"] = finger_of_ellipsoid
+            bindings |= {"finger": finger, "finger_in_frame": finger_in_frame, "kirchhoff": kirchhoff}
+        else:
+            bindings["strain_by"] = strain_in_frame
         if tense:
             bindings["interface"] = laplace_stress
         self.integrator = integrator = INTEGRATORS[models.integrator]
@@ -231,9 +235,7 @@ class Tracker:
         stop: Callable[[], bool],
     ) -> Outcome:
         """Carry the particles of some rows from a step through so many steps."""
-        # Neighbours in the mesh share a block, so that the nodes they read are in the cache.
-        place = (p.status[rows].astype(np.int64) << 32) + p.host[rows]
-        rows = rows[np.argsort(place, kind="stable")]
+        rows = in_blocks(p, rows)
         halt = np.zeros(1, dtype=np.int64)
 
         def work(first: int) -> Outcome:
@@ -259,6 +261,17 @@ class Tracker:
                 halt[0] = 1
                 raise
         return sum((share.result() for share in under_way), Outcome())
+
+
+def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The order in which particles are put into blocks, of those in some rows.
+
+    A block goes on until its last particle is done: those that took as many steps to the power of two before
+    share one. Among them do neighbours in the mesh, so that the nodes they read are in the cache.
+    """
+    effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
+    key = (p.status[rows].astype(np.int64) << 48) + (effort.astype(np.int64) << 32) + p.host[rows]
+    return rows[np.argsort(key, kind="stable")]
 
 
 _PATIENCE = 0.1

@@ -182,7 +182,7 @@ _SLOWER, _FASTER = 0.1, 4.0
 
 
 class _Pace:
-    """How many steps are taken at once: enough that taking particles up and putting them down costs little."""
+    """How many steps are taken at once: so many that to take particles up and put them down costs little."""
 
     def __init__(self) -> None:
         self._steps: float = 0.0

@@ -277,20 +277,28 @@ def positions(n: int, seed: int = 0, reach: float = 0.95) -> Floats:
 
 
 def soft_cloud(
-    flow: Any, n: int, dt: float, integrator: str = "paper", threads: int = 1, water: bool = False
+    flow: Any,
+    n: int,
+    dt: float,
+    integrator: str = "paper",
+    threads: int = 1,
+    water: bool = False,
+    Ca: float = 0.5,
+    reach: float = 0.95,
+    tolerance: float = np.inf,
 ) -> Any:
-    """n active particles that move with the flow; steps of fixed size, as OpenFOAM's are."""
+    """n active particles that move with the flow; without tolerance in steps of fixed size, as OpenFOAM's."""
     import foamprb
 
-    x = positions(n)
+    x = positions(n, reach=reach)
     medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
     rho = RHO_S
     if water:
         medium, rho = foamprb.Medium(1e-3, 1000.0, (0.0, -9.81, 0.0)), 1050.0
-    particles = foamprb.spheres(x, d=D, rho=rho, mu=medium.mu * WALL_RATE / 0.5)
+    particles = foamprb.spheres(x, d=D, rho=rho, mu=medium.mu * WALL_RATE / Ca)
     particles.v[:] = poiseuille(x)
     walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-    models = foamprb.Models(integrator=integrator, tolerance=np.inf)
+    models = foamprb.Models(integrator=integrator, tolerance=tolerance)
     return foamprb.Cloud(particles, flow, medium, walls, dt, models, threads)
 
 

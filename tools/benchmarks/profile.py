@@ -10,12 +10,16 @@ import numpy as np
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, rows
-from benchmarks.tracker import Tracker
+from benchmarks.tracker import OPENFOAM_STEP, Tracker
+from benchmarks.whole import CAPILLARY_NUMBERS, REACH
 from foamprb.cloud import block
 from foamprb.cloud.block import frame_stage
+from foamprb.cloud.block import frame_stage as judging_stage
 from foamprb.cloud.block import frame_stage as medium_stage
-from foamprb.cloud.integrators import paper, stokes
+from foamprb.cloud.integrators import paper, rosenbrock, stokes
+from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES
+from foamprb.cloud.tracker import Models, in_blocks
 from foamprb.compile.link import link
 from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import sample, walk
@@ -27,29 +31,43 @@ class Stage(NamedTuple):
 
     function: Any
     times: int
-    with_medium: bool = False
+    takes: str = ""
+    """``medium``, ``judging`` for medium and tolerance, or nothing beside the block."""
 
 
 STAGES: dict[str, dict[str, Stage]] = {
     "paper": {
-        "traction": Stage(paper.traction_stage, 1, True),
+        "traction": Stage(paper.traction_stage, 1, "medium"),
         "newton": Stage(paper.newton_stage, 1),
         "frame": Stage(block.frame_stage, 1),
         "stretches": Stage(block.stretch_stage, 1),
-        "integrals": Stage(block.integrals_stage, 1),
-        "barycentre": Stage(paper.barycentre_stage, 1, True),
+        "integrals": Stage(block.compact_stage, 1),
+        "barycentre": Stage(paper.barycentre_stage, 1, "medium"),
     },
     "stokes": {
         "frame": Stage(block.frame_stage, 2),
         "stretches": Stage(block.stretch_stage, 2),
-        "integrals": Stage(block.integrals_stage, 2),
-        "first slope": Stage(stokes.first_inertialess, 1, True),
-        "second slope": Stage(stokes.second_inertialess, 1, True),
+        "integrals": Stage(block.compact_stage, 2),
+        "prediction": Stage(stokes.predict_inertialess, 1, "medium"),
+        "first slope": Stage(stokes.first_inertialess, 1, "medium"),
+        "second slope": Stage(stokes.second_inertialess, 1, "judging"),
+    },
+    "rosenbrock": {
+        "frame": Stage(block.frame_stage, 2),
+        "stretches": Stage(block.stretch_stage, 2),
+        "integrals": Stage(block.compact_stage, 2),
+        "prediction": Stage(rosenbrock.predict_inertial, 1, "medium"),
+        "first slope": Stage(rosenbrock.first_inertial, 1, "medium"),
+        "second slope": Stage(rosenbrock.second_inertial, 1, "judging"),
     },
 }
-"""Stages over the lanes of a block, in the order of the loop."""
+"""Stages over the lanes of a block that every step goes through, in the order of the loop."""
 
-FLOW_STAGES = {"paper": {"sample": 1, "walk": 1, "gap": 1}, "stokes": {"sample": 2, "walk": 2, "gap": 1}}
+FLOW_STAGES = {
+    "paper": {"sample": 1, "walk": 1, "gap": 1},
+    "stokes": {"sample": 2, "walk": 2, "gap": 1},
+    "rosenbrock": {"sample": 2, "walk": 2, "gap": 1},
+}
 """What goes particle by particle, and how often in a step."""
 
 
@@ -61,6 +79,11 @@ def _repeat(data: Any, times: int) -> None:
 def _repeat_medium(data: Any, medium: Any, times: int) -> None:
     for _ in range(times):
         medium_stage(data, medium)
+
+
+def _repeat_judging(data: Any, medium: Any, tolerance: Any, times: int) -> None:
+    for _ in range(times):
+        judging_stage(data, medium, tolerance)
 
 
 def _repeat_sample(flow: Any, hosts: Any, x: Any, times: int, out: Any) -> None:
@@ -92,8 +115,7 @@ def _repeat_gap(flow: Any, hosts: Any, x: Any, F: Any, R: Any, times: int, out: 
 def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
     """Some of the blocks that a run would make of a cloud: rows of the particles, and the filled block."""
     p = cloud.particles
-    rows_of = np.flatnonzero(p.status == foamprb.Status.ACTIVE)
-    rows_of = rows_of[np.argsort(p.host[rows_of], kind="stable")]
+    rows_of = in_blocks(p, np.flatnonzero(p.status == foamprb.Status.ACTIVE))
     starts = np.linspace(0, len(rows_of) - LANES, number).astype(int)
     return [(rows_of[s : s + LANES], filled(cloud, rows_of[s : s + LANES])) for s in starts]
 
@@ -110,7 +132,12 @@ def filled(cloud: Any, members: Any) -> Any:
         block.load_particle(p, k, scratch, i)
         block.store3(data, block.at.u, i, tuple(u[i]))
         block.store9(data, block.at.l, i, tuple(l[i].ravel()))
-    for stage in (block.frame_stage, block.stretch_stage, block.integrals_stage):
+        if cloud.tracker.integrator.adaptive:
+            for row in (during.start_u, during.end_u):
+                block.store3(data, row, i, tuple(u[i]))
+            for row in (during.start_l, during.end_l):
+                block.store9(data, row, i, tuple(l[i].ravel()))
+    for stage in (block.frame_stage, block.stretch_stage, block.compact_stage):
         link(_repeat, {"frame_stage": stage}, separate=(stage,))(data, 1)
     return data
 
@@ -127,10 +154,15 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     p = cloud.particles
     runs: dict[str, Any] = {}
     for name, stage in STAGES[integrator].items():
-        if stage.with_medium:
+        medium = cloud.tracker.medium
+        if stage.takes == "medium":
             bindings = cloud.tracker.bindings | {"medium_stage": stage.function}
-            kernel, medium = link(_repeat_medium, bindings, (stage.function,)), cloud.tracker.medium
+            kernel = link(_repeat_medium, bindings, (stage.function,))
             runs[name] = lambda times, k=kernel, m=medium: [k(data, m, times) for _, data in chosen]
+        elif stage.takes == "judging":
+            bindings = cloud.tracker.bindings | {"judging_stage": stage.function}
+            kernel = link(_repeat_judging, bindings, (stage.function,))
+            runs[name] = lambda times, k=kernel, m=medium: [k(data, m, 1e-4, times) for _, data in chosen]
         else:
             kernel = link(_repeat, {"frame_stage": stage.function}, separate=(stage.function,))
             runs[name] = lambda times, k=kernel: [k(data, times) for _, data in chosen]
@@ -144,6 +176,23 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     runs["walk"] = lambda times: [walking(arrays, h, x, x1, times, out) for h, x, x1, *_ in places]
     runs["gap"] = lambda times: [touching(arrays, h, x, F, R, times, out) for h, x, _, F, R in places]
     return runs
+
+
+def share_of_use(flow: Any, n: int, Ca: float, steps: int = 20) -> float:
+    """Share of the lanes' steps of a default run that carry a particle, the others waiting for one.
+
+    Particles of Ca at the wall are up to the wall, and blocks are filled anew after ``steps`` tracking steps.
+    """
+    cloud = pipe.soft_cloud(flow, n, OPENFOAM_STEP, "auto", Ca=Ca, reach=REACH, tolerance=Models().tolerance)
+    cloud.advance(steps)
+    p = cloud.particles
+    blocks = in_blocks(p, np.flatnonzero(p.status == foamprb.Status.ACTIVE))
+    taken = np.zeros(n)
+    for _ in range(steps):
+        cloud.advance(1)
+        taken += p.substeps
+    whole = taken[blocks[: len(blocks) // LANES * LANES]].reshape(-1, LANES)
+    return float(whole.sum() / (LANES * whole.max(axis=1).sum()))
 
 
 def measure(options: Options) -> list[Row]:
@@ -166,4 +215,6 @@ def measure(options: Options) -> list[Row]:
         often = {name: stage.times for name, stage in stages.items()} | FLOW_STAGES[integrator]
         shares = {name: costs[name] * count for name, count in often.items()}
         found += rows("profile", f"stage of {integrator}", shares, unit)
+    used = {f"Ca {Ca:g}": share_of_use(flow, min(n, 20_000), Ca) for Ca in CAPILLARY_NUMBERS}
+    found += rows("profile", "share of lane-steps of use in a default run", used, "")
     return found

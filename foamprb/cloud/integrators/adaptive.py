@@ -29,11 +29,11 @@ from foamprb.cloud.block import (
     at,
     choose,
     idle_lanes,
-    integrals_stage,
     load3,
     load9,
     load_particle,
     new_frames,
+    new_integrals,
     save_particle,
     store3,
     store9,
@@ -152,6 +152,8 @@ def no_choice(block: Any, medium: Medium, tolerance: float) -> None:
     """The same for a slope that judges by the tolerance."""
 
 
+renews_end = 0
+"""Whether an integrator's ``end_slope`` finds what its last step has left to be found; bound with it."""
 predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
@@ -162,7 +164,7 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     Once before each slope; ``share`` says how far on the way to new_x the body is.
     """
     new_frames(block)
-    integrals_stage(block)
+    new_integrals(block)
     surround(block, medium, share)
 
 
@@ -313,9 +315,19 @@ def track_adaptive(
             recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
             if whole:
                 end_tracking_step(scratch, i)
+    if renews_end:
+        renew_end(flow, medium, scratch, len(members), last)
     for i in range(len(members)):
+        save_particle(p, members[i], scratch, i)
+    return recovered
+
+
+def renew_end(flow: Any, medium: Medium, scratch: Scratch, n: int, last: int) -> None:
+    """Find what ``end_slope`` does of the first n lanes, at the end of tracking step ``last``."""
+    block = scratch.block
+    for i in range(n):
         block[at.moving * LANES + i] = 0.0
-        if status[i] == ACTIVE:
+        if scratch.status[i] == ACTIVE:
             block[at.moving * LANES + i] = 1.0
             store9(block, at.new_F, i, load9(block, at.F, i))
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
@@ -325,6 +337,3 @@ def track_adaptive(
             look_around(flow, scratch, i, last - 1, 0.0, medium)
     evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
-    for i in range(len(members)):
-        save_particle(p, members[i], scratch, i)
-    return recovered

@@ -30,8 +30,8 @@ class Integrator(NamedTuple):
     """The parts of the loop that do not depend on the flow: each is compiled once for all flows."""
     layout: Layout
     """Of its block."""
-    bindings: Mapping[str, Callable[..., Any]] = MappingProxyType({})
-    """Functions of its own, by the names by which the loop calls them."""
+    bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})
+    """Functions and constants of its own, by the names by which the loop calls them."""
     adaptive: bool = False
     """Whether it cuts a tracking step as its tolerance asks for, which the loop then takes as an option."""
     inertia: bool = True

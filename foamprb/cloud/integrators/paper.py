@@ -24,12 +24,12 @@ from foamprb.cloud.block import (
     accept_stage,
     at,
     idle_lanes,
-    integrals_stage,
     load3,
     load9,
     load_integrals,
     load_particle,
     new_frames,
+    new_integrals,
     renew_frames,
     resume_frames,
     save_particle,
@@ -206,7 +206,7 @@ def track_block(
         if status[i] == ACTIVE:
             block[at.clearance * LANES + i], _, _ = clearance_of(flow, scratch, i)
     resume_frames(block)
-    integrals_stage(block)
+    new_integrals(block)
 
     for n in range(step, step + steps):
         t_end = start + (n + 1) * dt
@@ -237,7 +237,7 @@ def track_block(
             if status[i] == ACTIVE and not block[at.error * LANES + i] <= RELATIVE_TOLERANCE:
                 dense_newton(block, i, scratch.matrix)
         new_frames(block)
-        integrals_stage(block)
+        new_integrals(block)
         barycentre_stage(block, medium)
         accept_stage(block, RELATIVE_TOLERANCE)
 

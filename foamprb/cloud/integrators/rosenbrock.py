@@ -15,7 +15,7 @@ from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
-from foamprb.body.inertial_path import Motion, first_motion, fluid_changes, last_motion
+from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
 from foamprb.body.inertial_path import second_order as path_of_second_order
 from foamprb.body.inertial_path import slope as slope_of_path
@@ -24,6 +24,7 @@ from foamprb.body.inertial_runge_kutta import (
     Pair,
     combine,
     fluid_change,
+    over_b,
     resolvent,
     turning_acceleration,
 )
@@ -32,7 +33,7 @@ from foamprb.body.inertial_runge_kutta import last_argument as end_argument
 from foamprb.body.inertial_runge_kutta import second_order as of_second_order
 from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
-from foamprb.body.material import finger_of_sphere as finger
+from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.material import viscous_stress
 from foamprb.body.rosenbrock import Stiffness, inertial_stiffness
 from foamprb.body.tensor import (
@@ -43,7 +44,6 @@ from foamprb.body.tensor import (
     dot,
     dot_vector,
     from_frame,
-    inverse,
     scale,
     select,
     to_frame,
@@ -117,9 +117,8 @@ def predict_inertial(block: Any, medium: Medium) -> None:
         v_t, rate = _acceleration(block, i, medium, v)
         a_u = dot_vector(Q, fluid_acceleration(block, i, v))
         start = (dot_vector(Q, v), dot_vector(Q, v_t))
-        none = (0.0 * h, 0.0 * h, 0.0 * h)
         by_fluid = (h * rate[0] * a_u[0], h * rate[1] * a_u[1], h * rate[2] * a_u[2])
-        way, _ = respond_in_path(rate, h, start, (none, by_fluid), (none, none))
+        way, _ = respond_in_path(rate, h, start, (NOTHING[0], by_fluid), NOTHING)
         way = vector_dot(way, Q)
         store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
         # The parabola from the start with the velocity v to that place.
@@ -144,9 +143,11 @@ def first_inertial(block: Any, medium: Medium) -> None:
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
-        G, L = dot(Q, F), to_frame(Q, dot(A, inverse(F)))
-        b_e = finger(G, load9(block, at.M, i))
-        l_t, tau = _shape_rate(block, i, medium.mu, L, G, b_e)
+        G = dot(Q, F)
+        # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
+        L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
+        b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
+        l_t, tau = _shape_rate(block, i, medium.mu, L, b_e)
         e = solid_elasticity(block, i, stretches, b_e, 1.0)
         n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
         dl = add(l_end, scale(-1.0, l))
@@ -224,8 +225,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         moved = load3(block, own.dx, i), load3(block, own.dv, i)
         kv = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, seen, 1.0 / NODE)
         path = path_of_second_order(rate, h, moving, *changes, kv)
-        none = (0.0 * h, 0.0 * h, 0.0 * h)
-        by_forces = respond_in_path(rate, h, (none, none), kv, (none, none))
+        by_forces = respond_in_path(rate, h, NOTHING, kv, NOTHING)
         size = np.maximum(size, _length(by_forces, h, _way(block, i)))
         block[during.third * LANES + i] = select(size <= tolerance, 0.0, 1.0)
         store3(block, own.slope_v, i, kv[1])
@@ -263,8 +263,7 @@ def last_inertial(block: Any, medium: Medium) -> None:
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
         v = load3(block, at.new_v, i)
-        none = (0.0 * h, 0.0 * h, 0.0 * h)
-        slope = (none, load3(block, own.slope_v, i))
+        slope = (NOTHING[0], load3(block, own.slope_v, i))
         _set_motion(block, i, Q0, last_motion(rate, h, moving, *changes, slope))
         w = load3(block, at.new_v, i)
         v = (select(third, w[0], v[0]), select(third, w[1], v[1]), select(third, w[2], v[2]))
@@ -295,8 +294,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
         moved = load3(block, own.dx, i), load3(block, own.dv, i)
-        none = (0.0 * h, 0.0 * h, 0.0 * h)
-        slope = (none, load3(block, own.slope_v, i))
+        slope = (NOTHING[0], load3(block, own.slope_v, i))
         end = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, changes[0], 1.0)
         path = path_of_third_order(rate, h, moving, *changes, slope, end)
         x2, v2 = load3(block, own.second_x, i), load3(block, own.second_v, i)
@@ -319,13 +317,13 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
 
-def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, G: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
+def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
     """dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in the frame of the shape.
 
     Parameters
     ----------
-    L, G
-        The body's velocity gradient, 1/s, and Q·F.
+    L
+        The body's velocity gradient, 1/s.
     b_e
         Elastic b_e.
     """
@@ -336,7 +334,11 @@ def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, G: Tensor, b_e: Tens
     tau = conservative_stress(block, i, stretches, b_e, J)
     c = _inertia(block, i)
     W = add(scale(c * J, stress), scale(-c, tau))
-    return add(dot(W, inverse(dot(G, transpose(G)))), scale(-1.0, dot(L, L))), tau
+    return add(over_b(_squares(stretches), W), scale(-1.0, dot(L, L))), tau
+
+
+def _squares(v: Vector) -> Vector:
+    return v[0] * v[0], v[1] * v[1], v[2] * v[2]
 
 
 def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
@@ -344,7 +346,8 @@ def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
     Q, L = load9(block, at.Q, i), add(l_s, load9(block, own.dl, i))
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
-    rate, _ = _shape_rate(block, i, medium.mu, to_frame(turn, L), G, finger(G, load9(block, at.M, i)))
+    b_e = finger_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
+    rate, _ = _shape_rate(block, i, medium.mu, to_frame(turn, L), b_e)
     return algebra_rate(load9(block, own.Omega, i), L), from_frame(turn, rate)
 
 
@@ -370,8 +373,9 @@ def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
 
 def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
     """F and A at the end of the step, and J."""
-    F = dot(transpose(Q), dot(group_exponential(end[0]), dot(Q, load9(block, at.F, i))))
-    return F, dot(from_frame(Q, add(l_s, end[1])), F), det(F)
+    G = dot(group_exponential(end[0]), dot(Q, load9(block, at.F, i)))
+    F = dot(transpose(Q), G)
+    return F, dot(transpose(Q), dot(add(l_s, end[1]), G)), det(F)
 
 
 def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:

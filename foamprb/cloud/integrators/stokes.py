@@ -18,11 +18,12 @@ from foamprb.body.exponential_runge_kutta import second_order as of_second_order
 from foamprb.body.exponential_runge_kutta import slope as slope_of
 from foamprb.body.exponential_runge_kutta import third_order as of_third_order
 from foamprb.body.material import MATERIALS
-from foamprb.body.material import finger_of_sphere as finger
+from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.relaxation import Relaxation, Response, relaxation, relaxing, responses
 from foamprb.body.slip import balanced_slip
 from foamprb.body.stokes import Mobility, isochoric, mobility, velocity_gradient
 from foamprb.body.tensor import (
+    ZERO,
     Tensor,
     Vector,
     add,
@@ -105,7 +106,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         G = dot(Q, F)
-        b_e = finger(G, load9(block, at.M, i))
+        b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
         l_f = to_frame(Q, felt)
         l_s = velocity_gradient(m, sigma, l_f)
@@ -260,7 +261,7 @@ def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor
 def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
     """l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
-    b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     m, sigma = _response(block, i, medium, stretches, b_e)
     return from_frame(Q, velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i))))
 
@@ -273,7 +274,7 @@ def _fluid_at_node(block: Any, i: int) -> Vector:
 
 def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
     """Change of l_s by one of the fluid's gradient, 1/s."""
-    return velocity_gradient(m, scale(0.0, dl_f), dl_f)
+    return velocity_gradient(m, ZERO, dl_f)
 
 
 def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
@@ -351,6 +352,7 @@ STOKES = Integrator(
         "last_argument": last_inertialess,
         "third_slope": third_inertialess,
         "end_slope": end_inertialess,
+        "renews_end": 1,
     },
     adaptive=True,
     inertia=False,
