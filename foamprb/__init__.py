@@ -37,6 +37,7 @@ Particles in a flow:
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    FaxenCorrection     the mean over the body of a flow that is curved
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
     StochasticDispersion  eddies of a turbulent flow, of random velocity
@@ -75,6 +76,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.state import Particles, Status, set_rest_shape, spheres
     from foamprb.cloud.surroundings.brownian import BrownianMotion
     from foamprb.cloud.surroundings.dispersion import GradientDispersion, StochasticDispersion
+    from foamprb.cloud.surroundings.faxen import FaxenCorrection
     from foamprb.cloud.surroundings.wall_lift import WallLift
     from foamprb.cloud.tracker import Models
     from foamprb.errors import FailedParticlesWarning, InputError, RunStopped
@@ -98,6 +100,7 @@ _HOMES = {
     "Division": "foamprb.flow.read.division",
     "Escape": "foamprb.cloud.patches",
     "FailedParticlesWarning": "foamprb.errors",
+    "FaxenCorrection": "foamprb.cloud.surroundings.faxen",
     "GradientDispersion": "foamprb.cloud.surroundings.dispersion",
     "Gravity": "foamprb.cloud.forces.gravity",
     "InputError": "foamprb.errors",
@@ -141,6 +144,7 @@ __all__ = [
     "Division",
     "Escape",
     "FailedParticlesWarning",
+    "FaxenCorrection",
     "GradientDispersion",
     "Gravity",
     "InputError",

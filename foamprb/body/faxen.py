@@ -10,6 +10,21 @@ Curvature: TypeAlias = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
 """Second derivatives of the velocity along xx, yy, zz, xy, yz and xz, each a vector, 1/(m s)."""
 
 
+def curvature_of(l_x: Tensor, l_y: Tensor, l_z: Tensor) -> Curvature:
+    """Second derivatives of the velocity, 1/(m s), from the derivatives of its gradient along x, y and z.
+
+    Where a mixed one comes out in two ways it is the mean of both.
+    """
+    return (
+        (l_x[0], l_x[3], l_x[6]),
+        (l_y[1], l_y[4], l_y[7]),
+        (l_z[2], l_z[5], l_z[8]),
+        (0.5 * (l_x[1] + l_y[0]), 0.5 * (l_x[4] + l_y[3]), 0.5 * (l_x[7] + l_y[6])),
+        (0.5 * (l_y[2] + l_z[1]), 0.5 * (l_y[5] + l_z[4]), 0.5 * (l_y[8] + l_z[7])),
+        (0.5 * (l_x[2] + l_z[0]), 0.5 * (l_x[5] + l_z[3]), 0.5 * (l_x[8] + l_z[6])),
+    )
+
+
 def faxen_velocity(C: Tensor, curvature: Curvature) -> Vector:
     """⅙ C:∇∇u = ⅙ Σ a_i² (e_i·∇)² u, m/s: a body without load moves with u + ⅙ C:∇∇u.
 

@@ -114,7 +114,11 @@ class Cloud:
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)
+            for kernel in model.needs:
+                if kernel not in self.flow.kernels:
+                    raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self._reach_grows = True
+        self._largest = float(p.R.max(initial=0.0))
         self._refuse_large()
         self.tracker = Tracker(
             self.models,
@@ -271,15 +275,26 @@ class Cloud:
         return normals
 
     def flow_arrays(self) -> Any:
-        """What the flow's kernels read, with walls listed to :attr:`reach`."""
-        return self.flow.arrays(self.reach, self._touchable)
+        """What the flow's kernels read, with walls listed to :attr:`reach`, and as far as models see."""
+        sight, seen = self._sight
+        return self.flow.arrays(self.reach, self._touchable, sight, seen)
 
     @property
     def _touchable(self) -> list[int]:
         """The patches that a body may touch."""
-        if self.models.touching == "centre" and self._wanted_reach == 0.0:
-            return []
+        return [] if self.models.touching == "centre" else self._solid
+
+    @property
+    def _solid(self) -> list[int]:
+        """The patches that stop a body."""
         return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
+
+    @property
+    def _sight(self) -> tuple[float, list[int]]:
+        """How far models see walls, m, and which patches."""
+        radii = max((model.sight for model in self.models.surroundings), default=0.0)
+        seen = {i for model in self.models.surroundings for i in model.seen(self.flow.patches)}
+        return radii * self._largest, [i for i in self._solid if i in seen]
 
     def make_ready(self) -> Any:
         """Do what the first step wants done of the flow, and would do; return what the kernels read."""
@@ -289,12 +304,7 @@ class Cloud:
     def _grow_reach(self) -> None:
         """Let the reach at the start be beyond what the longest particle sees."""
         if self.reach == 0.0:
-            self.reach = max(SEEN * _REACH_MARGIN, self._wanted_reach) * self.executor.longest()
-
-    @property
-    def _wanted_reach(self) -> float:
-        """Distance to which models want walls to be listed, in radii."""
-        return max((model.reach for model in self.models.surroundings), default=0.0)
+            self.reach = SEEN * _REACH_MARGIN * self.executor.longest()
 
     def _extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""

@@ -16,12 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.faxen import Curvature, curvature_of
+from foamprb.body.tensor import Tensor, Vector, add, scale
 from foamprb.errors import InputError
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.pipes import (
     PipeArrays,
     WomersleyArrays,
+    curvature_pipe,
+    curvature_womersley,
     gap_pipe,
     normal_pipe,
     planes_of_pipe,
@@ -30,7 +33,15 @@ from foamprb.flow.pipes import (
     walk_pipe,
 )
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.slits import SlitArrays, gap_slit, normal_slit, planes_of_slit, sample_slit, walk_slit
+from foamprb.flow.slits import (
+    SlitArrays,
+    curvature_slit,
+    gap_slit,
+    normal_slit,
+    planes_of_slit,
+    sample_slit,
+    walk_slit,
+)
 
 _FREE = -1
 
@@ -52,6 +63,12 @@ def sample_linear(flow: LinearArrays, host: int, x: Vector, t: float) -> tuple[V
         flow.u0[2] + L[6] * x[0] + L[7] * x[1] + L[8] * x[2],
     )
     return u, L, (0.0, 0.0, 0.0)
+
+
+def curvature_linear(flow: Any, host: int, x: Vector, t: float) -> Curvature:
+    """No second derivative."""
+    nothing = (0.0, 0.0, 0.0)
+    return nothing, nothing, nothing, nothing, nothing, nothing
 
 
 def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -143,7 +160,13 @@ class AnalyticFlow:
         """Return infinity: the flow is known at all times."""
         return math.inf
 
-    def arrays(self, reach: float, touchable: Sequence[int]) -> Any:  # noqa: ARG002
+    def arrays(
+        self,
+        reach: float,  # noqa: ARG002
+        touchable: Sequence[int],  # noqa: ARG002
+        sight: float = 0.0,  # noqa: ARG002
+        seen: Sequence[int] = (),  # noqa: ARG002
+    ) -> Any:
         """Numbers that the kernels read; walls are exact, at any ``reach``."""
         return self._parameters
 
@@ -208,6 +231,7 @@ def linear(gradient: ArrayLike, u0: ArrayLike = (0.0, 0.0, 0.0)) -> AnalyticFlow
     g = np.ascontiguousarray(np.reshape(gradient, 9), dtype=float)
     kernels: dict[str, Callable[..., Any]] = {
         "sample": sample_linear,
+        "curvature": curvature_linear,
         "walk": walk_free,
         "gap": gap_free,
         "normal": normal_free,
@@ -294,6 +318,35 @@ def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
     )
 
 
+def sample(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Stand for the one of the two above that a flow has."""
+    raise NotImplementedError
+
+
+def curvature_by_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Second derivatives, 1/(m s), from the gradient by central differences of the fourth order."""
+    h, (x0, x1, x2) = flow.length, x
+    p = _derivative(
+        sample(flow, host, (x0 - 2.0 * h, x1, x2), t)[1], sample(flow, host, (x0 - h, x1, x2), t)[1],
+        sample(flow, host, (x0 + h, x1, x2), t)[1], sample(flow, host, (x0 + 2.0 * h, x1, x2), t)[1], h,
+    )  # fmt: skip
+    q = _derivative(
+        sample(flow, host, (x0, x1 - 2.0 * h, x2), t)[1], sample(flow, host, (x0, x1 - h, x2), t)[1],
+        sample(flow, host, (x0, x1 + h, x2), t)[1], sample(flow, host, (x0, x1 + 2.0 * h, x2), t)[1], h,
+    )  # fmt: skip
+    r = _derivative(
+        sample(flow, host, (x0, x1, x2 - 2.0 * h), t)[1], sample(flow, host, (x0, x1, x2 - h), t)[1],
+        sample(flow, host, (x0, x1, x2 + h), t)[1], sample(flow, host, (x0, x1, x2 + 2.0 * h), t)[1], h,
+    )  # fmt: skip
+    return curvature_of(p, q, r)
+
+
+def _derivative(a: Tensor, b: Tensor, c: Tensor, d: Tensor, h: float) -> Tensor:
+    """As :func:`_difference`, of tensors."""
+    s, w = 8.0 / (12.0 * h), 1.0 / (12.0 * h)
+    return add(scale(s, add(c, scale(-1.0, b))), scale(-w, add(d, scale(-1.0, a))))
+
+
 class FunctionFlow(AnalyticFlow):
     """A flow given by a function of the user's; see :func:`function`."""
 
@@ -338,6 +391,7 @@ def function(
     names["_rate"] = _with_names(_rate, names)
     kernels: dict[str, Callable[..., Any]] = {
         "sample": _with_names(template, names),
+        "curvature": _with_names(curvature_by_differences, names | {"sample": _with_names(template, names)}),
         "walk": walk_free,
         "gap": gap_free,
         "normal": normal_free,
@@ -414,6 +468,7 @@ def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow
         parameters,
         {
             "sample": sample_slit,
+            "curvature": curvature_slit,
             "walk": walk_slit,
             "gap": gap_slit,
             "walls": planes_of_slit,
@@ -435,7 +490,8 @@ def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> Analy
     mean_velocity
         m/s; the wall shear rate is 4 U/radius.
     """
-    return _in_pipe(PipeArrays(float(radius), float(mean_velocity), float(length)), sample_pipe)
+    parameters = PipeArrays(float(radius), float(mean_velocity), float(length))
+    return _in_pipe(parameters, sample_pipe, curvature_pipe)
 
 
 _MOST_WOMERSLEY = 30.0
@@ -489,10 +545,10 @@ def womersley(
         float(radius), float(mean_velocity), float(length), amplitude / omega, omega, float(phase),
         np.ascontiguousarray(profile.real), np.ascontiguousarray(profile.imag),
     )  # fmt: skip
-    return _in_pipe(parameters, sample_womersley)
+    return _in_pipe(parameters, sample_womersley, curvature_womersley)
 
 
-def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
+def _in_pipe(parameters: Any, sample: Callable[..., Any], curvature: Callable[..., Any]) -> AnalyticFlow:
     """A flow along x in a pipe whose radius and length are among the parameters."""
 
     def inside(points: Floats) -> NDArray[np.bool_]:
@@ -505,6 +561,7 @@ def _in_pipe(parameters: Any, sample: Callable[..., Any]) -> AnalyticFlow:
         parameters,
         {
             "sample": sample,
+            "curvature": curvature,
             "walk": walk_pipe,
             "gap": gap_pipe,
             "walls": planes_of_pipe,

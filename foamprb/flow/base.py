@@ -105,6 +105,8 @@ class Flow(Sampled, Protocol):
       eddies need not have it;
     * ``rotation_at(flow, host) -> (omega, origin)``: angular velocity, 1/s, and a point of the axis of the
       frame in which the host is seen; a flow that is seen at rest need not have it;
+    * ``curvature(flow, host, x, t) -> (u_xx, u_yy, u_zz, u_xy, u_yz, u_xz)``: second derivatives of the
+      velocity, 1/(m s); a flow need not have it;
     * ``normal(flow, triangle, x) -> n``: unit normal into the fluid;
     * ``cross(flow, triangle, x) -> (host, x, turn)``: where a particle goes on that meets a triangle of a
       coupled patch at x, and the rotation of everything that has a direction;
@@ -135,8 +137,12 @@ class Flow(Sampled, Protocol):
             If the flow does not reach so far, or cannot be read.
         """
 
-    def arrays(self, reach: float, touchable: Sequence[int]) -> Any:
-        """What the kernels read; ``gap`` sees the ``touchable`` patches within ``reach`` (m) of a cell.
+    def arrays(
+        self, reach: float, touchable: Sequence[int], sight: float = 0.0, seen: Sequence[int] = ()
+    ) -> Any:
+        """What the kernels read; ``gap`` finds the ``touchable`` patches within ``reach`` (m) of a cell.
+
+        ``walls`` finds those that are ``seen`` to a distance of ``sight`` (m).
 
         It is a tuple with names, perhaps with others in it. Where the contents of a large array, of many kB,
         have changed in place, a number or a small array has changed as well.

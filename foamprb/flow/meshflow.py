@@ -19,10 +19,29 @@ from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import cell_volume, cross, follow, normal, recover, sample, turbulence, walk
-from foamprb.flow.walls import Walls, gap, images_of_walls, near_walls, nearest_wall, pairs_near
+from foamprb.flow.walk import (
+    cell_volume,
+    cross,
+    curvature,
+    follow,
+    normal,
+    recover,
+    sample,
+    turbulence,
+    walk,
+)
+from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
+from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, pairs_near
 
-LONG: tuple[Callable[..., Any], ...] = (follow, trace, is_there, nearest_wall, planes_among, seek)
+LONG: tuple[Callable[..., Any], ...] = (
+    follow,
+    trace,
+    is_there,
+    nearest_wall,
+    nearest_in_tree,
+    planes_among,
+    seek,
+)
 """Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
 
 
@@ -94,6 +113,8 @@ def _folds(
     return folds, start, rim
 
 
+_LISTS = ("near", "wall_", "seen")
+"""How the names of those arrays begin that belong to lists of walls nearby."""
 _AT_ONCE = 1 << 20
 """Tetrahedra of which the volumes are computed at once."""
 
@@ -119,6 +140,7 @@ class MeshFlow:
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "curvature": curvature,
         "walk": walk,
         "gap": gap,
         "walls": walls,
@@ -184,6 +206,10 @@ class MeshFlow:
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             near=np.empty(0, dtype=np.int32),
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
+            wall_boxes=np.empty((2, 6)),
+            wall_leaves=np.empty((0, 1), dtype=np.int32),
+            seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
+            seen=np.empty(0, dtype=np.int32),
         )
 
     @staticmethod
@@ -195,33 +221,47 @@ class MeshFlow:
         """Return infinity: the flow is the same at all times."""
         return float(np.inf)
 
-    def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> MeshArrays:
+    def arrays(
+        self,
+        reach: float = 0.0,
+        touchable: Sequence[int] | None = None,
+        sight: float = 0.0,
+        seen: Sequence[int] = (),
+    ) -> MeshArrays:
         """What the kernels read; bodies of semi-axes up to ``reach`` (m) find what they touch.
 
-        The ``touchable`` patches are given by their indices; by default they are those of type wall.
+        The ``touchable`` patches are given by their indices; by default they are those of type wall. Those
+        that are ``seen`` are found as planes up to a distance of ``sight`` (m).
         """
         if touchable is None:
             touchable = [index for index, patch in enumerate(self.patches) if patch.type in WALLS]
-        if reach <= 0.0 or len(touchable) == 0:
+        touched = tuple(touchable) if reach > 0.0 else ()
+        known = tuple(seen) if sight > 0.0 else ()
+        if not (touched or known):
             return self._arrays
-        key = reach, tuple(touchable)
+        key = reach, touched, sight, known
         if self._near is None or self._near[0] != key:
-            self._near = key, self._with_walls(reach, touchable)
+            self._near = key, self._with_walls(reach, touched, sight, known)
         return self._near[1]
 
-    def _with_walls(self, reach: float, touchable: Sequence[int]) -> MeshArrays:
-        """The arrays with the walls that bodies can touch, and with their images beyond coupled patches."""
-        mesh, boxes, arrays = self.mesh, cell_boxes(self.mesh), self._arrays
-        names = np.flatnonzero(np.isin(mesh.triangle_patch, list(touchable))).astype(np.int32)
-        corners = mesh.points[mesh.triangles[names]]
+    def _with_walls(
+        self, reach: float, touchable: Sequence[int], sight: float, seen: Sequence[int]
+    ) -> MeshArrays:
+        """The arrays with the walls that bodies touch and see, and their images beyond coupled patches."""
+        mesh, arrays = self.mesh, self._arrays
+        names = np.flatnonzero(np.isin(mesh.triangle_patch, [*touchable, *seen])).astype(np.int32)
+        walls = Walls(
+            mesh.points[mesh.triangles[names]], mesh.triangle_normals[names], mesh.triangle_patch[names]
+        )
+        single = np.ones(len(names), dtype=bool)
         if mesh.couplings:
-            walls = Walls(corners, mesh.triangle_normals[names], mesh.triangle_patch[names])
-            images = images_of_walls(mesh, walls, reach)
+            images = images_of_walls(mesh, walls, max(reach if touchable else 0.0, sight if seen else 0.0))
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
             beyond = np.zeros((3 * n, 16))
             beyond[:, :3] = images.corners.reshape(-1, 3)
             names = np.concatenate([names, np.arange(triangles, triangles + n, dtype=np.int32)])
-            corners = np.concatenate([corners, images.corners])
+            walls = Walls(*(np.concatenate([own, other]) for own, other in zip(walls, images, strict=True)))
+            single = np.concatenate([single, np.zeros(n, dtype=bool)])
             arrays = arrays._replace(
                 nodes=np.concatenate([arrays.nodes, beyond]),
                 triangles=np.concatenate(
@@ -230,15 +270,31 @@ class MeshFlow:
                 triangle_patch=np.concatenate([arrays.triangle_patch, images.patches]),
                 triangle_normals=np.concatenate([arrays.triangle_normals, images.normals]),
             )
-        start, near = near_walls(mesh, boxes, self._tree, reach, names, corners)
-        return arrays._replace(near_start=start, near=near)
+        boxes = cell_boxes(mesh)
+        for those in (touchable, seen):
+            some = np.isin(walls.patches, those)
+            if not some.any():
+                continue
+            tree = wall_tree(walls.corners[some], walls.normals[some], single[some])
+            own = names[some]
+            if those is touchable:
+                size = float(np.cbrt(np.median(mesh.volumes)))
+                start, near = near_walls(tree, boxes, reach, own, size)
+                leaves = np.where(tree.leaves < 0, np.int32(-1), own[tree.leaves])
+                arrays = arrays._replace(
+                    near_start=start, near=near, wall_boxes=tree.boxes, wall_leaves=leaves
+                )
+            else:
+                start, found = seen_walls(tree, boxes, sight, own)
+                arrays = arrays._replace(seen_start=start, seen=found)
+        return arrays
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
         """Put what the kernels read, but for the lists of walls nearby, where ``place`` copies it."""
         fixed: dict[str, Any] = {
             name: place(array)
             for name, array in self._arrays._asdict().items()
-            if isinstance(array, np.ndarray) and not name.startswith("near")
+            if isinstance(array, np.ndarray) and not name.startswith(_LISTS)
         }
         self._arrays = self._arrays._replace(**fixed)
         self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
@@ -255,7 +311,9 @@ class MeshFlow:
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh and velocities, by name."""
-        return self._arrays._asdict()
+        return {
+            name: a for name, a in self._arrays._asdict().items() if not name.startswith(("wall_", "seen"))
+        }
 
     def locate(self, points: Floats) -> Ints:
         """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""

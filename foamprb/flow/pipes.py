@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
+from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.flow.base import NO_PLANES, Floats, Planes
 
@@ -31,6 +32,13 @@ def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vecto
     u = (2.0 * flow.mean_velocity - k * r2, 0.0, 0.0)
     l = (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return u, l, (0.0, 0.0, 0.0)
+
+
+def curvature_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Second derivatives, 1/(m s)."""
+    nothing = (0.0, 0.0, 0.0)
+    across = (-4.0 * flow.mean_velocity / (flow.radius * flow.radius), 0.0, 0.0)
+    return nothing, across, across, nothing, nothing, nothing
 
 
 class WomersleyArrays(NamedTuple):
@@ -64,6 +72,23 @@ def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> t
     slope = 2.0 * scale * (w * (df * sine + dg * cosine) - 2.0 * flow.mean_velocity)
     u_t = w * flow.omega * (f * cosine - g * sine)
     return (u, 0.0, 0.0), (0.0, slope * x[1], slope * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (u_t, 0.0, 0.0)
+
+
+def curvature_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Second derivatives, 1/(m s): u_yy = 2 u′/a² + 4 y² u″/a⁴ with u′, u″ by s = r²/a², and so on."""
+    scale = 1.0 / (flow.radius * flow.radius)
+    s = scale * (x[1] * x[1] + x[2] * x[2])
+    a = flow.omega * t + flow.phase
+    cosine, sine = math.cos(a), math.sin(a)
+    f, df, ddf = 0.0 * s, 0.0 * s, 0.0 * s
+    for k in range(flow.real.shape[0] - 1, -1, -1):
+        ddf, df = ddf * s + 2.0 * df, df * s + f
+        f = f * s + flow.real[k] * sine + flow.imaginary[k] * cosine
+    first = 2.0 * scale * (flow.amplitude * df - 2.0 * flow.mean_velocity)
+    second = 4.0 * scale * scale * flow.amplitude * ddf
+    nothing = (0.0, 0.0, 0.0)
+    yy, zz = (first + second * x[1] * x[1], 0.0, 0.0), (first + second * x[2] * x[2], 0.0, 0.0)
+    return nothing, yy, zz, nothing, (second * x[1] * x[2], 0.0, 0.0), nothing
 
 
 def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

@@ -12,6 +12,7 @@ from foamprb.body.tensor import Vector
 from foamprb.flow.base import NO_PLANES, Planes
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.walk import inward, nearest_point
+from foamprb.flow.wall_lists import EDGE, SURE
 
 _SAME_WALL = math.sqrt(0.5)
 _ON_EDGE = 1e-9
@@ -30,7 +31,7 @@ def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np
         1 for each patch that counts, else 0.
     """
     cell = flow.tets[host, 0] - flow.n_points
-    begin, end = flow.near_start[cell], flow.near_start[cell + 1]
+    begin, end = flow.seen_start[cell], flow.seen_start[cell + 1]
     if begin == end:
         return NO_PLANES
     return planes_among(flow, begin, end, x, cut, chosen)
@@ -39,26 +40,31 @@ def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np
 def planes_among(
     flow: MeshArrays, begin: int, end: int, x: Vector, cut: float, chosen: NDArray[np.int8]
 ) -> Planes:
-    """Those among the wall triangles that are listed from ``begin`` to ``end``, as :func:`walls`."""
+    """Those among the triangles that are listed in ``seen`` from ``begin`` to ``end``, as :func:`walls`."""
     planes = NO_PLANES
     nearest, towards = cut, (0.0, 0.0, 0.0)
     nodes = flow.nodes
     for k in range(begin, end):
-        triangle = flow.near[k]
+        kind = flow.seen[k]
+        triangle = kind >> 2
         if chosen[flow.triangle_patch[triangle]] == 0:
             continue
-        a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
+        a = flow.triangles[triangle, 0]
         ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
         n = inward(flow, triangle)
         h = -_dot(n, ra)
         # What lies behind a wall, or beyond the cut.
         if h <= 0.0 or h >= cut or _known(planes, h, n):
             continue
+        if kind & SURE:
+            planes = _with(planes, h, n)
+            continue
+        b, c = flow.triangles[triangle, 1], flow.triangles[triangle, 2]
         rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
         rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
         if _over(n, ra, rb, rc):
             planes = _with(planes, h, n)
-        elif h < min(nearest, planes.h1, planes.h2, planes.h3):
+        elif kind & EDGE and h < min(nearest, planes.h1, planes.h2, planes.h3):
             p = nearest_point(ra, rb, rc)
             distance = math.sqrt(_dot(p, p))
             if distance < nearest:

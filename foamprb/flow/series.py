@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra, Turbulence
@@ -24,7 +25,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.walk import blend_turbulence, corners, interpolate, inward, shape
+from foamprb.flow.walk import blend_turbulence, corners, curvature_in, interpolate, inward, shape
 from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
@@ -57,9 +58,7 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
 
     At a loaded time ∂u/∂t is that of the interval after it, if that is loaded.
     """
-    k = 0
-    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
-        k += 1
+    k = _interval(flow, t)
     w = shape(flow.mesh, host, x)
     u0, l0 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k]), w)
     u1, l1 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k + 1]), w)
@@ -75,13 +74,19 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
     return u, l, (d[0] / length, d[1] / length, d[2] / length)
 
 
+def _interval(flow: SeriesArrays, t: float) -> int:
+    """Number of the interval between loaded times that holds t."""
+    k = 0
+    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
+        k += 1
+    return k
+
+
 def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence:
     """:func:`foamprb.flow.walk.turbulence`, linear in t."""
     if flow.fields.shape[1] <= _OF_VELOCITY:
         return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    k = 0
-    while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
-        k += 1
+    k = _interval(flow, t)
     w = shape(flow.mesh, host, x)
     a = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k]), w)
     b = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k + 1]), w)
@@ -94,6 +99,22 @@ def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence
         (e0 + s * (f0 - e0), e1 + s * (f1 - e1), e2 + s * (f2 - e2)),
         (g0 + s * (h0 - g0), g1 + s * (h1 - g1), g2 + s * (h2 - g2)),
     )
+
+
+def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
+    """As :func:`foamprb.flow.walk.curvature`, linear in time."""
+    k = _interval(flow, t)
+    s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
+    a = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
+    b = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k + 1])
+    return (
+        _between(a[0], b[0], s), _between(a[1], b[1], s), _between(a[2], b[2], s),
+        _between(a[3], b[3], s), _between(a[4], b[4], s), _between(a[5], b[5], s),
+    )  # fmt: skip
+
+
+def _between(a: Vector, b: Vector, s: float) -> Vector:
+    return a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
@@ -164,6 +185,7 @@ class SeriesFlow:
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "curvature": curvature,
         "walk": walk,
         "gap": gap,
         "walls": walls,
@@ -243,12 +265,18 @@ class SeriesFlow:
             self._prefetch(following)
         return self._time(last)
 
-    def arrays(self, reach: float = 0.0, touchable: Sequence[int] | None = None) -> SeriesArrays:
+    def arrays(
+        self,
+        reach: float = 0.0,
+        touchable: Sequence[int] | None = None,
+        sight: float = 0.0,
+        seen: Sequence[int] = (),
+    ) -> SeriesArrays:
         """What the kernels read, at the times that were loaded last; see :meth:`MeshFlow.arrays`."""
         nodes = self._fields.shape[1]
         places = [self._in_memory[self._index(level)] for level in self._levels]
         return SeriesArrays(
-            self._steady.arrays(reach, touchable),
+            self._steady.arrays(reach, touchable, sight, seen),
             np.array([self._time(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
+from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.flow.base import Planes
 
@@ -32,6 +33,13 @@ def sample_slit(flow: SlitArrays, host: int, x: Vector, t: float) -> tuple[Vecto
     u = (flow.shear_rate * x[2] * (1.0 - s), 0.0, 0.0)
     l = (0.0, 0.0, flow.shear_rate * (1.0 - 2.0 * s), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return u, l, (0.0, 0.0, 0.0)
+
+
+def curvature_slit(flow: SlitArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Second derivatives, 1/(m s)."""
+    nothing = (0.0, 0.0, 0.0)
+    zz = (-2.0 * flow.shear_rate / flow.height, 0.0, 0.0)
+    return nothing, nothing, zz, nothing, nothing, nothing
 
 
 def walk_slit(flow: SlitArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, dot_vector
 from foamprb.flow.base import Floats, Turbulence
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
@@ -83,6 +84,41 @@ def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, 
         blend(f, k + 9, nodes, w), blend(f, k + 10, nodes, w), blend(f, k + 11, nodes, w),
     )  # fmt: skip
     return u, l
+
+
+def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
+    """Second derivatives of the velocity, 1/(m s): how its gradient changes in the tetrahedron ``host``."""
+    return curvature_in(flow, host, flow.nodes, 6, 0)
+
+
+def curvature_in(flow: MeshArrays, host: int, f: Floats, k: int, first: int) -> Curvature:
+    """Second derivatives from a table with a row for each node, from row ``first`` on.
+
+    The gradient, which begins at column k, is linear in a tetrahedron; its derivatives are constant there.
+    """
+    _, c1, c2, c3, volume = frame(flow, host)
+    nodes = corners(flow, host, first)
+    s = 1.0 / volume
+    return curvature_of(
+        _slopes(f, k, nodes, (s * c1[0], s * c2[0], s * c3[0])),
+        _slopes(f, k, nodes, (s * c1[1], s * c2[1], s * c3[1])),
+        _slopes(f, k, nodes, (s * c1[2], s * c2[2], s * c3[2])),
+    )
+
+
+def _slopes(f: Floats, k: int, nodes: Corners, w: Vector) -> Tensor:
+    """Derivative along an axis of nine columns from k on, by the derivatives of the weights 1, 2 and 3."""
+    return (
+        _slope(f, k, nodes, w), _slope(f, k + 1, nodes, w), _slope(f, k + 2, nodes, w),
+        _slope(f, k + 3, nodes, w), _slope(f, k + 4, nodes, w), _slope(f, k + 5, nodes, w),
+        _slope(f, k + 6, nodes, w), _slope(f, k + 7, nodes, w), _slope(f, k + 8, nodes, w),
+    )  # fmt: skip
+
+
+def _slope(f: Floats, k: int, nodes: Corners, w: Vector) -> float:
+    a, b, c, d = nodes
+    o = f[a, k]
+    return w[0] * (f[b, k] - o) + w[1] * (f[c, k] - o) + w[2] * (f[d, k] - o)  # type: ignore[no-any-return]
 
 
 def blend(f: Floats, k: int, nodes: Corners, w: Weights) -> float:

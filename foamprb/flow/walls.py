@@ -1,4 +1,4 @@
-"""Walls that a body may touch: the clearance between a body and its walls, and which walls are near a cell.
+"""Walls that a body may touch, and the clearance between a body and its walls.
 
 Walls beyond a cyclic patch or a wedge count as well: they appear as images on this side of it.
 """
@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, vector_dot
+from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, longest_stretch, vector_dot
 from foamprb.compile.link import link
-from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
+from foamprb.flow.wall_lists import square_to_box
 
-# Entries of the lists of walls nearby: a gigabyte.
-_MOST_ENTRIES = 250_000_000
+_TIE = 1.0 + 1e-12
+"""So much farther a triangle is still looked at, because the first of two that are equally near counts."""
 
 
 def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
@@ -38,6 +38,8 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
     if begin == end:
         return np.inf, -1, NO_TRIANGLE
+    if flow.near[begin] < 0:
+        return nearest_in_tree(flow, -1 - flow.near[begin], x, F, R)
     return nearest_wall(flow, begin, end, x, F, R)
 
 
@@ -47,24 +49,60 @@ def nearest_wall(
     """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
     best, nearest = np.inf, NO_TRIANGLE
     inverse_F = inverse(F)
-    nodes = flow.nodes
     for k in range(begin, end):
         triangle = flow.near[k]
-        a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
-        ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
-        n = inward(flow, triangle)
-        height = n[0] * ra[0] + n[1] * ra[1] + n[2] * ra[2]
-        m = vector_dot(n, F)
-        limit = best + R
-        # The triangle's plane is no farther than the triangle.
-        if height * height >= limit * limit * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]):
-            continue
-        rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
-        rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
-        distance = _distance(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
+        distance = _mapped_distance(flow, triangle, x, F, inverse_F, best + R)
         if distance - R < best:
             best, nearest = distance - R, triangle
     return best, (flow.triangle_patch[nearest] if nearest >= 0 else -1), nearest
+
+
+def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+    """The nearest of all wall triangles in the tree, as :func:`gap`; ``seed`` is one that may be near.
+
+    Of several that are equally near it is the first, as in a list.
+    """
+    inverse_F, stretch = inverse(F), longest_stretch(F)
+    best, nearest = _mapped_distance(flow, seed, x, F, inverse_F, np.inf) - R, seed
+    boxes, triangles = flow.wall_boxes, flow.wall_leaves
+    leaves = triangles.shape[0]
+    node = 1
+    while node > 0:
+        # What the map lengthens least is shortened by the longest stretch.
+        limit = _TIE * (best + R) * stretch
+        if square_to_box(boxes, node, x) <= limit * limit:
+            if node < leaves:
+                node = 2 * node
+                continue
+            for k in range(triangles.shape[1]):
+                triangle = triangles[node - leaves, k]
+                if triangle >= 0:
+                    distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
+                    if distance - R < best or (distance - R == best and triangle < nearest):
+                        best, nearest = distance - R, triangle
+        while node & 1:
+            node >>= 1
+        if node > 0:
+            node += 1
+    return best, flow.triangle_patch[nearest], nearest
+
+
+def _mapped_distance(
+    flow: MeshArrays, triangle: int, x: Vector, F: Tensor, inverse_F: Tensor, limit: float
+) -> float:
+    """Distance of the mapped triangle from the origin, m; infinite if its plane is at the limit or beyond."""
+    nodes = flow.nodes
+    a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
+    ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
+    n = inward(flow, triangle)
+    height = n[0] * ra[0] + n[1] * ra[1] + n[2] * ra[2]
+    m = vector_dot(n, F)
+    # The triangle's plane is no farther than the triangle.
+    if height * height >= limit * limit * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]):
+        return np.inf
+    rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
+    rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
+    return _distance(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
 
 
 def _distance(a: Vector, b: Vector, c: Vector) -> float:
@@ -118,51 +156,6 @@ def _face_box(mesh: Mesh, faces: Any) -> tuple[Floats, Floats]:
     """Corners of the box around boundary faces."""
     points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
     return points.min(axis=0), points.max(axis=0)
-
-
-def near_walls(
-    mesh: Mesh, boxes: Floats, tree: tuple[Floats, Ints], reach: float, names: Ints, corners: Floats
-) -> tuple[Ints, Ints]:
-    """List, cell by cell, the wall triangles within ``reach`` of the cell's box.
-
-    Parameters
-    ----------
-    mesh, boxes, tree
-        The mesh, its cells' boxes and the tree over them.
-    reach
-        Distance in metres, at least the longest semi-axis of a particle; 0 lists nothing.
-    names, corners
-        Indices (n,) of the triangles that count, and their corners (n, 3, 3).
-
-    Returns
-    -------
-    near_start, near
-        As in :class:`MeshArrays`; a box distance is never larger than the true one, so none is missed.
-
-    Raises
-    ------
-    InputError
-        The lists would be longer than memory should bear, as the reach is many cells wide.
-    """
-    start = np.zeros(mesh.n_cells + 1, dtype=np.int32)
-    if reach <= 0.0 or len(names) == 0:
-        return start, np.empty(0, dtype=np.int32)
-    targets = np.concatenate([corners.min(axis=1) - reach, corners.max(axis=1) + reach], axis=1)
-    meet = link(_meetings)
-    counts = np.zeros(mesh.n_cells, dtype=np.int32)
-    total = meet(*tree, boxes, targets, names, _MOST_ENTRIES, counts, np.empty(0, dtype=np.int32))
-    if total > _MOST_ENTRIES:
-        size = np.cbrt(np.median(mesh.volumes))
-        raise InputError(
-            f"Walls within {reach:g} m of a particle's centre may be touched, but cells are {size:g} m wide: "
-            f"lists of the {len(names)} wall triangles near each of the {mesh.n_cells} cells would have more "
-            f"than {_MOST_ENTRIES} entries. Are the particles as large as they should be? Particles many "
-            "cells wide need a coarser mesh."
-        )
-    np.cumsum(counts, out=start[1:])
-    near = np.empty(total, dtype=np.int32)
-    meet(*tree, boxes, targets, names, _MOST_ENTRIES, start[:-1].copy(), near)
-    return start, near
 
 
 def pairs_near(boxes: Floats, tree: tuple[Floats, Ints], targets: Floats) -> tuple[Ints, Ints]:

@@ -76,6 +76,12 @@ def mobility(quick: bool) -> Outcome:
         title = f"along the wall, h = {h:g}R: speed over that without wall"
         source = "Goldman, Cox & Brenner (1967)"
         rows.append(Row(title, float(v), 1.0 / drag, source, 0.015, relative=True))
+    for place, share, allowed in (("midway", 0.5, 0.02), ("a quarter of the way", 0.25, 0.03)):
+        for e in (0.1, 0.3, 0.5):
+            v = _settling(1.0 / e, (9.81, 0.0, 0.0), 1.0 / (share * e))[0] / speed
+            title = f"along two walls, {place} between them, h = {1.0 / e:.3g}R: speed over that without"
+            source = "Faxén (1922), walls not superposed"
+            rows.append(Row(title, float(v), ref.slit_mobility(place, e), source, allowed, relative=True))
     return Outcome(rows, [], [])
 
 
@@ -92,10 +98,15 @@ def _carried(heights: Floats, Ca: Floats, steps: int, dt: float = 0.02 / RATE) -
     return p
 
 
-def _settling(h: float, g: tuple[float, float, float]) -> Floats:
-    """Velocity of a stiff sphere of twice the fluid's density in a fluid at rest, m/s."""
+def _settling(h: float, g: tuple[float, float, float], height: float = np.inf) -> Floats:
+    """Velocity of a stiff sphere of twice the fluid's density in a fluid at rest, m/s.
+
+    The upper wall is ``height`` radii above the lower one, if there is one.
+    """
     p = spheres([[0.0, 0.0, h * R]], d=2.0 * R, rho=2.0 * RHO, mu=1e3, poissons_ratio=0.4999)
-    _advance(p, analytic.shear_over_wall(0.0), g, 1e-6, 20)
+    still = analytic.shear_over_wall(0.0) if height == np.inf else analytic.slit(height * R, 0.0)
+    # Until it has taken on the strain that the walls ask of it.
+    _advance(p, still, g, 1e-6, 80)
     v: Floats = p.v[0]
     return v
 
@@ -104,4 +115,6 @@ def _advance(
     p: Particles, flow: analytic.AnalyticFlow, g: tuple[float, float, float], dt: float, steps: int
 ) -> None:
     models = Models(integrator="stokes", surroundings=(WallLift(cutOff=1000.0),))
-    Cloud(p, flow, Medium(MU_F, RHO, g), (Rebound(),), dt, models, threads=1).advance(steps)
+    Cloud(p, flow, Medium(MU_F, RHO, g), [Rebound()] * len(flow.patches), dt, models, threads=1).advance(
+        steps
+    )

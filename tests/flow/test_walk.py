@@ -14,7 +14,8 @@ from foamprb.flow.mesh.locator import build_tree, cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.walk import FAILED, REACHED, normal, recover, walk
-from foamprb.flow.walls import gap, near_walls
+from foamprb.flow.wall_lists import near_walls, wall_tree
+from foamprb.flow.walls import gap
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 ROOM = 1.0 - 1e-9
@@ -275,7 +276,8 @@ def test_near_walls_lists_all_that_are_near():
     boxes, reach = cell_boxes(mesh), 0.11
     corner = mesh.points[mesh.triangles]
     walls = np.flatnonzero(mesh.triangle_patch == 2).astype(np.int32)
-    start, near = near_walls(mesh, boxes, build_tree(boxes), reach, walls, corner[walls])
+    tree = wall_tree(corner[walls], mesh.triangle_normals[walls], np.ones(len(walls), dtype=bool))
+    start, near = near_walls(tree, boxes, reach, walls, 1.0)
     low, high = corner.min(axis=1) - reach, corner.max(axis=1) + reach
     for cell in range(mesh.n_cells):
         meets = np.all((boxes[cell, :3] <= high) & (boxes[cell, 3:] >= low), axis=1) & (
@@ -290,11 +292,11 @@ def test_bodies_many_cells_wide_are_refused_before_memory_is_full(monkeypatch):
     pairs = len(flow.arrays(0.2).near)
     assert pairs > 8**3
     flow.arrays(0.1)
-    monkeypatch.setattr("foamprb.flow.walls._MOST_ENTRIES", pairs - 1)
+    monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", pairs - 1)
     with pytest.raises(InputError, match=r"within 0.2 m .* but cells are 0\.12\d* m wide") as refused:
         flow.arrays(0.2)
     assert f"more than {pairs - 1} entries" in str(refused.value)
-    monkeypatch.setattr("foamprb.flow.walls._MOST_ENTRIES", pairs)
+    monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", pairs)
     assert len(flow.arrays(0.2).near) == pairs
 
 

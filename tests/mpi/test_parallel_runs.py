@@ -155,6 +155,40 @@ def test_results_are_those_of_one_process(n, case, truth):
     assert sorted(file.name for file in first.iterdir()) == [f"{i}.vtp" for i in range(n)]
 
 
+AROUND = "wallLift { cutOff 100; } BrownianMotion { T 293.15; } faxenCorrection; gravity;"
+
+
+def with_surroundings(case: Path) -> Path:
+    """Particles that see the wall from far away, and are pushed by molecules."""
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(case, r"^\s+gravity;", AROUND)
+    return case
+
+
+@pytest.fixture(scope="module")
+def pushed(tmp_path_factory):
+    """As ``truth``, with walls and molecules."""
+    case = with_surroundings(case_with_functions(tmp_path_factory.mktemp("pushed")))
+    assert main(["run", "-case", str(case)]) == 0
+    return case
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_walls_and_molecules_do_the_same_on_several_processes(n, case, pushed, truth):
+    finish(n, with_surroundings(case))
+    assert_same(case, pushed)
+    (_, last), (_, plain) = clouds(pushed)[-1], clouds(truth)[-1]
+    assert not np.array_equal(last["points"], plain["points"])
+
+
+def test_walls_and_molecules_do_the_same_after_a_kill_with_other_numbers(case, pushed, tmp_path):
+    with_surroundings(case)
+    kill = after_hook(tmp_path, at_write("os.kill(os.getpid(), signal.SIGKILL)", 1))
+    assert run(2, case, script=kill).returncode != 0
+    finish(3, case, "-resume")
+    assert_same(case, pushed)
+
+
 def test_one_process_writes_what_it_writes_without_mpi(case, truth):
     words = [sys.executable, "-m", "foamprb", "run", "-case", str(case), "-parallel"]
     subprocess.run(words, check=True, capture_output=True, env=ENVIRONMENT)

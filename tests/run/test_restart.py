@@ -73,6 +73,28 @@ def test_a_stopped_run_goes_on_with_other_threads(stopped, truth):
     assert results(stopped) == truth
 
 
+def test_walls_and_molecules_go_on_where_they_were(case, monkeypatch):
+    """Numbers are those of the particle and the step, and the forces those of the place: nothing is kept."""
+    edit(case, r"shape\s+paper;", "shape stokes;")
+    edit(
+        case,
+        r"^\s+gravity;",
+        "wallLift { cutOff 100; } BrownianMotion { T 293.15; } faxenCorrection; gravity;",
+    )
+    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    shutil.rmtree(case / "postProcessing")
+    for time in (0.0017, EARLIER):
+        stop_after(case, time)
+    go_on(case, "-threads", "3")
+    assert results(case) == expected
+    shutil.rmtree(case / "postProcessing")
+    edit(case, r"T 293\.15;", "T 293.15; seed 2;")
+    assert main(["run", "-case", str(case)]) == 0
+    assert results(case)["fates.csv"] != expected["fates.csv"]
+
+
 def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch):
     # A few steps at a time, so that it stops at any of them.
     monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)

@@ -32,6 +32,7 @@ PARTS = (
     "start",
     "output",
     "integrators",
+    "surroundings",
     "peers",
     "profile",
     "roofline",

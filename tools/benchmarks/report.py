@@ -13,8 +13,8 @@ from benchmarks.records import KILO, Results
 TEMPLATE = Path(__file__).with_name("performance.md.in")
 _BUSY = 0.5
 TABLES = (
-    "tracker", "whole", "threads", "memory", "run", "mesh", "start", "output", "integrators", "peers",
-    "roofline",
+    "tracker", "whole", "threads", "memory", "run", "mesh", "start", "output", "integrators", "surroundings",
+    "peers", "roofline",
 )  # fmt: skip
 OVER_OPENFOAM = "cost over OpenFOAM's"
 WORST_DEFAULT = "worst default run over OpenFOAM's"

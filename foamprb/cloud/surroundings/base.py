@@ -37,6 +37,8 @@ class Surrounding:
 
     turbulent: ClassVar[bool] = False
     """Whether it needs k and ε of the flow."""
+    needs: ClassVar[tuple[str, ...]] = ()
+    """Kernels of a flow (:class:`foamprb.flow.base.Flow`) without which it cannot be."""
 
     @classmethod
     def stages(cls) -> tuple[Callable[..., None], ...]:
@@ -44,9 +46,13 @@ class Surrounding:
         return (cls.disturb,) if cls.prepare is None else (cls.prepare, cls.disturb)
 
     @property
-    def reach(self) -> float:
-        """Distance to which it wants walls to be listed, in radii of a particle."""
+    def sight(self) -> float:
+        """Distance to which it asks the flow for walls, in radii of a particle."""
         return 0.0
+
+    def seen(self, patches: Sequence[Patch]) -> Sequence[int]:  # noqa: ARG002
+        """Which of the flow's patches it asks for."""
+        return ()
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
         """What its functions read: a tuple of numbers and arrays, of the same types for any patches."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_sphere as finger
-from foamprb.body.stokes import mobility, velocity_gradient
+from foamprb.body.stokes import Mobility, mobility, velocity_gradient
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -37,6 +37,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.body.wall import (
+    force_gradient,
     hindered_resistance,
     hindrance,
     stresslet_gradient,
@@ -71,10 +72,20 @@ class WallRows(NamedTuple):
     wall_normal: Annotated[int, Row(9, "1", "their unit normals into the fluid")]
     counted: Annotated[int, Row(1, "", "tracking step, from 1 on, at which walls were last looked for")]
     close: Annotated[int, Row(1, "", "steps begun near a wall", of="close", saved=True)]
+    one_distance: Annotated[int, Row(1, "m", "distance of the centre from one of them, now", 1.0)]
+    one_normal: Annotated[int, Row(3, "1", "its normal")]
+    one_gap: Annotated[int, Row(1, "m", "gap between body and wall", 1.0)]
+    there: Annotated[int, Row(1, "", "1 if there is that wall, else 0")]
+    alone: Annotated[int, Row(9, "N m", "stresslet of the particle without walls")]
     stresslet: Annotated[int, Row(9, "N m", "stresslet of the particle")]
+    gives_normal: Annotated[int, Row(9, "1", "how the body gives way: its mobility")]
+    gives_shear: Annotated[int, Row(3, "1", "the same, in shear")]
+    gives_slip: Annotated[int, Row(3, "1", "(b² − c²)/(b² + c²) and its cyclic companions")]
     sent_back: Annotated[int, Row(9, "1/s", "velocity gradient that the walls send back")]
     least_gap: Annotated[int, Row(1, "1", "least gap, in radii", 1.0)]
     wall_lift: Annotated[int, Row(3, "m/s", "velocity that they send back")]
+    load: Annotated[int, Row(3, "N", "force of the particle on the fluid")]
+    by_load: Annotated[int, Row(9, "1/s", "velocity gradient that they send back of it")]
     hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
 
 
@@ -103,7 +114,9 @@ def look_for_walls(
 def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     """Add what the walls send back of the particles' stresslets to u and l, and hold back what falls.
 
-    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition.
+    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition. The
+    gradient of the image of a load deforms; what the stresslet that a rigid body answers with does to the
+    velocity is a part of the mobility.
     """
     _, least_gap, strain, hindered, _ = coefficients
     most = 0
@@ -114,32 +127,38 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         return
     for i in range(LANES):
         nothing = scale(0.0, load9(block, at.l, i))
-        store9(block, near.sent_back, i, nothing)
         store9(block, near.hindrance, i, nothing)
+        store9(block, near.by_load, i, nothing)
+    if hindered > 0.0:
+        strain_by_load(block, medium, share, least_gap, strain, most)
+    for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
-        store9(block, near.stresslet, i, stresslet(block, i, medium, share, nothing))
+        S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
+        store9(block, near.alone, i, S)
+        store9(block, near.stresslet, i, S)
     for _ in range(_REPEATS):
         for i in range(LANES):
             store9(block, near.sent_back, i, scale(0.0, load9(block, at.l, i)))
         for wall in range(most):
-            for i in range(LANES):
-                there, n, d, _ = wall_at(block, i, wall, share, least_gap)
-                E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-                store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), scale(there, E)))
+            add_sent_back(block, wall, share, least_gap, medium, 1.0)
         for i in range(LANES):
-            E = load9(block, near.sent_back, i)
-            store9(block, near.stresslet, i, stresslet(block, i, medium, share, scale(strain, E)))
+            E = scale(strain, load9(block, near.sent_back, i))
+            S = stresslet(block, i, medium, E, body_response(block, i, medium, E))
+            store9(block, near.stresslet, i, add(load9(block, near.alone, i), S))
     for wall in range(most):
+        pick_wall(block, wall, share, least_gap)
         for i in range(LANES):
-            there, n, d, _ = wall_at(block, i, wall, share, least_gap)
+            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
             v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-            w = load3(block, near.wall_lift, i)
+            w, there = load3(block, near.wall_lift, i), block[near.there * LANES + i]
             store3(block, near.wall_lift, i, (w[0] + there * v[0], w[1] + there * v[1], w[2] + there * v[2]))
-    if hindered > 0.0:
-        for wall in range(most):
+        if hindered > 0.0:
             for i in range(LANES):
-                W = hindrance_of(block, i, wall, share, least_gap)
+                n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+                W = hindrance_of(block, i, n, d, block[near.one_gap * LANES + i])
+                W = scale(block[near.there * LANES + i], W)
                 store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
+    if hindered > 0.0:
         for i in range(LANES):
             v = held_back(block, i, medium)
             w = load3(block, near.wall_lift, i)
@@ -148,7 +167,8 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
         some = (h[0] < far) | (h[1] < far) | (h[2] < far)
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
-        store9(block, at.l, i, choose(some, add(l, scale(strain, load9(block, near.sent_back, i))), l))
+        E = add(scale(strain, load9(block, near.sent_back, i)), load9(block, near.by_load, i))
+        store9(block, at.l, i, choose(some, add(l, E), l))
         store3(
             block,
             at.u,
@@ -161,22 +181,75 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         )
 
 
-def wall_at(
-    block: Any, i: int, wall: int, share: float, least_gap: float
-) -> tuple[float, Vector, float, float]:
-    """1 if lane i has that wall, else 0; its normal, the distance of the centre from it and the gap, m.
+def strain_by_load(
+    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
+) -> None:
+    """The gradient by which the image of a load deforms, and that of the rigid stresslet that answers it."""
+    for i in range(LANES):
+        store3(block, near.load, i, load_of(block, i, medium))
+    for wall in range(most):
+        pick_wall(block, wall, share, least_gap)
+        for i in range(LANES):
+            n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+            E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
+            E = scale(strain * block[near.there * LANES + i], E)
+            store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
+    for i in range(LANES):
+        E = load9(block, near.by_load, i)
+        store9(block, near.sent_back, i, E)
+        store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
+    for wall in range(most):
+        add_sent_back(block, wall, share, least_gap, medium, strain)
+    for i in range(LANES):
+        store9(block, near.by_load, i, load9(block, near.sent_back, i))
+
+
+def add_sent_back(
+    block: Any, wall: int, share: float, least_gap: float, medium: Medium, factor: float
+) -> None:
+    """Add the gradient that one of the walls sends back of the stresslets, times a factor, to its rows."""
+    pick_wall(block, wall, share, least_gap)
+    for i in range(LANES):
+        n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
+        E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+        E = scale(factor * block[near.there * LANES + i], E)
+        store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), E))
+
+
+def pick_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
+    """Put one of the walls of all lanes, seen from the place at that share of the way, into rows of its own.
+
+    Rows that are chosen by a number would keep the loops that read them from being vectorised.
+    """
+    for i in range(LANES):
+        block[near.one_distance * LANES + i] = block[(near.wall_distance + wall) * LANES + i]
+        for k in range(3):
+            block[(near.one_normal + k) * LANES + i] = block[(near.wall_normal + 3 * wall + k) * LANES + i]
+    for i in range(LANES):
+        R, h, n = (
+            block[at.R * LANES + i],
+            block[near.one_distance * LANES + i],
+            load3(block, near.one_normal, i),
+        )
+        there = select(h < 0.5 * _FAR * R, 1.0, 0.0)
+        x, y = load3(block, at.x, i), load3(block, at.new_x, i)
+        # At the start of a step new_x is not known.
+        way = (y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2]
+        h, gap = clear_of(block, i, n, h + select(share > 0.0, share * way, 0.0), least_gap)
+        block[near.there * LANES + i] = there
+        block[near.one_distance * LANES + i] = h
+        block[near.one_gap * LANES + i] = gap
+
+
+def clear_of(block: Any, i: int, n: Vector, h: float, least_gap: float) -> tuple[float, float]:
+    """Distance of the centre of lane i from a wall and gap between them, m.
 
     The gap is no less than so many radii, and the distance agrees with it.
     """
-    R, h = block[at.R * LANES + i], block[(near.wall_distance + wall) * LANES + i]
-    n = load3(block, near.wall_normal + 3 * wall, i)
-    there = select(h < 0.5 * _FAR * R, 1.0, 0.0)
-    if share > 0.0:
-        x, y = load3(block, at.x, i), load3(block, at.new_x, i)
-        h = h + share * ((y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2])
+    R = block[at.R * LANES + i]
     extent = reach(R, load9(block, at.new_F, i), n)
     gap = np.maximum(h - extent, least_gap * R)
-    return there, n, gap + extent, gap
+    return gap + extent, gap
 
 
 def shape_of(block: Any, i: int) -> Tensor:
@@ -185,32 +258,56 @@ def shape_of(block: Any, i: int) -> Tensor:
     return scale(R * R, dot(F, transpose(F)))
 
 
-def stresslet(block: Any, i: int, medium: Medium, share: float, E: Tensor) -> Tensor:
-    """S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m, with E (1/s) added to the gradient of the flow."""
+def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> Tensor:
+    """S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m: l_f in space's axes, l_s in the particle's, 1/s."""
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-    l_f = to_frame(Q, add(load9(block, at.l, i), E))
-    relative = add(l_f, scale(-1.0, body_gradient(block, i, medium, l_f, share)))
+    relative = add(to_frame(Q, l_f), scale(-1.0, l_s))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
     R = block[at.R * LANES + i]
     volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
     return from_frame(Q, scale(volume * medium.mu, dev(sym(s))))
 
 
-def balanced_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
-    """l_s of a body without inertia in a flow with the gradient l_f, both in the particle frame, 1/s."""
+def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
+    """l_s of a body without inertia in the flow of lane i, in the particle frame, 1/s; keeps its mobility.
+
+    The gradient that the image of the load makes is seen here only: the stresslet is then that by which the
+    body differs from a rigid one, whose own is in the hindrance.
+    """
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
+    store9(block, near.gives_normal, i, m.normal)
+    store3(block, near.gives_shear, i, m.compliance)
+    store3(block, near.gives_slip, i, m.slip)
     b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
-    return velocity_gradient(m, scale(1.0 / medium.mu, tau), l_f)
+    l = add(load9(block, at.l, i), load9(block, near.by_load, i))
+    return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
 
 
-def moving_gradient(block: Any, i: int, medium: Medium, l_f: Tensor, share: float) -> Tensor:  # noqa: ARG001
+def giving_way(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
+    """By how much l_s of such a body changes with a gradient E (space's axes), in the particle frame, 1/s."""
+    m = Mobility(
+        load9(block, near.gives_normal, i),
+        load3(block, near.gives_shear, i),
+        load3(block, near.gives_slip, i),
+        1.0 - block[at.eta * LANES + i] / medium.mu,
+    )
+    l = to_frame(load9(block, at.Q, i), E)
+    return velocity_gradient(m, scale(0.0, l), l)
+
+
+def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
     """l_s of a body with inertia, which is its state, in the particle frame, 1/s."""
     Q = load9(block, at.Q, i)
     if share > 0.0:
         return to_frame(Q, load9(block, at.new_A, i))
     return to_frame(Q, dot(load9(block, at.A, i), inverse(load9(block, at.F, i))))
+
+
+def standing_firm(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # noqa: ARG001
+    """That a body with inertia does not give way at once."""
+    return scale(0.0, E)
 
 
 def load_of(block: Any, i: int, medium: Medium) -> Vector:
@@ -228,23 +325,27 @@ def no_thermal_force(_block: Any, _i: int) -> Vector:
     return 0.0, 0.0, 0.0
 
 
-def hindrance_of(block: Any, i: int, wall: int, share: float, least_gap: float) -> Tensor:
-    """W of one wall, in the particle frame; 0 if lane i does not have it."""
-    there, n, h, gap = wall_at(block, i, wall, share, least_gap)
-    return scale(there, hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap))
+def hindrance_of(block: Any, i: int, n: Vector, h: float, gap: float) -> Tensor:
+    """W of one wall, in the particle frame."""
+    return hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap)
 
 
 def hindrance_at_start(block: Any, i: int) -> Tensor:
     """W of all walls around lane i at the start of a step, in the particle frame."""
-    least_gap = block[near.least_gap * LANES + i]
-    W = add(hindrance_of(block, i, 0, 0.0, least_gap), hindrance_of(block, i, 1, 0.0, least_gap))
-    return add(W, hindrance_of(block, i, 2, 0.0, least_gap))
+    return add(add(_hindrance_of(block, i, 0), _hindrance_of(block, i, 1)), _hindrance_of(block, i, 2))
+
+
+def _hindrance_of(block: Any, i: int, wall: int) -> Tensor:
+    n, h = load3(block, near.wall_normal + 3 * wall, i), block[(near.wall_distance + wall) * LANES + i]
+    there = select(h < 0.5 * _FAR * block[at.R * LANES + i], 1.0, 0.0)
+    h, gap = clear_of(block, i, n, h, block[near.least_gap * LANES + i])
+    return scale(there, hindrance_of(block, i, n, h, gap))
 
 
 def held_back(block: Any, i: int, medium: Medium) -> Vector:
     """What the walls take off the velocity relative to the fluid, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
     Q, k = load9(block, at.Q, i), resistances(block, i)
-    f = dot_vector(Q, load_of(block, i, medium))
+    f = dot_vector(Q, load3(block, near.load, i))
     v = dot_vector(inverse(hindered_resistance(k, load9(block, near.hindrance, i))), f)
     c = 1.0 / medium.mu
     w = (c * (v[0] - f[0] / k[0]), c * (v[1] - f[1] / k[1]), c * (v[2] - f[2] / k[2]))
@@ -270,6 +371,7 @@ def _nearest_walls(
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
+body_response: Callable[..., Tensor] = giving_way
 thermal_force: Callable[..., Vector] = no_thermal_force
 
 
@@ -298,9 +400,13 @@ class WallLift(Surrounding):
     disturb: ClassVar = staticmethod(lift)
 
     @property
-    def reach(self) -> float:
-        """Distance to which it wants walls to be listed, in radii."""
+    def sight(self) -> float:
+        """Distance to which it asks the flow for walls, in radii."""
         return self.cutOff
+
+    def seen(self, patches: Sequence[Patch]) -> Sequence[int]:
+        """Which of the flow's patches it asks for."""
+        return [int(index) for index in np.flatnonzero(self.chosen(patches))]
 
     def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
         """1 for each patch that counts, else 0."""
@@ -317,7 +423,8 @@ class WallLift(Surrounding):
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
         """How the body's own motion is known."""
         motion: Mapping[str, Callable[..., Any]] = {
-            "body_gradient": moving_gradient if inertia else balanced_gradient
+            "body_gradient": moving_gradient if inertia else balanced_gradient,
+            "body_response": standing_firm if inertia else giving_way,
         }
         return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
 

@@ -58,7 +58,17 @@ class MeshArrays(NamedTuple):
     near_start: Ints
     """(n_cells + 1,) into ``near``."""
     near: Ints
-    """The wall triangles that a particle with its centre in the cell might touch."""
+    """The wall triangles that a particle with its centre in the cell might touch; or, if they are many,
+    −1 − one of them, from which the tree is searched."""
+    wall_boxes: Floats
+    """As ``tree_boxes``, of a tree over all wall triangles that a particle might touch."""
+    wall_leaves: Ints
+    """(n_leaves, leaf size) wall triangles, −1 where there is none."""
+    seen_start: Ints
+    """(n_cells + 1,) into ``seen``."""
+    seen: Ints
+    """The triangles that may be walls in the sense of :mod:`foamprb.flow.planes` for places in the cell, each
+    as 4 × triangle + a sum of ``SURE`` and ``EDGE`` (:mod:`foamprb.flow.wall_lists`)."""
     turbulence: Floats
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); without rows if nobody asked for them."""
 
@@ -94,6 +104,10 @@ def no_mesh() -> MeshArrays:
         near_start=none,
         near=none,
         turbulence=floats(8),
+        wall_boxes=floats(6),
+        wall_leaves=ints(1),
+        seen_start=none,
+        seen=none,
     )
 
 

@@ -41,6 +41,19 @@ def brenner_drag(h: float, terms: int = 200) -> float:
     return float(4.0 / 3.0 * np.sinh(alpha) * series.sum())
 
 
+SLIT_DRAG = {
+    "midway": (-1.004, 0.0, 0.418, 0.21, -0.169),
+    "a quarter of the way": (-0.6526, 0.0, 0.1475, -0.131, -0.0644),
+}
+"""Coefficients of the powers of R/h in the mobility along two walls over that without, h the distance from
+the nearer wall (Faxén 1922; Happel & Brenner 1965, 7-4.27 and 7-4.28)."""
+
+
+def slit_mobility(place: str, e: float) -> float:
+    """Mobility of a sphere along two walls over that without, for e = R/h; a place of :data:`SLIT_DRAG`."""
+    return 1.0 + float(sum(c * e ** (k + 1) for k, c in enumerate(SLIT_DRAG[place])))
+
+
 # --- Lift ---------------------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,77 @@
+"""Faxén's correction: the mean of a curved flow over the body instead of its velocity at the centre.
+
+The formula is that of :mod:`foamprb.body.faxen`. The flow's second derivatives are those of the place and
+time at which a step begins.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from foamprb.body.faxen import faxen_velocity
+from foamprb.body.tensor import Vector, dot, scale, transpose
+from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.flow.analytic import curvature_linear as curvature
+
+__all__ = ["FaxenCorrection"]
+
+
+class FaxenRows(NamedTuple):
+    """How the flow is curved where a step begins."""
+
+    along_xx: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x²")]
+    along_yy: Annotated[int, Row(3, "1/(m s)", "∂²u/∂y²")]
+    along_zz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂z²")]
+    along_xy: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x∂y")]
+    along_yz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂y∂z")]
+    along_xz: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x∂z")]
+
+
+curved = offsets(FaxenRows)
+
+
+def look_at_curvature(
+    flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+) -> None:
+    """Put the second derivatives at the place of lane i into its rows."""
+    block = s.block
+    xx, yy, zz, xy, yz, xz = curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i])
+    store3(block, curved.along_xx, i, xx)
+    store3(block, curved.along_yy, i, yy)
+    store3(block, curved.along_zz, i, zz)
+    store3(block, curved.along_xy, i, xy)
+    store3(block, curved.along_yz, i, yz)
+    store3(block, curved.along_xz, i, xz)
+
+
+def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Add ⅙ C:∇∇u to the velocity of the fluid, C that of the shape."""
+    for i in range(LANES):
+        F, R, u = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, at.u, i)
+        v = faxen_velocity(scale(R * R, dot(F, transpose(F))), _curvature_of(block, i))
+        store3(block, at.u, i, (u[0] + v[0], u[1] + v[1], u[2] + v[2]))
+
+
+def _curvature_of(block: Any, i: int) -> tuple[Vector, Vector, Vector, Vector, Vector, Vector]:
+    return (
+        load3(block, curved.along_xx, i),
+        load3(block, curved.along_yy, i),
+        load3(block, curved.along_zz, i),
+        load3(block, curved.along_xy, i),
+        load3(block, curved.along_yz, i),
+        load3(block, curved.along_xz, i),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaxenCorrection(Surrounding):
+    """Mean of a curved flow over the body instead of its velocity at the centre: ``faxenCorrection;``."""
+
+    rows: ClassVar = FaxenRows
+    place: ClassVar = "curved"
+    look: ClassVar = staticmethod(look_at_curvature)
+    disturb: ClassVar = staticmethod(correct)
+    needs: ClassVar = ("curvature",)

@@ -1,0 +1,581 @@
+"""Which walls are near a cell: lists by which bodies find what they touch, and models which walls they see.
+
+They are made by a tree over the wall triangles, whose nodes also have the directions of their normals. A list
+for touching holds all that is within its reach, or, if that is much, only the nearest triangle, from which
+the tree is searched. A list for seeing holds what can be a wall in the sense of
+:func:`foamprb.flow.planes.walls` for some place in the cell.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.tensor import Vector
+from foamprb.compile.link import link
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.locator import build_tree
+from foamprb.flow.walk import nearest_point
+
+__all__ = ["EDGE", "MOST_LISTED", "SURE", "WallTree", "edges_out", "near_walls", "seen_walls", "wall_tree"]
+
+MOST_LISTED = 64
+"""Triangles that a list for touching has at most; of more, only the one nearest to the cell's centre."""
+SURE, EDGE = 1, 2
+"""In a list for seeing: a perpendicular from anywhere in the cell ends on the plane of this triangle, in the
+triangle or in another one; the nearest point of walls may lie on an edge of this triangle. An entry is
+4 × triangle + these."""
+_TRIED = 4
+# Entries of the lists of walls nearby: a gigabyte.
+_MOST_ENTRIES = 250_000_000
+_FLAT = 1e-9
+"""Sine of the angle, and share of a length, below which walls are in one plane."""
+
+
+class WallTree(NamedTuple):
+    """Triangles of walls, and a tree over them; indices are those of ``corners``."""
+
+    corners: Floats
+    """(n, 3, 3): triangle, vertex, coordinate; m."""
+    normals: Floats
+    """(n, 3), unit, into the fluid."""
+    boxes: Floats
+    """(2 n_leaves, 6), as ``tree_boxes`` of :class:`foamprb.flow.mesh.arrays.MeshArrays`."""
+    leaves: Ints
+    """(n_leaves, leaf size), as ``tree_cells`` there."""
+    cones: Floats
+    """(2 n_leaves, 5): a direction, the largest angle of a normal of the node with it, and 1 if one of its
+    triangles has an edge or a corner that can be nearer than any face, else 0."""
+    edges: NDArray[np.bool_]
+    """(n,) whether a triangle has such an edge."""
+    single: NDArray[np.bool_]
+    """(n,) whether no other triangle lies upon it: not so for images, of which there may be two."""
+
+
+def wall_tree(corners: Floats, normals: Floats, single: NDArray[np.bool_]) -> WallTree:
+    """The tree over triangles of walls."""
+    boxes, leaves = build_tree(np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1))
+    edges = edges_out(corners, normals)
+    return WallTree(corners, normals, boxes, leaves, _cones(normals, edges, leaves), edges, single)
+
+
+def edges_out(corners: Floats, normals: Floats) -> NDArray[np.bool_]:
+    """Which triangles have an edge at which the wall ends, or recedes from the fluid, (n,).
+
+    The nearest point of a wall lies on such an edge, or on a corner of one, or in a triangle.
+    """
+    n = len(corners)
+    # Corners that are the same to round-off of the longest coordinate, by number.
+    size = np.abs(corners).max(initial=1e-300)
+    keys = np.round(corners.reshape(-1, 3) / (1e-12 * size)).astype(np.int64)
+    _, number = np.unique(keys, axis=0, return_inverse=True)
+    number = number.reshape(n, 3)
+    ends = np.stack([number, np.roll(number, -1, axis=1)], axis=2).reshape(-1, 2)
+    ends.sort(axis=1)
+    owner = np.repeat(np.arange(n), 3)
+    apex = np.roll(corners, -2, axis=1).reshape(-1, 3)
+    order = np.lexsort((ends[:, 1], ends[:, 0]))
+    same = np.all(ends[order][1:] == ends[order][:-1], axis=1)
+    first = np.concatenate([[True], ~same])
+    group = np.cumsum(first) - 1
+    paired = np.bincount(group, minlength=1)[group] == 2
+    out = np.ones(3 * n, dtype=bool)
+    one = np.flatnonzero(first & paired)
+    a, b = order[one], order[one + 1]
+    # The other's third corner lies below the plane of the first.
+    arms = apex[b] - corners.reshape(-1, 3)[a]
+    length = np.linalg.norm(arms, axis=1)
+    recedes = np.einsum("ni,ni->n", normals[owner[a]], arms) < -_FLAT * length
+    out[a] = out[b] = recedes
+    some = np.zeros(n, dtype=bool)
+    some[owner[out]] = True
+    return some
+
+
+def _cones(normals: Floats, edges: NDArray[np.bool_], leaves: Ints) -> Floats:
+    """See :class:`WallTree`."""
+    n = len(leaves)
+    cones = np.zeros((2 * n, 5))
+    there = leaves >= 0
+    directions = np.where(there[:, :, None], normals[leaves], 0.0)
+    axis = _unit(directions.sum(axis=1))
+    angles = np.arccos(np.clip(np.einsum("nki,ni->nk", directions, axis), -1.0, 1.0))
+    cones[n:, :3], cones[n:, 3] = axis, np.where(there, angles, 0.0).max(axis=1)
+    cones[n:, 4] = (edges[leaves] & there).any(axis=1)
+    filled = np.zeros(2 * n, dtype=bool)
+    filled[n:] = there.any(axis=1)
+    first = n
+    while first > 1:
+        first //= 2
+        two = cones[2 * first : 4 * first].reshape(first, 2, 5)
+        some = filled[2 * first : 4 * first].reshape(first, 2)
+        axis = _unit((two[:, :, :3] * some[:, :, None]).sum(axis=1))
+        angles = np.arccos(np.clip(np.einsum("nki,ni->nk", two[:, :, :3], axis), -1.0, 1.0)) + two[:, :, 3]
+        here = slice(first, 2 * first)
+        cones[here, :3] = axis
+        cones[here, 3] = np.minimum(np.where(some, angles, 0.0).max(axis=1), math.pi)
+        cones[here, 4] = (two[:, :, 4] * some).max(axis=1)
+        filled[here] = some.any(axis=1)
+    return cones
+
+
+def _unit(v: Floats) -> Floats:
+    """Unit vectors along rows; along x where there is no direction, which then none is near to."""
+    length = np.linalg.norm(v, axis=1, keepdims=True)
+    unit: Floats = np.where(length > 1e-12, v / np.maximum(length, 1e-300), [[1.0, 0.0, 0.0]])
+    return unit
+
+
+def near_walls(tree: WallTree, boxes: Floats, reach: float, names: Ints, size: float) -> tuple[Ints, Ints]:
+    """List, cell by cell, the wall triangles whose boxes are within ``reach`` of the cell's, along each axis.
+
+    Parameters
+    ----------
+    tree
+        Of the triangles that count.
+    boxes
+        Those of the cells.
+    reach
+        Distance in metres, at least the longest semi-axis of a particle.
+    names
+        (n,) names of the tree's triangles, rising.
+    size
+        Width of a cell, m, for the message.
+
+    Returns
+    -------
+    near_start, near
+        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; a box is never farther than what is in it, so none
+        is missed.
+
+    Raises
+    ------
+    InputError
+        The lists would be longer than memory should bear.
+    """
+    n_cells = len(boxes)
+    start = np.zeros(n_cells + 1, dtype=np.int32)
+    counts = np.zeros(n_cells, dtype=np.int32)
+    listing = link(_list_near)
+    none, work = np.empty(0, dtype=np.int32), np.empty(MOST_LISTED, dtype=np.int32)
+    total = listing(tree, boxes, reach, names, counts, start, none, work)
+    if total > _MOST_ENTRIES:
+        raise InputError(
+            f"Walls within {reach:g} m of a particle's centre may be touched, but cells are {size:g} m wide: "
+            f"lists of the {len(names)} wall triangles near each of the {n_cells} cells would have more "
+            f"than {_MOST_ENTRIES} entries. Are the particles as large as they should be? Particles many "
+            "cells wide need a coarser mesh."
+        )
+    np.cumsum(counts, out=start[1:])
+    near = np.empty(total, dtype=np.int32)
+    listing(tree, boxes, reach, names, counts, start, near, work)
+    return start, near
+
+
+def _list_near(
+    tree: WallTree,
+    boxes: Floats,
+    reach: float,
+    names: Ints,
+    counts: Ints,
+    start: Ints,
+    near: Ints,
+    found: Ints,
+) -> int:
+    """Count the entries of each list, or fill them if there is room in ``near``; return the sum.
+
+    ``found`` (most,) holds those of one.
+    """
+    total, seed, filling = 0, 0, near.shape[0] > 0
+    leaves, most = tree.leaves.shape[0], found.shape[0]
+    for cell in range(boxes.shape[0]):
+        count = 0
+        node = 1
+        while node > 0 and count <= most:
+            if _meet(tree.boxes, node, boxes, cell, reach):
+                if node < leaves:
+                    node = 2 * node
+                    continue
+                for k in range(tree.leaves.shape[1]):
+                    i = tree.leaves[node - leaves, k]
+                    if i >= 0 and count <= most and _triangle_meets(tree.corners, i, boxes, cell, reach):
+                        if count < most:
+                            found[count] = names[i]
+                        count += 1
+            while node & 1:
+                node >>= 1
+            if node > 0:
+                node += 1
+        if filling and count > most:
+            seed, _ = nearest_triangle(tree, _middle(boxes, cell), math.inf, seed)
+            near[start[cell]] = -1 - names[seed]
+        elif filling:
+            for k in range(count):
+                near[start[cell] + k] = found[k]
+            _sort(near, start[cell], start[cell] + count)
+        counts[cell] = 1 if count > most else count
+        total += counts[cell]
+    return total
+
+
+def _meet(boxes: Floats, i: int, others: Floats, j: int, reach: float) -> bool:
+    """Whether two boxes are no farther from each other than that along each axis."""
+    return bool(
+        boxes[i, 0] - reach <= others[j, 3]
+        and boxes[i, 1] - reach <= others[j, 4]
+        and boxes[i, 2] - reach <= others[j, 5]
+        and others[j, 0] <= boxes[i, 3] + reach
+        and others[j, 1] <= boxes[i, 4] + reach
+        and others[j, 2] <= boxes[i, 5] + reach
+    )
+
+
+def _triangle_meets(corners: Floats, i: int, boxes: Floats, cell: int, reach: float) -> bool:
+    """As :func:`_meet`, of the box of a triangle."""
+    for axis in range(3):
+        a, b, c = corners[i, 0, axis], corners[i, 1, axis], corners[i, 2, axis]
+        if min(a, b, c) - reach > boxes[cell, axis + 3] or boxes[cell, axis] > max(a, b, c) + reach:
+            return False
+    return True
+
+
+def _middle(boxes: Floats, cell: int) -> Vector:
+    return (
+        0.5 * (boxes[cell, 0] + boxes[cell, 3]),
+        0.5 * (boxes[cell, 1] + boxes[cell, 4]),
+        0.5 * (boxes[cell, 2] + boxes[cell, 5]),
+    )
+
+
+def nearest_triangle(tree: WallTree, x: Vector, cut: float, seed: int) -> tuple[int, float]:
+    """The triangle that is nearest to x, if it is nearer than ``cut`` (m), else −1; its distance.
+
+    ``seed`` is one that may be near.
+    """
+    best, nearest = cut * cut, -1
+    square = _square_to_triangle(tree.corners, seed, x)
+    if square < best:
+        best, nearest = square, seed
+    leaves = tree.leaves.shape[0]
+    node = 1
+    while node > 0:
+        if square_to_box(tree.boxes, node, x) < best:
+            if node < leaves:
+                node = 2 * node
+                continue
+            for k in range(tree.leaves.shape[1]):
+                i = tree.leaves[node - leaves, k]
+                if i >= 0:
+                    square = _square_to_triangle(tree.corners, i, x)
+                    if square < best:
+                        best, nearest = square, i
+        while node & 1:
+            node >>= 1
+        if node > 0:
+            node += 1
+    return nearest, math.sqrt(best)
+
+
+def square_to_box(boxes: Floats, i: int, x: Vector) -> Any:
+    """Square of the distance of a point from a box, m²."""
+    dx = max(boxes[i, 0] - x[0], 0.0, x[0] - boxes[i, 3])
+    dy = max(boxes[i, 1] - x[1], 0.0, x[1] - boxes[i, 4])
+    dz = max(boxes[i, 2] - x[2], 0.0, x[2] - boxes[i, 5])
+    return dx * dx + dy * dy + dz * dz
+
+
+def _square_to_triangle(corners: Floats, i: int, x: Vector) -> Any:
+    p = nearest_point(_seen(corners, i, 0, x), _seen(corners, i, 1, x), _seen(corners, i, 2, x))
+    return p[0] * p[0] + p[1] * p[1] + p[2] * p[2]
+
+
+def _seen(corners: Floats, i: int, k: int, x: Vector) -> Vector:
+    return corners[i, k, 0] - x[0], corners[i, k, 1] - x[1], corners[i, k, 2] - x[2]
+
+
+def seen_walls(tree: WallTree, boxes: Floats, sight: float, names: Ints) -> tuple[Ints, Ints]:
+    """List, cell by cell, the triangles that can be a wall for some place in the cell, nearer than ``sight``.
+
+    Parameters
+    ----------
+    As of :func:`near_walls`; ``sight`` is a distance from the place, m.
+
+    Returns
+    -------
+    seen_start, seen
+        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; those that are ``SURE`` come first.
+    """
+    n_cells, n = len(boxes), len(names)
+    listing = link(_list_seen)
+    counts, start = np.zeros(n_cells, dtype=np.int64), np.zeros(n_cells + 1, dtype=np.int64)
+    none, work, polygons = np.empty(0, dtype=np.int32), np.empty((2, n), dtype=np.int32), np.empty((2, 10, 2))
+    listing(tree, boxes, sight, names, counts, start, none, work, polygons)
+    np.cumsum(counts, out=start[1:])
+    found = np.empty(int(start[-1]), dtype=np.int32)
+    listing(tree, boxes, sight, names, counts, start, found, work, polygons)
+    # What a sure plane makes needless was left out.
+    kept = np.arange(len(found)) - np.repeat(start[:-1], np.diff(start)) < np.repeat(counts, np.diff(start))
+    return np.concatenate([[0], np.cumsum(counts)]).astype(np.int32), found[kept]
+
+
+def _list_seen(
+    tree: WallTree,
+    boxes: Floats,
+    sight: float,
+    names: Ints,
+    counts: NDArray[np.int64],
+    start: NDArray[np.int64],
+    found: Ints,
+    work: Ints,
+    polygons: Floats,
+) -> None:
+    """Count the entries of each list at most, or fill them if there is room, and count them then.
+
+    ``work`` (2, n) and ``polygons`` (2, 10, 2) are for what is found on the way.
+    """
+    filling, seed, leaves = found.shape[0] > 0, 0, tree.leaves.shape[0]
+    for cell in range(boxes.shape[0]):
+        middle = _middle(boxes, cell)
+        half = boxes[cell, 3] - middle[0], boxes[cell, 4] - middle[1], boxes[cell, 5] - middle[2]
+        size = math.sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2])
+        nearest, distance = nearest_triangle(tree, middle, sight + size, seed)
+        counts[cell] = 0
+        if nearest < 0:
+            continue
+        seed = nearest
+        limit = min(distance + size, sight)
+        n, node = 0, 1
+        while node > 0:
+            square = _square_between(tree.boxes, node, boxes, cell)
+            if square < sight * sight and (
+                (tree.cones[node, 4] > 0.0 and square <= limit * limit) or _faces(tree, node, middle, size)
+            ):
+                if node < leaves:
+                    node = 2 * node
+                    continue
+                for k in range(tree.leaves.shape[1]):
+                    i = tree.leaves[node - leaves, k]
+                    if i < 0:
+                        continue
+                    kind = _kind(tree, i, boxes, cell, middle, half, sight, limit)
+                    if kind >= 0:
+                        work[0, n] = i
+                        work[1, n] = kind
+                        n += 1
+            while node & 1:
+                node >>= 1
+            if node > 0:
+                node += 1
+        counts[cell] = n
+        if filling:
+            counts[cell] = _fill(tree, middle, half, names, work, n, polygons, found, start[cell])
+
+
+def _square_between(boxes: Floats, i: int, others: Floats, j: int) -> Any:
+    """Square of the distance between two boxes, m²."""
+    dx = max(boxes[i, 0] - others[j, 3], 0.0, others[j, 0] - boxes[i, 3])
+    dy = max(boxes[i, 1] - others[j, 4], 0.0, others[j, 1] - boxes[i, 4])
+    dz = max(boxes[i, 2] - others[j, 5], 0.0, others[j, 2] - boxes[i, 5])
+    return dx * dx + dy * dy + dz * dz
+
+
+def _faces(tree: WallTree, node: int, middle: Vector, size: float) -> bool:
+    """Whether a perpendicular from within ``size`` of a place may end on a triangle of a node."""
+    b, cone = tree.boxes, tree.cones
+    wx = middle[0] - 0.5 * (b[node, 0] + b[node, 3])
+    wy = middle[1] - 0.5 * (b[node, 1] + b[node, 4])
+    wz = middle[2] - 0.5 * (b[node, 2] + b[node, 5])
+    ex, ey, ez = b[node, 3] - b[node, 0], b[node, 4] - b[node, 1], b[node, 5] - b[node, 2]
+    blur = size + 0.5 * math.sqrt(ex * ex + ey * ey + ez * ez)
+    length = math.sqrt(wx * wx + wy * wy + wz * wz)
+    if length <= blur:
+        return True
+    cosine = (wx * cone[node, 0] + wy * cone[node, 1] + wz * cone[node, 2]) / length
+    allowed = cone[node, 3] + math.asin(blur / length) + _FLAT
+    return bool(allowed >= math.pi or cosine >= math.cos(allowed))
+
+
+def _kind(
+    tree: WallTree, i: int, boxes: Floats, cell: int, middle: Vector, half: Vector, sight: float, limit: float
+) -> int:
+    """0 if a perpendicular from the cell may end on triangle i, with ``EDGE`` if its edge may be nearest.
+
+    −1 if neither is so.
+    """
+    corners, n = tree.corners, tree.normals
+    edge = False
+    if tree.edges[i]:
+        square = 0.0
+        for axis in range(3):
+            a, b, c = corners[i, 0, axis], corners[i, 1, axis], corners[i, 2, axis]
+            d = max(min(a, b, c) - boxes[cell, axis + 3], 0.0, boxes[cell, axis] - max(a, b, c))
+            square += d * d
+        edge = square <= limit * limit
+    normal = n[i, 0], n[i, 1], n[i, 2]
+    h, extent = _inner(normal, _seen(corners, i, 0, middle)), _extent(normal, half)
+    # All of the cell behind the wall, or farther from its plane than can be seen.
+    if h - extent >= 0.0 or -h - extent >= sight:
+        return -1
+    foot = True
+    for k in range(3):
+        a, b = _seen(corners, i, k, middle), _seen(corners, i, (k + 1) % 3, middle)
+        c = _seen(corners, i, (k + 2) % 3, middle)
+        along = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        # In the plane, across the edge, away from the third corner.
+        out = _cross(along, normal)
+        if _inner(out, c) > _inner(out, a):
+            out = -out[0], -out[1], -out[2]
+        if -_inner(out, a) - _extent(out, half) > _FLAT * _inner(along, along):
+            foot = False
+    if edge:
+        return EDGE
+    return 0 if foot else -1
+
+
+def _fill(
+    tree: WallTree,
+    middle: Vector,
+    half: Vector,
+    names: Ints,
+    work: Ints,
+    n: int,
+    polygons: Floats,
+    found: Ints,
+    begin: int,
+) -> int:
+    """Write the list of a cell, the sure ones first, without what they make needless; return its length."""
+    count = 0
+    for p in range(n):
+        i = work[0, p]
+        if i < 0 or not tree.single[i] or work[1, p] & _TRIED:
+            continue
+        covered, whole = _covered(tree, work, n, i, middle, half, polygons)
+        sure = covered >= (1.0 - _FLAT) * whole
+        for q in range(n):
+            if work[0, q] >= 0 and _in_plane(tree, i, work[0, q]):
+                work[1, q] |= _TRIED
+                if sure:
+                    work[0, q] = -1
+        if not sure:
+            continue
+        found[begin + count] = 4 * names[i] + SURE
+        count += 1
+    _sort(found, begin, begin + count)
+    ready = count
+    for p in range(n):
+        if work[0, p] >= 0:
+            found[begin + count] = 4 * names[work[0, p]] + (work[1, p] & EDGE)
+            count += 1
+    _sort(found, begin + ready, begin + count)
+    return count
+
+
+def _in_plane(tree: WallTree, i: int, j: int) -> bool:
+    """Whether triangle j lies in the plane of i."""
+    n, m, corners = tree.normals, tree.normals, tree.corners
+    if n[i, 0] * m[j, 0] + n[i, 1] * m[j, 1] + n[i, 2] * m[j, 2] < 0.5:
+        return False
+    length = 0.0
+    for axis in range(3):
+        length = max(length, abs(corners[j, 1, axis] - corners[j, 0, axis]))
+        length = max(length, abs(corners[j, 2, axis] - corners[j, 0, axis]))
+    origin = corners[i, 0, 0], corners[i, 0, 1], corners[i, 0, 2]
+    normal = n[i, 0], n[i, 1], n[i, 2]
+    off = 0.0
+    for k in range(3):
+        off = max(off, abs(_inner(normal, _seen(corners, j, k, origin))))
+    return bool(off <= _FLAT * length)
+
+
+def _covered(
+    tree: WallTree, work: Ints, n: int, i: int, middle: Vector, half: Vector, polygons: Floats
+) -> tuple[float, float]:
+    """Area of a rectangle in the plane of triangle i that is covered by triangles, and its whole area, m².
+
+    The feet of all perpendiculars from the cell lie in the rectangle.
+    """
+    normal = tree.normals[i, 0], tree.normals[i, 1], tree.normals[i, 2]
+    ax, ay, az = abs(normal[0]), abs(normal[1]), abs(normal[2])
+    # Along the axis that is most across the normal, as nearly as the plane allows.
+    e = (1.0, 0.0, 0.0) if ax <= ay and ax <= az else ((0.0, 1.0, 0.0) if ay <= az else (0.0, 0.0, 1.0))
+    s = _inner(e, normal)
+    t1 = e[0] - s * normal[0], e[1] - s * normal[1], e[2] - s * normal[2]
+    s = 1.0 / math.sqrt(_inner(t1, t1))
+    t1 = s * t1[0], s * t1[1], s * t1[2]
+    t2 = _cross(normal, t1)
+    a, b = _extent(t1, half), _extent(t2, half)
+    covered = 0.0
+    for q in range(n):
+        j = work[0, q]
+        if j >= 0 and tree.single[j] and _in_plane(tree, i, j):
+            p0, p1, p2 = (
+                _seen(tree.corners, j, 0, middle),
+                _seen(tree.corners, j, 1, middle),
+                _seen(tree.corners, j, 2, middle),
+            )
+            covered += _area_in_rectangle(
+                (_inner(p0, t1), _inner(p1, t1), _inner(p2, t1)),
+                (_inner(p0, t2), _inner(p1, t2), _inner(p2, t2)),
+                (a, b),
+                polygons,
+            )
+    return covered, 4.0 * a * b
+
+
+def _area_in_rectangle(x: Vector, y: Vector, sides: tuple[float, float], polygons: Floats) -> float:
+    """Area of what of a triangle lies in |x| ≤ sides[0], |y| ≤ sides[1] (Sutherland & Hodgman 1974), m².
+
+    ``polygons`` (2, 10, 2) is for what is found on the way.
+    """
+    for k in range(3):
+        polygons[0, k, 0], polygons[0, k, 1] = x[k], y[k]
+    n = 3
+    for cut in range(4):
+        axis, sign, p, q = cut // 2, 1.0 - 2.0 * (cut % 2), cut % 2, 1 - cut % 2
+        m = 0
+        for k in range(n):
+            other = (k + 1) % n
+            d = sides[axis] - sign * polygons[p, k, axis]
+            f = sides[axis] - sign * polygons[p, other, axis]
+            if d >= 0.0:
+                polygons[q, m, 0], polygons[q, m, 1] = polygons[p, k, 0], polygons[p, k, 1]
+                m += 1
+            if (d < 0.0) != (f < 0.0):
+                s = d / (d - f)
+                for j in range(2):
+                    a, b = polygons[p, k, j], polygons[p, other, j]
+                    polygons[q, m, j] = a + s * (b - a)
+                m += 1
+        n = m
+    area = 0.0
+    for k in range(n):
+        other = (k + 1) % n
+        area += polygons[0, k, 0] * polygons[0, other, 1] - polygons[0, other, 0] * polygons[0, k, 1]
+    return 0.5 * abs(area)
+
+
+def _sort(numbers: Ints, begin: int, end: int) -> None:
+    """Let the numbers from ``begin`` to ``end`` rise; there are few."""
+    for k in range(begin + 1, end):
+        number, place = numbers[k], k
+        while place > begin and numbers[place - 1] > number:
+            numbers[place] = numbers[place - 1]
+            place -= 1
+        numbers[place] = number
+
+
+def _inner(p: Vector, q: Vector) -> Any:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+def _cross(p: Vector, q: Vector) -> Vector:
+    return p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]
+
+
+def _extent(direction: Vector, half: Vector) -> Any:
+    """How far a box of these half widths reaches from its middle, along a direction times its length."""
+    return abs(direction[0]) * half[0] + abs(direction[1]) * half[1] + abs(direction[2]) * half[2]
