@@ -1,7 +1,6 @@
 import gzip
 import json
 import shutil
-import subprocess
 import textwrap
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +11,7 @@ import pytest
 import pyvista
 from numpy.typing import NDArray
 from paths import ROOT
+from pvpython import pvpython
 from view_run import with_orientation
 
 from foamprb.cloud.state import Status
@@ -104,18 +104,6 @@ def write_run(case: Path, radius: float = RADIUS) -> tuple[PointCloud, NDArray[A
         )
         series.append(snapshot)
     return snapshot, F
-
-
-def pvpython(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """Run pvpython, on a virtual display of its own if there is xvfb-run."""
-    display = ["xvfb-run", "-a"] if shutil.which("xvfb-run") else []
-    command = [*display, "pvpython", *map(str, arguments)]
-    for _ in range(5):
-        done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
-        # Now and then the first window aborts, the virtual display not being ready: no exit code of a script.
-        if done.returncode in (0, 1, 2):
-            break
-    return done
 
 
 def test_bodies_are_the_unit_sphere_mapped_by_RF(duct: Path, tmp_path: Path) -> None:

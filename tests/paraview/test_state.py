@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numpy as np
 import pytest
 import pyvista
 from PIL import Image
+from pvpython import pvpython
 from view_run import clouds, motion, with_orientation, write_run
 
 from foamprb.output.paraview_state import write_state
@@ -27,14 +27,7 @@ def run_state(folder: Path, state: Path, more: str) -> str:
     """Load a state without a display, then do more; what is printed."""
     driver = folder / "driver.py"
     driver.write_text(f"import runpy; runpy.run_path({str(state)!r})\nfrom paraview import simple\n{more}")
-    display = ["xvfb-run", "-a"] if shutil.which("xvfb-run") else []
-    for _ in range(5):
-        done = subprocess.run(
-            [*display, "pvpython", str(driver)], capture_output=True, text=True, timeout=240
-        )
-        # Now and then the first window aborts, the virtual display not being ready: no exit code of a script.
-        if done.returncode in (0, 1, 2):
-            break
+    done = pvpython(driver)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
