@@ -27,9 +27,9 @@ class Surrounding:
     """Global name by which its functions know where its rows begin."""
     look: ClassVar[Callable[..., None]]
     """``look(flow, s, i, step, rest, medium, coefficients)``: store what it needs to know around the particle
-    in lane i, before each step h, in the tracking step of that number, of which as much (s) is left; once more
-    at the end of a call, where the integrator then finds the last rates. The lane's x and t are those of the
-    start of h."""
+    in lane i, before each step h, in the tracking step of that number, of which as much (s) is left; once
+    more at the end of a call, where the integrator then finds the last rates. The lane's x and t are those of
+    the start of h."""
     prepare: ClassVar[Callable[..., None] | None] = None
     """As ``disturb``, before that of any model: for what others ask of this one."""
     disturb: ClassVar[Callable[..., None]]
