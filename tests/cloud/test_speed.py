@@ -131,6 +131,7 @@ def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
     assembly = assembly_of(stage, STAGES[stage], monkeypatch, tmp_path)
     packed, scalar = arithmetic(assembly)
     assert packed > 15
-    # Constants may be prepared before a loop; around a particle there are many loops.
-    assert scalar <= (8 if any(stage in model.stages() for model in AROUND) else 6)
+    # Constants may be prepared before a loop; around a particle there are many, and one counts walls.
+    around = any(stage in model.stages() for model in AROUND)
+    assert scalar <= (max(6, packed // 50) if around else 6)
     assert not re.search(r"\bv?sqrtsd\b", assembly)
