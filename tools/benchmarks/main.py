@@ -19,6 +19,7 @@ from benchmarks.records import (
     isolated,
     load,
     machine,
+    processor,
     read_rows,
 )
 
@@ -68,7 +69,8 @@ def _arguments() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "-output", type=Path, default=TOOLS.parent / "docs", metavar="DIR",
-        help="folder of performance.csv, whose other parts are kept, performance.md and the plots [docs]",
+        help="folder of performance.csv, whose other parts and processors are kept, performance.md and the "
+        "plots [docs]",
     )  # fmt: skip
     parser.add_argument(
         "-report", action="store_true", help="measure nothing, write the page from performance.csv"
@@ -103,8 +105,11 @@ def main(arguments: list[str] | None = None) -> int:
                 failed.append(part)
                 continue
             note = Row(part, "machine", machine() + (", quick" if parsed.quick else ""), 0.0, busy, "load")
-            kept[part] = [note, *as_rows(child.result)]
-            for row in kept[part]:
+            here = processor()
+            new = [row._replace(processor=here) for row in (note, *as_rows(child.result))]
+            # Those of other processors stay, behind them.
+            kept[part] = [*new, *(row for row in kept[part] if row.processor != here)]
+            for row in new:
                 size = f"{row.size:g}" if row.size else ""
                 print(f"    {row.quantity:30s} {row.subject:32.60s} {size:8s} {row.value:11.5g} {row.unit}")
             print(f"    {child.wall:.0f} s", flush=True)
@@ -115,6 +120,6 @@ def main(arguments: list[str] | None = None) -> int:
         if parsed.scratch is None:
             shutil.rmtree(scratch, ignore_errors=True)
     results = Results(row for part in PARTS for row in kept[part])
-    print(f"\n{written_table(results)}")
+    print(f"\n{written_table(results.newest())}")
     write_report(results, parsed.output)
     return 1 if failed else 0

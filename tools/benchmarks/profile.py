@@ -10,6 +10,7 @@ import numpy as np
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, rows
+from benchmarks.report import USEFUL
 from benchmarks.tracker import OPENFOAM_STEP, Tracker
 from benchmarks.whole import CAPILLARY_NUMBERS, REACH
 from foamprb.cloud import block
@@ -216,5 +217,5 @@ def measure(options: Options) -> list[Row]:
         shares = {name: costs[name] * count for name, count in often.items()}
         found += rows("profile", f"stage of {integrator}", shares, unit)
     used = {f"Ca {Ca:g}": share_of_use(flow, min(n, 20_000), Ca) for Ca in CAPILLARY_NUMBERS}
-    found += rows("profile", "share of lane-steps of use in a default run", used, "")
+    found += rows("profile", USEFUL, used, "")
     return found

@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -35,6 +36,8 @@ class Row(NamedTuple):
     size: float
     value: float
     unit: str
+    processor: str = ""
+    """Model of the processor on which it was measured."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,15 @@ class Results:
         """Rows of one part."""
         return [row for row in self.rows if row.part == name]
 
+    def newest(self) -> Results:
+        """Of each part the rows of the processor that comes first."""
+        first = {row.part: row.processor for row in reversed(self.rows)}
+        return Results(row for row in self.rows if row.processor == first[row.part])
+
+    def on(self, processor: str) -> Results:
+        """What was measured on a processor."""
+        return Results(row for row in self.rows if row.processor == processor)
+
 
 def read_rows(path: Path) -> list[Row]:
     """Rows of a file that :func:`foamprb.output.tables.write_table` wrote, none if it is absent."""
@@ -83,18 +95,31 @@ def read_rows(path: Path) -> list[Row]:
         return []
     with path.open(encoding="utf-8", newline="") as file:
         return [
-            Row(r["part"], r["quantity"], r["subject"], float(r["size"]), float(r["value"]), r["unit"])
+            Row(
+                r["part"],
+                r["quantity"],
+                r["subject"],
+                float(r["size"]),
+                float(r["value"]),
+                r["unit"],
+                r["processor"],
+            )
             for r in csv.DictReader(file)
         ]
 
 
-def machine() -> str:
-    """The processor, and versions of what the speed depends on."""
+def processor() -> str:
+    """Model of the processor."""
     names = re.findall(r"model name\s*:\s*(.+)", _text("/proc/cpuinfo"))
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def machine() -> str:
+    """The processor, versions of what the speed depends on, and the date."""
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "numpy", "vtk"))
-    processor = names[0] if names else platform.processor() or platform.machine()
     processors = len(os.sched_getaffinity(0))
-    return f"{processor}, {processors} processors, Python {platform.python_version()}, {versions}"
+    python = f"Python {platform.python_version()}"
+    return f"{processor()}, {processors} processors, {python}, {versions}, {date.today()}"
 
 
 def load(seconds: float = 2.0) -> float:

@@ -16,6 +16,7 @@ from benchmarks.profile import STAGES, blocks_of
 from benchmarks.records import KILO, Options, Row, rows
 from benchmarks.tracker import STEP
 from foamprb.cloud.layout import LANES
+from foamprb.cloud.tracker import Models
 
 COUNTED = ("add", "multiply", "divide", "sqrt")
 _CHAINS, _LENGTH = 4, 8
@@ -85,7 +86,8 @@ class Counting:
 def operations(stage: Any, numbers: Any, medium: Any) -> collections.Counter[str]:
     """Operations of one lane in a stage, by kind: its plain text is run on a block of counting numbers."""
     Counting.done.clear()
-    stage.function(*((numbers, medium) if stage.with_medium else (numbers,)))
+    arguments = {"": (), "medium": (medium,), "judging": (medium, Models().tolerance)}
+    stage.function(numbers, *arguments[stage.takes])
     return collections.Counter({kind: n / LANES for kind, n in Counting.done.items()})
 
 

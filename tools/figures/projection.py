@@ -425,7 +425,7 @@ def main() -> None:
         parser.add_argument(f"--{field.name.replace('_', '-')}", type=kind, default=field.default, help=text)
     options = parser.parse_args()
     cluster = Cluster(**{field.name: getattr(options, field.name) for field in fields(Cluster)})
-    constants = measured(Results(read_rows(options.output / "performance.csv")))
+    constants = measured(Results(read_rows(options.output / "performance.csv")).newest())
     text, found = project(constants, cluster, options.particles, options.dt, options.writes)
     (options.output / "projection.md").write_text(text, encoding="utf-8")
     plot(found, options.output / "projection.png")
