@@ -18,7 +18,7 @@ from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.series import cross, gap, normal, recover, walk, walls
+from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walls
 from foamprb.flow.walk import sample as sample_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
 
@@ -97,6 +97,7 @@ class RotatingFlow(MeshFlow):
         "normal": normal,
         "cross": cross,
         "recover": recover,
+        "cell_volume": cell_volume,
         "turbulence": turbulence,
         "rotation_at": rotation_at,
     }
@@ -127,10 +128,15 @@ class RotatingFlow(MeshFlow):
         return RotatingArrays(no_mesh(), np.empty(0, dtype=np.int16), np.empty((0, 3)), np.empty((0, 3)))
 
     def arrays(  # type: ignore[override]
-        self, reach: float = 0.0, touchable: Sequence[int] | None = None
+        self,
+        reach: float = 0.0,
+        touchable: Sequence[int] | None = None,
+        sight: float = 0.0,
+        seen: Sequence[int] = (),
     ) -> RotatingArrays:
         """As of a :class:`MeshFlow`, with the zones."""
-        return RotatingArrays(super().arrays(reach, touchable), self._zone, self._omega, self._origin)
+        mesh = super().arrays(reach, touchable, sight, seen)
+        return RotatingArrays(mesh, self._zone, self._omega, self._origin)
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Mesh, velocities and zones, by name."""

@@ -19,7 +19,6 @@ from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
-from foamprb.flow import walls
 
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
@@ -223,7 +222,7 @@ class TestWalls:
             c.particles.mu[:], c.particles.lame[:] = 1e6, 1e8
         cloud.carry(1)
         whole.carry(12)
-        monkeypatch.setattr(walls, "_MOST_ENTRIES", 1)
+        monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", 1)
         cloud.particles.R[2] *= 1.5
         cloud.carry(11)
         assert cloud.particles.reason[2] == Reason.WALLS_TOO_MANY

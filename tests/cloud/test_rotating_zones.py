@@ -11,8 +11,9 @@ from mesh_shapes import block, box_patches
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.rotating_frames import RotatingFrames
+from foamprb.cloud.limits import Limits
 from foamprb.cloud.patches import Escape, Mirror
-from foamprb.cloud.state import spheres
+from foamprb.cloud.state import Reason, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
@@ -92,6 +93,15 @@ def test_a_particle_that_enters_a_zone_goes_on_in_its_frame():
     # A step in which it enters is taken partly with the wrong velocity; near the axis this is small.
     assert errors[0] < 1e-3
     assert errors[1] < 2e-4
+
+
+def test_a_body_beyond_max_cells_fails_in_a_zone_too():
+    flow = half_rotating((0.0, 0.0, 0.0))
+    p = spheres([[0.75, 0.5, 0.5]], d=0.1, rho=1000.0, mu=1e3, poissons_ratio=0.4999)
+    models = Models(integrator="stokes", surroundings=(RotatingFrames(),))
+    walls = [Escape() for _ in flow.patches]
+    Cloud(p, flow, WATER, walls, 1e-3, models, threads=1, limits=Limits(max_cells=0.1)).carry(1)
+    assert p.reason[0] == Reason.CELLS_TOO_MANY
 
 
 def test_inertia_is_refused_and_weight_across_the_axis_warned_of():

@@ -24,7 +24,7 @@ def flow():
 
 def test_all_walls_of_a_box_within_the_cut_are_seen_where_they_are(flow):
     """Over the middle of triangles and over their edges, near faces, edges and corners of a unit cube."""
-    arrays = flow.arrays(1.0, range(len(flow.patches)))
+    arrays = flow.arrays(1.0, (), CUT, range(len(flow.patches)))
     chosen = np.ones(len(flow.patches), dtype=np.int8)
     x = np.random.default_rng(5).uniform(0.02, 0.98, (150, 3))
     for place, host in zip(x, flow.locate(x), strict=True):

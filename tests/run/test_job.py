@@ -56,10 +56,10 @@ def test_fates_have_a_row_for_every_particle(short_run):
 def test_series_holds_every_write_time_and_quantity(short_run):
     folder = short_run / "postProcessing/softCloud"
     entries = read_pvd(folder / "softCloud.pvd")
-    assert [entry.time for entry in entries] == pytest.approx([0.01, 0.02, 0.03])
+    assert [entry.time for entry in entries] == pytest.approx([0.0, 0.01, 0.02, 0.03])
     injected = [pyvista.read(folder / entry.file) for entry in entries]
     # 3000 a second, and five from the start; the one due at the write time itself comes after it.
-    assert [cloud.n_points for cloud in injected] == [35, 65, 95]
+    assert [cloud.n_points for cloud in injected] == [6, 35, 65, 95]
     for entry, cloud in zip(entries, injected, strict=True):
         assert set(MEASURES) <= set(cloud.point_data.keys())
         assert cloud.field_data["TimeValue"][0] == entry.time

@@ -77,7 +77,9 @@ def places(n: int) -> Floats:
 
 def main() -> int:
     """Print the table."""
-    argparse.ArgumentParser(description=__doc__.split("\n", 1)[0]).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0], add_help=False)
+    parser.add_argument("-help", "--help", action="help", help="show this text and stop")
+    parser.parse_args()
     rows: list[tuple[str, int, float, float, float]] = []
     with tempfile.TemporaryDirectory() as folder:
         os.environ["FOAMPRB_BENCHMARK_DIR"] = folder

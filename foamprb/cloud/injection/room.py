@@ -12,8 +12,10 @@ from foamprb.memory import memory, spoken
 
 __all__ = ["BYTES", "require_room"]
 
-BYTES = 2 * sum(math.prod(v.shape) * np.dtype(v.dtype).itemsize for v in VARIABLES.values())
-"""Memory that a run needs for each particle: its state, and that of the last write time."""
+BYTES = sum(
+    (1 if v.fixed else 2) * math.prod(v.shape) * np.dtype(v.dtype).itemsize for v in VARIABLES.values()
+)
+"""Memory that a run needs for each particle: its state, and what changes of it at the last write time."""
 
 
 def require_room(number: float, what: str) -> int:
