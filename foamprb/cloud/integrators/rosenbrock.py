@@ -2,7 +2,7 @@
 
 The formulas are those of :mod:`foamprb.body.inertial_runge_kutta` and :mod:`foamprb.body.inertial_path`.
 The shape's unknowns are F and l_s = A F⁻¹. Vectors and tensors of a step are components in the particle
-frame of its start.
+frame of its start; those of the path are so in a frame along which drag is diagonal, another near walls.
 """
 
 from __future__ import annotations
@@ -66,6 +66,9 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.cloud.surroundings.resistance import along_own_axes as resist
+from foamprb.cloud.surroundings.resistance import own_axes as find_drag_axes
+from foamprb.cloud.surroundings.resistance import own_frame as drag_axes
 
 
 class StiffnessRows(NamedTuple):
@@ -115,6 +118,7 @@ def predict_inertial(block: Any, medium: Medium) -> None:
         h, Q = block[at.dt * LANES + i], load9(block, at.Q, i)
         v, x = load3(block, at.v, i), load3(block, at.x, i)
         v_t, rate = _acceleration(block, i, medium, v)
+        Q, rate = find_drag_axes(block, i, Q, rate)
         a_u = dot_vector(Q, fluid_acceleration(block, i, v))
         start = (dot_vector(Q, v), dot_vector(Q, v_t))
         by_fluid = (h * rate[0] * a_u[0], h * rate[1] * a_u[1], h * rate[2] * a_u[2])
@@ -173,11 +177,12 @@ def first_inertial(block: Any, medium: Medium) -> None:
         v, u, u_end = load3(block, at.v, i), load3(block, during.start_u, i), load3(block, during.end_u, i)
         a_u = fluid_acceleration(block, i, v)
         rate, start = load3(block, own.rate, i), (load3(block, own.first_v, i), load3(block, own.first_vt, i))
+        P = drag_axes(block, i, Q)
         du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
-        changes = fluid_changes(rate, h, dot_vector(Q, du), dot_vector(Q, a_u))
+        changes = fluid_changes(rate, h, dot_vector(P, du), dot_vector(P, a_u))
         moved = first_motion(rate, h, start, *changes)
-        _set_motion(block, i, Q, moved)
-        x, way = load3(block, at.x, i), vector_dot(moved[0], Q)
+        _set_motion(block, i, P, moved)
+        x, way = load3(block, at.x, i), vector_dot(moved[0], P)
         store3(block, at.new_x, i, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
         store3(block, own.drag_change, i, changes[0])
         store3(block, own.drag_bend, i, changes[1])
@@ -222,8 +227,8 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
         seen = _fluid_share(changes, NODE)
-        moved = load3(block, own.dx, i), load3(block, own.dv, i)
-        kv = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, seen, 1.0 / NODE)
+        moved, P = (load3(block, own.dx, i), load3(block, own.dv, i)), drag_axes(block, i, Q0)
+        kv = slope_of_path(rate, moved, _moving(block, i, medium, P), moving, seen, 1.0 / NODE)
         path = path_of_second_order(rate, h, moving, *changes, kv)
         by_forces = respond_in_path(rate, h, NOTHING, kv, NOTHING)
         size = np.maximum(size, _length(by_forces, h, _way(block, i)))
@@ -234,7 +239,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
 
         store9(block, during.second_Q, i, load9(block, at.Q, i))
         F, A, J = _new_shape(block, i, Q0, start[0], two)
-        x, v = _new_motion(block, i, Q0, path)
+        x, v = _new_motion(block, i, P, path)
         store9(block, at.new_F, i, F)
         store9(block, at.new_A, i, A)
         block[at.J * LANES + i] = J
@@ -264,7 +269,8 @@ def last_inertial(block: Any, medium: Medium) -> None:
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
         v = load3(block, at.new_v, i)
         slope = (NOTHING[0], load3(block, own.slope_v, i))
-        _set_motion(block, i, Q0, last_motion(rate, h, moving, *changes, slope))
+        P = drag_axes(block, i, Q0)
+        _set_motion(block, i, P, last_motion(rate, h, moving, *changes, slope))
         w = load3(block, at.new_v, i)
         v = (select(third, w[0], v[0]), select(third, w[1], v[1]), select(third, w[2], v[2]))
         store3(block, at.new_v, i, v)
@@ -293,9 +299,9 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
             (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
-        moved = load3(block, own.dx, i), load3(block, own.dv, i)
+        moved, P = (load3(block, own.dx, i), load3(block, own.dv, i)), drag_axes(block, i, Q0)
         slope = (NOTHING[0], load3(block, own.slope_v, i))
-        end = slope_of_path(rate, moved, _moving(block, i, medium, Q0), moving, changes[0], 1.0)
+        end = slope_of_path(rate, moved, _moving(block, i, medium, P), moving, changes[0], 1.0)
         path = path_of_third_order(rate, h, moving, *changes, slope, end)
         x2, v2 = load3(block, own.second_x, i), load3(block, own.second_v, i)
         miss = (
@@ -307,7 +313,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, at.new_F, i, choose(third, F, load9(block, at.new_F, i)))
         store9(block, at.new_A, i, choose(third, A, load9(block, at.new_A, i)))
         block[at.J * LANES + i] = select(third, J, block[at.J * LANES + i])
-        x, v = _new_motion(block, i, Q0, path)
+        x, v = _new_motion(block, i, P, path)
         y, w = load3(block, at.new_x, i), load3(block, at.new_v, i)
         x = (select(third, x[0], y[0]), select(third, x[1], y[1]), select(third, x[2], y[2]))
         v = (select(third, v[0], w[0]), select(third, v[1], w[1]), select(third, v[2], w[2]))
@@ -394,13 +400,16 @@ def _moving(block: Any, i: int, medium: Medium, Q: Tensor) -> Motion:
 
 
 def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
-    """Acceleration (34) of the body in the block when it has the velocity v, m/s², and drag's rates, 1/s."""
+    """Acceleration (34) of the body in the block when it has the velocity v, m/s², and drag's rates, 1/s.
+
+    The rates are those without walls, along the particle's axes.
+    """
     Q, stretches, u = load9(block, at.Q, i), load3(block, at.stretch, i), load3(block, at.u, i)
     a, inertia = acceleration(block, i, medium, stretches[0] * stretches[1] * stretches[2])
     r = drag_rate(block, i, medium.mu, drag(stretches, load_integrals(block, i)))
     rate = (r[0] / inertia, r[1] / inertia, r[2] / inertia)
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
-    a_D = vector_dot((rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]), Q)
+    a_D = vector_dot(resist(block, i, rate, w), Q)
     return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
 
 

@@ -16,6 +16,21 @@ def resistances(block: Any, i: int) -> Vector:
     return R * k[0], R * k[1], R * k[2]
 
 
+def along_own_axes(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
+    """What drag with the rates μ_f K/m, 1/s, does to a body that lags by w, m/s², in the particle frame."""
+    return rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]
+
+
+def own_axes(_block: Any, _i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
+    """Frame in which the drag at the start of a step is diagonal, and its rates there: the particle's."""
+    return Q, rate
+
+
+def own_frame(_block: Any, _i: int, Q: Tensor) -> Tensor:
+    """The frame of :func:`own_axes` in the stages that follow, if Q is the particle's at the start."""
+    return Q
+
+
 def no_hindrance(_block: Any, _i: int) -> Tensor:
     """No wall hinders."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0

@@ -27,6 +27,7 @@ from foamprb.body.tensor import (
     dot_vector,
     from_frame,
     inverse,
+    principal_frame,
     scale,
     select,
     skew,
@@ -87,6 +88,7 @@ class WallRows(NamedTuple):
     load: Annotated[int, Row(3, "N", "force of the particle on the fluid")]
     by_load: Annotated[int, Row(9, "1/s", "velocity gradient that they send back of it")]
     hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
+    drag_frame: Annotated[int, Row(9, "1", "frame in which the drag at the start of a step is diagonal")]
 
 
 near = offsets(WallRows)
@@ -130,7 +132,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         store9(block, near.hindrance, i, nothing)
         store9(block, near.by_load, i, nothing)
     if hindered > 0.0:
-        strain_by_load(block, medium, share, least_gap, strain, most)
+        before_lift(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
@@ -159,13 +161,9 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
                 W = scale(block[near.there * LANES + i], W)
                 store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
     if hindered > 0.0:
-        for i in range(LANES):
-            v = held_back(block, i, medium)
-            w = load3(block, near.wall_lift, i)
-            store3(block, near.wall_lift, i, (w[0] + v[0], w[1] + v[1], w[2] + v[2]))
+        after_lift(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
-        h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
-        some = (h[0] < far) | (h[1] < far) | (h[2] < far)
+        some = any_near(block, i)
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
         E = add(scale(strain, load9(block, near.sent_back, i)), load9(block, near.by_load, i))
         store9(block, at.l, i, choose(some, add(l, E), l))
@@ -181,12 +179,18 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         )
 
 
+def any_near(block: Any, i: int) -> Any:
+    """Whether lane i has a wall near it."""
+    h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
+    return (h[0] < far) | (h[1] < far) | (h[2] < far)
+
+
 def strain_by_load(
     block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
     """The gradient by which the image of a load deforms, and that of the rigid stresslet that answers it."""
     for i in range(LANES):
-        store3(block, near.load, i, load_of(block, i, medium))
+        store3(block, near.load, i, load_of(block, i, medium, share))
     for wall in range(most):
         pick_wall(block, wall, share, least_gap)
         for i in range(LANES):
@@ -202,6 +206,36 @@ def strain_by_load(
         add_sent_back(block, wall, share, least_gap, medium, strain)
     for i in range(LANES):
         store9(block, near.by_load, i, load9(block, near.sent_back, i))
+
+
+def hold_back(
+    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int  # noqa: ARG001
+) -> None:
+    """Add what the walls take off the velocity by the load to that which they send back."""
+    for i in range(LANES):
+        v = held_back(block, i, medium)
+        w = load3(block, near.wall_lift, i)
+        store3(block, near.wall_lift, i, (w[0] + v[0], w[1] + v[1], w[2] + v[2]))
+
+
+def no_load_yet(
+    _block: Any, _medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
+) -> None:
+    """Before the lift is known, so is not the drag of a body with inertia."""
+
+
+def strain_by_drag(
+    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
+) -> None:
+    """As :func:`strain_by_load`, of a body with inertia; what the walls take off, of the molecules' push."""
+    for i in range(LANES):
+        # The stresslet without walls has served.
+        store9(block, near.alone, i, load9(block, near.sent_back, i))
+    strain_by_load(block, medium, share, least_gap, strain, most)
+    for i in range(LANES):
+        store9(block, near.sent_back, i, load9(block, near.alone, i))
+        store3(block, near.load, i, thermal_force(block, i))
+    hold_back(block, medium, share, least_gap, strain, most)
 
 
 def add_sent_back(
@@ -310,7 +344,7 @@ def standing_firm(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # n
     return scale(0.0, E)
 
 
-def load_of(block: Any, i: int, medium: Medium) -> Vector:
+def balanced_load(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
     """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
     _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
@@ -318,6 +352,45 @@ def load_of(block: Any, i: int, medium: Medium) -> Vector:
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
     return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
+
+
+def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
+    """What a body with inertia exerts on the fluid, N: μ_f K·(v − u), u with what the walls send back."""
+    Q, k, u, w = (
+        load9(block, at.Q, i),
+        resistances(block, i),
+        load3(block, at.u, i),
+        load3(block, near.wall_lift, i),
+    )
+    v = load3(block, at.new_v, i) if share > 0.0 else load3(block, at.v, i)
+    slip = dot_vector(Q, (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2]))
+    f = dot_vector(hindered_resistance(k, load9(block, near.hindrance, i)), slip)
+    return vector_dot((medium.mu * f[0], medium.mu * f[1], medium.mu * f[2]), Q)
+
+
+def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
+    """Rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
+    W = load9(block, near.hindrance, i)
+    # Where no lane has a wall, those of an earlier step are left.
+    return hindered_resistance(rate, choose(any_near(block, i), W, scale(0.0, W)))
+
+
+def across_axes(block: Any, i: int, rate: Vector, w: Vector) -> Vector:
+    """As :func:`foamprb.cloud.surroundings.resistance.along_own_axes`, near walls."""
+    return dot_vector(hindered_rate(block, i, rate), w)
+
+
+def find_hindered_axes(block: Any, i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
+    """Frame in which the drag near walls is diagonal at the start of a step, and its rates there, 1/s."""
+    P, rates = principal_frame(hindered_rate(block, i, rate))
+    axes = dot(P, Q)
+    store9(block, near.drag_frame, i, axes)
+    return axes, rates
+
+
+def hindered_axes(block: Any, i: int, _Q: Tensor) -> Tensor:
+    """That frame in the stages that follow."""
+    return load9(block, near.drag_frame, i)
 
 
 def no_thermal_force(_block: Any, _i: int) -> Vector:
@@ -372,8 +445,21 @@ def _nearest_walls(
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
 body_response: Callable[..., Tensor] = giving_way
+load_of: Callable[..., Vector] = balanced_load
+before_lift: Callable[..., None] = strain_by_load
+after_lift: Callable[..., None] = hold_back
 thermal_force: Callable[..., Vector] = no_thermal_force
 
+
+_OF_INERTIA: Mapping[str, Callable[..., Any]] = {
+    "load_of": drag_on_fluid,
+    "before_lift": no_load_yet,
+    "after_lift": strain_by_drag,
+    "resist": across_axes,
+    "find_drag_axes": find_hindered_axes,
+    "drag_axes": hindered_axes,
+}
+"""What hinders a body with inertia: its drag, which a step takes as a whole tensor."""
 
 _MORE_THAN_CLOSE = Bounds(CLOSE, math.inf, True, True, f"a number > {CLOSE:g}")
 
@@ -386,7 +472,7 @@ class WallLift(Surrounding):
         float, _MORE_THAN_CLOSE, Meaning("distance of the centre beyond which a wall does not count", "radii")
     ] = 10.0
     strain: Annotated[bool, Meaning("whether the gradient that walls send back deforms the particle")] = True
-    mobility: Annotated[bool, Meaning("whether walls hinder what settles; needs `stokes`")] = True
+    mobility: Annotated[bool, Meaning("whether walls hinder what settles; not with `paper`")] = True
     leastGap: Annotated[
         float, Positive, Meaning("gap below which motion across is hindered no more: roughness", "radii")
     ] = 0.01
@@ -426,14 +512,16 @@ class WallLift(Surrounding):
             "body_gradient": moving_gradient if inertia else balanced_gradient,
             "body_response": standing_firm if inertia else giving_way,
         }
-        return {**motion, "hindrance_by_walls": hindrance_at_start} if self.mobility else motion
+        if not self.mobility:
+            return motion
+        return {**motion, "hindrance_by_walls": hindrance_at_start, **(_OF_INERTIA if inertia else {})}
 
-    def refuses(self, inertia: bool, name: str) -> str:
-        """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
-        if self.mobility and inertia:
+    def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
+        """Not with the paper's, whose drag is along the particle's axes."""
+        if self.mobility and integrator == "paper":
             return (
-                f"wallLift/mobility is yes, which needs the integrator stokes, not {name}: "
-                "set mobility no, or integrationSchemes/shape stokes"
+                "wallLift/mobility is yes, which needs the integrator stokes or rosenbrock, not paper: "
+                "set mobility no, or integrationSchemes/shape rosenbrock"
             )
         return ""
 
