@@ -7,6 +7,7 @@ import pytest
 from scipy.stats import kstest
 
 from foamprb.body.brownian import BOLTZMANN
+from foamprb.body.wall import normal_mobility, parallel_mobility
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Rebound
@@ -84,6 +85,20 @@ def test_heights_over_a_wall_come_to_boltzmanns():
     gaps = p.x[:, 2] / R - 1.0
     assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
     assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+@pytest.mark.parametrize("h", [3.0, 1.3])
+def test_a_sphere_near_a_wall_diffuses_with_its_hindered_mobilities(integrator, h):
+    """Along and across it in a short time, with inertia as without; to four times the standard error."""
+    n, dt = 1000, 1e-4 * R**2 / D
+    p = beads(n, height=h * R)
+    models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
+    carried(p, 2, dt, flow=analytic.shear_over_wall(0.0), models=models, integrator=integrator)
+    moved = (p.x - [0.0, 0.0, h * R]) / np.sqrt(4.0 * D * dt)
+    e = 1.0 / h
+    expected = parallel_mobility(e), parallel_mobility(e), normal_mobility(e)
+    assert (moved**2).mean(axis=0) == pytest.approx(expected, rel=4.0 * np.sqrt(2.0 / n))
 
 
 def test_shapes_come_to_their_weight():

@@ -155,11 +155,6 @@ def test_lift_is_the_same_with_both_integrators_with_inertia():
     assert found[1][1] == pytest.approx(found[0][1], rel=0.02)
 
 
-def test_mobility_wants_an_integrator_without_inertia():
-    with pytest.raises(InputError, match=r"wallLift/mobility is yes.*stokes, not rosenbrock.*mobility no"):
-        carried(particles(4.0), 1, integrator="rosenbrock")
-
-
 def test_a_particle_that_no_wall_is_near_goes_as_without_the_model():
     """To the last bit, whatever others are in its block, and in any order."""
     far = particles([30.0, 31.0, 500.0])

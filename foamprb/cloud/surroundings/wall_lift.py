@@ -33,6 +33,7 @@ from foamprb.body.tensor import (
     skew,
     sym,
     to_frame,
+    trace,
     transpose,
     vector_dot,
 )
@@ -209,7 +210,7 @@ def strain_by_load(
 
 
 def hold_back(
-    block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int  # noqa: ARG001
+    block: Any, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
 ) -> None:
     """Add what the walls take off the velocity by the load to that which they send back."""
     for i in range(LANES):
@@ -355,7 +356,12 @@ def balanced_load(block: Any, i: int, medium: Medium, share: float) -> Vector:  
 
 
 def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
-    """What a body with inertia exerts on the fluid, N: μ_f K·(v − u), u with what the walls send back."""
+    """What a body with inertia exerts on the fluid, N: μ_f K·(v − u), u with what the walls send back.
+
+    In a step h that is long against the time m/μ_f K in which drag balances the forces, these in its place:
+    v and the body's velocity gradient, in which it is strained, would each be found from the other's error,
+    and grow. Their weight is of the fourth order in h.
+    """
     Q, k, u, w = (
         load9(block, at.Q, i),
         resistances(block, i),
@@ -364,8 +370,15 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
     )
     v = load3(block, at.new_v, i) if share > 0.0 else load3(block, at.v, i)
     slip = dot_vector(Q, (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2]))
-    f = dot_vector(hindered_resistance(k, load9(block, near.hindrance, i)), slip)
-    return vector_dot((medium.mu * f[0], medium.mu * f[1], medium.mu * f[2]), Q)
+    K = hindered_resistance(k, load9(block, near.hindrance, i))
+    d = vector_dot(dot_vector(scale(medium.mu, K), slip), Q)
+    f = balanced_load(block, i, medium, share)
+    R = block[at.R * LANES + i]
+    m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
+    x = block[at.dt * LANES + i] * medium.mu * trace(K) / (6.0 * m)
+    y = x * x * x * x
+    c = y / (1.0 + y)
+    return d[0] + c * (f[0] - d[0]), d[1] + c * (f[1] - d[1]), d[2] + c * (f[2] - d[2])
 
 
 def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
