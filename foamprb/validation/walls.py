@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -82,7 +83,42 @@ def mobility(quick: bool) -> Outcome:
             title = f"along two walls, {place} between them, h = {1.0 / e:.3g}R: speed over that without"
             source = "Faxén (1922), walls not superposed"
             rows.append(Row(title, float(v), ref.slit_mobility(place, e), source, allowed, relative=True))
+    for number in (1.0,) if quick else (0.1, 1.0, 10.0):
+        ours, theirs = _onto_slope(number)
+        title = f"with inertia, v_s τ/R = {number:g}, onto a slope from 4R to 1.1R: "
+        source = "its equation of motion, Faxén and Schäffer et al."
+        rows.append(Row(f"{title}way along it, over R", ours[0], theirs[0], source, 2e-3, relative=True))
+        rows.append(Row(f"{title}height, over R", ours[1], theirs[1], source, 2e-3, relative=True))
     return Outcome(rows, [], [])
+
+
+def _onto_slope(number: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Places (x, z) of a stiff sphere that falls from rest at 4R until it should be at 1.1R, ours and theirs.
+
+    Lengths are in radii R, times in τ, in which drag stops it far from walls; it falls ``number`` of them.
+    """
+
+    def rate(_t: float, y: Floats) -> tuple[float, float, float, float]:
+        e = 1.0 / y[1]
+        along = 1 - 9 * e / 16 + e**3 / 8 - 45 * e**4 / 256 - e**5 / 16
+        across = 1 - 9 * e / 8 + e**3 / 2 - 57 * e**4 / 100 + e**5 / 5 + 7 * e**11 / 200 - e**12 / 25
+        return y[2], y[3], 0.6 * number - y[2] / along, -0.8 * number - y[3] / across
+
+    def low(_t: float, y: Floats) -> float:
+        return float(y[1] - 1.1)
+
+    low.terminal = True  # type: ignore[attr-defined]
+    exact = solve_ivp(rate, (0.0, 1e4), (0.0, 4.0, 0.0, 0.0), "LSODA", events=low, rtol=1e-10, atol=1e-12)
+    tau = 2.0 / 9.0 * 2.0 * RHO * R**2 / MU_F
+    p = spheres([[0.0, 0.0, 4.0 * R]], d=2.0 * R, rho=2.0 * RHO, mu=1e7, poissons_ratio=0.4999)
+    p.v[:] = 0.0
+    g = number * R / tau**2
+    models = Models(integrator="rosenbrock", surroundings=(WallLift(cutOff=1000.0),))
+    medium = Medium(MU_F, 1e-6, (0.6 * g, 0.0, -0.8 * g))
+    dt = float(exact.t[-1]) * tau / 20
+    Cloud(p, analytic.shear_over_wall(0.0), medium, [Rebound()], dt, models, threads=1).advance(20)
+    x, z = p.x[0, 0] / R, p.x[0, 2] / R
+    return (float(x), float(z)), (float(exact.y[0, -1]), float(exact.y[1, -1]))
 
 
 def _coefficients(p: Particles) -> Floats:

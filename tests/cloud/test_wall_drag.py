@@ -143,7 +143,7 @@ def test_with_little_inertia_it_goes_as_without():
     assert state(p)[2:] == pytest.approx(state(q)[2:], rel=1e-3)
 
 
-@pytest.mark.parametrize(("h", "ratios"), [(2.0, (1.6, 1.0, 0.8)), (1.5, (1.2, 1.0, 0.9))])
+@pytest.mark.parametrize(("h", "ratios"), [(2.0, (1.6, 1.0, 0.8)), (1.7, (1.2, 1.0, 0.9))])
 def test_so_does_a_soft_ellipsoid_that_the_shear_turns_while_it_settles(h, ratios):
     """The lighter at the same weight, in proportion to γ̇τ; to 2e-3, the error of steps of `stokes`."""
 
@@ -157,7 +157,6 @@ def test_so_does_a_soft_ellipsoid_that_the_shear_turns_while_it_settles(h, ratio
 
     limit = ended("rosenbrock", 1000.0)
     misses = [abs(ended("rosenbrock", lightness) - limit).max() for lightness in (1.0, 10.0, 100.0)]
-    print(misses, abs(ended("stokes", 1.0) - limit).max())
     assert misses[0] < 0.02
     assert np.array(misses[1:]) * [10.0, 100.0] == pytest.approx(misses[0], rel=0.3)
     assert limit == pytest.approx(ended("stokes", 1.0), abs=3e-3)
