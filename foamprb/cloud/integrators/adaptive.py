@@ -45,7 +45,9 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
+    begin_block,
     clearance_of,
+    end_block,
     end_tracking_step,
     fail_small_step,
     interrupted,
@@ -229,6 +231,7 @@ def track_adaptive(
     last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
     block, status, current = scratch.block, scratch.status, scratch.step
+    begin_block(scratch)
     idle_lanes(block, dt)
     for i in range(LANES):
         current[i] = step
@@ -319,6 +322,7 @@ def track_adaptive(
         renew_end(flow, medium, scratch, len(members), last)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
+    end_block(scratch)
     return recovered
 
 

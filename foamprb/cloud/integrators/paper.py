@@ -45,7 +45,9 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
+    begin_block,
     clearance_of,
+    end_block,
     interrupted,
     is_sound,
     reach_end,
@@ -200,6 +202,7 @@ def track_block(
     """
     recovered = 0
     block, status = scratch.block, scratch.status
+    begin_block(scratch)
     idle_lanes(block, dt)
     for i in range(len(members)):
         load_particle(p, members[i], scratch, i)
@@ -252,6 +255,7 @@ def track_block(
         return 0
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
+    end_block(scratch)
     return recovered
 
 
