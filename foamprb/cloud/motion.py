@@ -105,13 +105,8 @@ def interrupted(s: Scratch) -> bool:
     return bool(s.stop[0] + s.outgrown[0] != 0)
 
 
-def begin_block(s: Scratch) -> None:
-    """Forget the rebounds of a block that was interrupted."""
-    s.bounced[0] = s.bounced[1]
-
-
 def end_block(s: Scratch) -> None:
-    """Let the rebounds of a block count, of which the particles are saved."""
+    """Let the rebounds of a block count, of which the particles are saved; those that are interrupted end."""
     s.bounced[1] = s.bounced[0]
 
 

@@ -52,12 +52,18 @@ class PatchPostProcessing:
         Raises
         ------
         InputError
-            If there is no such patch.
+            If there is no such patch, or the cloud does not note the rebounds from it.
         """
         for name in self.patches:
             if name not in cloud.patches:
                 raise InputError(f"patch {name} is not in the mesh. {suggestion(name, cloud.patches)}")
-        return {"rebounds": in_order([])} if self._bouncing(cloud) else {}
+        bouncing = self._bouncing(cloud)
+        if bouncing and not cloud.cloud.models.rebounds:
+            raise InputError(
+                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which a cloud notes whose models "
+                "have rebounds=True"
+            )
+        return {"rebounds": in_order([])} if bouncing else {}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Leave all to :meth:`write`."""

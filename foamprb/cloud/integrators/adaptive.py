@@ -45,7 +45,6 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
-    begin_block,
     clearance_of,
     end_block,
     end_tracking_step,
@@ -231,7 +230,6 @@ def track_adaptive(
     last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
     block, status, current = scratch.block, scratch.status, scratch.step
-    begin_block(scratch)
     idle_lanes(block, dt)
     for i in range(LANES):
         current[i] = step

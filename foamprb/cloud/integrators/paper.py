@@ -45,7 +45,6 @@ from foamprb.cloud.motion import (
     PENDING,
     SHORTEST_STEP,
     PatchTable,
-    begin_block,
     clearance_of,
     end_block,
     interrupted,
@@ -202,7 +201,6 @@ def track_block(
     """
     recovered = 0
     block, status = scratch.block, scratch.status
-    begin_block(scratch)
     idle_lanes(block, dt)
     for i in range(len(members)):
         load_particle(p, members[i], scratch, i)
