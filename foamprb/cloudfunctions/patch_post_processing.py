@@ -60,7 +60,7 @@ class PatchPostProcessing:
         bouncing = self._bouncing(cloud)
         if bouncing and not cloud.cloud.models.rebounds:
             raise InputError(
-                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which a cloud notes whose models "
+                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which is noted if its models "
                 "have rebounds=True"
             )
         return {"rebounds": in_order([])} if bouncing else {}
