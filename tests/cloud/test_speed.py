@@ -20,12 +20,13 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces.total import coefficients, compose
 from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.integrators.rosenbrock import predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.total import compose as surrounding
 from foamprb.cloud.surroundings.total import with_rows
-from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.cloud.surroundings.wall_lift import WallLift, lift
 from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
 from foamprb.compile.link import link
@@ -108,12 +109,15 @@ def arithmetic(assembly):
     return found.count("p"), found.count("s")
 
 
-def assembly_of(stage, integrator, monkeypatch, folder):
-    """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected."""
+def assembly_of(stage, integrator, monkeypatch, folder, more=()):
+    """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected.
+
+    With the models of the surroundings whose stage it is, or with others.
+    """
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
     monkeypatch.setattr(compiling, "_parts", {})
     medium = AIR._replace(coefficients=coefficients(FORCES))
-    models = tuple(model for model in AROUND if stage in model.stages())
+    models = more or tuple(model for model in AROUND if stage in model.stages())
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
     around = surrounding(integrator.layout, models, integrator.inertia)
     dispatcher = link(stage, compose(FORCES) | integrator.bindings | around)
@@ -123,6 +127,16 @@ def assembly_of(stage, integrator, monkeypatch, folder):
     dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))
     (assembly,) = dispatcher.inspect_asm().values()
     return assembly
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
+@pytest.mark.parametrize("stage", [lift, predict_inertial], ids=lambda stage: stage.__name__)
+def test_hindering_walls_leave_stages_with_inertia_vectorised(stage, monkeypatch, tmp_path):
+    packed, scalar = arithmetic(
+        assembly_of(stage, INTEGRATORS["rosenbrock"], monkeypatch, tmp_path, (WallLift(),))
+    )
+    assert packed > 500
+    assert scalar <= packed // 50
 
 
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
