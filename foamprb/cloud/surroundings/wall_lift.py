@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
-from foamprb.body.material import finger_of_sphere as finger
+from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.stokes import Mobility, mobility, velocity_gradient
 from foamprb.body.tensor import (
     Tensor,
@@ -314,7 +314,7 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     store9(block, near.gives_normal, i, m.normal)
     store3(block, near.gives_shear, i, m.compliance)
     store3(block, near.gives_slip, i, m.slip)
-    b_e = finger(dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
+    b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
     l = add(load9(block, at.l, i), load9(block, near.by_load, i))
     return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
