@@ -353,11 +353,23 @@ def longest_stretch(F: Tensor) -> Scalar:
     With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
+    m, variance = _spread(F)
+    return np.sqrt(m + np.sqrt(2.0 * variance))
+
+
+def is_stretched(F: Tensor, limit: Scalar) -> Any:
+    """Whether :func:`longest_stretch` is above a limit, but for round-off, without a root."""
+    m, variance = _spread(F)
+    rest = limit * limit - m
+    return (rest < 0.0) | (2.0 * variance > rest * rest)
+
+
+def _spread(F: Tensor) -> tuple[Scalar, Scalar]:
+    """Mean and variance of the eigenvalues of F Fᵀ."""
     x, xy, xz, _, y, yz, _, _, z = dot(F, transpose(F))
     m = (x + y + z) / 3.0
     x, y, z = x - m, y - m, z - m
-    variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
-    return np.sqrt(m + np.sqrt(2.0 * variance))
+    return m, (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
 
 
 def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
