@@ -159,7 +159,8 @@ def test_solve_inertialess_solves_its_equation(stretch, r, gh, eta):
     np.testing.assert_allclose(Y - gh * response, square(r), atol=1e-9 * size)
 
 
-@given(st.floats(0.8, 1.2))
+@given(st.floats(0.3, 1.9))
 def test_isochoric_restores_the_volume(J):
+    """Far from 1 as well, where every iteration counts."""
     F = flat(np.diag([J, 1.0, 1.0]))
     np.testing.assert_allclose(np.linalg.det(square(stokes.isochoric(F, J))), 1.0, rtol=1e-14)
