@@ -302,3 +302,13 @@ def test_a_face_is_cut_where_its_worst_tetrahedron_is_best(corners, random):
         assert (inverted > 0) == (max(worst) <= 0.0)
         chosen.add(int(lists[0]))
     assert len(chosen) > 1
+
+
+@pytest.mark.parametrize("cells", [[0, 64], [-1, 0]])
+def test_a_zone_has_no_cells_but_those_of_the_mesh(cells):
+    mesh = build_mesh(block(4, 0.0))
+    nothing = np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
+    flow = MeshFlow(mesh, *nothing, zones=lambda: {"all": np.arange(64), "other": np.array(cells)})
+    assert flow.cell_zone("all").volumes.sum() == pytest.approx(1.0)
+    with pytest.raises(InputError, match=r"cellZone other names cells beyond the mesh's 64\."):
+        flow.cell_zone("other")
