@@ -15,3 +15,20 @@ def test_a_linear_flow_is_its_gradient_times_the_place():
     u, gradient = analytic.linear(l, u0).sample(x, np.zeros(3, dtype=np.int32), 0.0)
     assert u == pytest.approx(u0 + x @ l.T, rel=1e-15)
     np.testing.assert_array_equal(gradient, np.broadcast_to(l, (3, 3, 3)))
+
+
+def test_between_walls_flows_a_parabola_and_above_one_a_shear():
+    z, h, U = np.array([0.0, 0.01, 0.15, 0.2]), 0.2, 3.0
+    x = np.stack([1.0 + z, 2.0 - z, z], axis=1)
+    slit, shear = analytic.slit(h, U), analytic.shear_over_wall(7.0)
+    for flow, speed, rate in (
+        (slit, 6.0 * U * z / h * (1.0 - z / h), 6.0 * U / h * (1.0 - 2.0 * z / h)),
+        (shear, 7.0 * z, 7.0 + 0.0 * z),
+    ):
+        u, l = flow.sample(x, flow.locate(x), 0.0)
+        np.testing.assert_allclose(u, np.outer(speed, (1.0, 0.0, 0.0)), rtol=1e-14, atol=1e-14)
+        only = np.zeros((len(z), 3, 3))
+        only[:, 0, 2] = rate
+        np.testing.assert_allclose(l, only, rtol=1e-14, atol=1e-12)
+    assert [tuple(patch)[:2] for patch in slit.patches] == [("lower", "wall"), ("upper", "wall")]
+    assert [tuple(patch)[:2] for patch in shear.patches] == [("wall", "wall")]
