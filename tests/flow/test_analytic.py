@@ -32,3 +32,21 @@ def test_between_walls_flows_a_parabola_and_above_one_a_shear():
         np.testing.assert_allclose(l, only, rtol=1e-14, atol=1e-12)
     assert [tuple(patch)[:2] for patch in slit.patches] == [("lower", "wall"), ("upper", "wall")]
     assert [tuple(patch)[:2] for patch in shear.patches] == [("wall", "wall")]
+
+
+def test_a_straight_way_leaves_a_pipe_where_it_meets_its_end_or_its_wall():
+    flow = analytic.pipe(0.5, 1.0, 2.0)
+    arrays, walk = flow.arrays(0.0, ()), flow.kernels["walk"]
+    names = [patch.name for patch in flow.patches]
+    for x0, x1, fraction, name in (
+        ((1.5, 0.1, 0.0), (2.5, 0.2, 0.1), 0.5, "outlet"),
+        ((0.5, 0.1, 0.0), (-1.5, 0.2, 0.1), 0.25, "inlet"),
+        ((1.0, 0.3, 0.0), (1.8, 0.7, 0.0), 0.5, "wall"),
+        # The wall before the outlet, and the outlet before the wall.
+        ((1.0, 0.4, 0.0), (3.0, 0.8, 0.0), 0.25, "wall"),
+        ((1.5, 0.1, 0.0), (3.5, 0.6, 0.0), 0.25, "outlet"),
+    ):
+        found = walk(arrays, 0, x0, x1)
+        assert found[1] == pytest.approx(fraction, rel=1e-14)
+        assert names[found[2]] == name
+    assert walk(arrays, 0, (1.0, 0.1, 0.0), (1.5, 0.3, 0.2)) == (0, 1.0, -1, -1)
