@@ -18,8 +18,12 @@ from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import available_times
+from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.flow.read.mrf import read_rotations
+from foamprb.flow.read.processors import processors
 from foamprb.flow.read.source import Source, check_region, read_flow
+from foamprb.flow.read.turbulence import turbulence_fields
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
@@ -116,7 +120,7 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
                 _line("deltaT", f"{step:g}", _said("solution", "deltaT", "a fifth of a cell in the flow")),
                 _line("endTime", f"{end:g}", _said("solution", "endTime")),
                 _line("writeInterval", f"{interval:g}", _said("solution", "writeInterval")),
-                *_transient(case),
+                *(_rotating(case, flow, source) or _transient(case, source)),
             ],
         ),
         _dictionary(
@@ -298,14 +302,56 @@ def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
     return found
 
 
-def _transient(case: Path) -> list[str]:
+def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+    """How particles are seen in the zones of ``MRFProperties``, if there are any."""
+    if source.file is not None:
+        return []
+    try:
+        zones = read_rotations(case, source.region)
+        for zone in zones:
+            flow.cell_zone(zone.zone)
+    except InputError:
+        return [_line("rotatingZones", "absolute", "MRFProperties has what is not modelled")]
+    if not zones:
+        return []
+    names = ", ".join(zone.name for zone in zones)
+    return [
+        _line("rotatingZones", "relative", f"{names} of MRFProperties; absolute: as if blades stood still"),
+        "integrationSchemes  { shape stokes; } // the one that rotating zones can have",
+    ]
+
+
+def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+    """The choice of a model of the eddies, where the flow is a mean and the case has what it needs."""
+    if source.file is not None:
+        return []
+    divided = source.decomposed or is_only_decomposed(case, source.region)
+    folder = processors(case)[0] if divided else case
+    fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
+    if not fields:
+        return []
+    why = f"or stochasticDispersionRAS: {' and '.join(fields)} are there"
+    return [_line("dispersionModel", "none", why), ""]
+
+
+def _transient(case: Path, source: Source) -> list[str]:
     """A hint, where the flow has been written at several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
-    if len(names) < 2:
+    if len(names) < 2 or _steady(case, source.region):
         return []
     return [
         f"// transient       true;   // the flow at its times {names[0]} to {names[-1]}; without: the latest"
     ]
+
+
+def _steady(case: Path, region: str) -> bool:
+    """Whether the times of a case are iterations of a steady solver, as ``fvSchemes`` says."""
+    try:
+        schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
+    except InputError:
+        return False
+    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
+    return isinstance(default, Stream) and default.text == "steadyState"
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -342,6 +388,7 @@ def _sub_models(case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: f
         *_gravity(case, source.region),
         "}",
         "",
+        *_dispersion(case, flow, source),
         "injectionModels",
         "{",
         *_indented(_injection(scales, end, size)),

@@ -122,7 +122,7 @@ def _porous(case: Path, region: str) -> Iterator[Caveat]:
 
 def _turbulent(folder: Path) -> Iterator[Caveat]:
     name = "nut" if existing(folder / "nut") is not None else "k"
-    if _is_there(folder / name):
+    if is_not_zero(folder / name):
         yield Caveat(
             f"the flow is the mean or the resolved part of a turbulent one (there is {name}): particles "
             "follow and feel that part alone, without dispersion by the eddies and without their stresses. "
@@ -131,7 +131,7 @@ def _turbulent(folder: Path) -> Iterator[Caveat]:
         )
 
 
-def _is_there(path: Path) -> bool:
+def is_not_zero(path: Path) -> bool:
     """Whether there is a field that is not zero everywhere."""
     found = existing(path)
     return found is not None and not _ZERO.search(read_bytes(found, _HEAD))
