@@ -109,7 +109,9 @@ class Drawing:
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
             label = f"{field.label}, {part}" if part else field.label
-            self._bar("legend", label, field.unit, scene.limits, colour_map(scene.map_name), left)
+            self._bar(
+                "legend", label, field.unit, scene.limits, colour_map(scene.map_name), left, scene.beyond
+            )
         else:
             self._names(scene.codes(name), left)
         for surface in scene.geometry.surfaces if scene.geometry is not None else ():
@@ -144,8 +146,12 @@ class Drawing:
         limits: tuple[float, float],
         table: Table,
         left: float,
+        beyond: tuple[bool, bool] = (False, False),
     ) -> float:
-        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins."""
+        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins.
+
+        ``beyond`` is whether values lie below its limits, and above them.
+        """
         bottom = self.plotter.window_size[1] / self.scale
         factor, shown_unit = readable(unit, max(map(abs, limits)))
         low, high = limits[0] / factor, limits[1] / factor
@@ -157,7 +163,8 @@ class Drawing:
         for k, value in enumerate(ticks(low, high)):
             share = (value - low) / (high - low)
             side = "left" if share == 0.0 else "center"
-            self._write(f"{name} {k}", number(value), 12, side, bottom - 20, left + _BAR * share)
+            sign = "≤ " if share == 0.0 and beyond[0] else "≥ " if value == high and beyond[1] else ""
+            self._write(f"{name} {k}", sign + number(value), 12, side, bottom - 20, left + _BAR * share)
         return left + _BAR + 40.0
 
     def _names(self, codes: Codes, left: float) -> None:
