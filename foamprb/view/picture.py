@@ -18,6 +18,7 @@ from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtk
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.memory import require, wants
 from foamprb.output.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
@@ -46,6 +47,8 @@ _MOST_MARKED = 2_000
 _MARK_WIDTH, _SPOT_WIDTH = 0.04, 0.3
 _BAR = 280.0
 _UNKNOWN = 153
+_GRAPHICS, _POINT = 0.7e9, 205.0
+"""Address space that the graphics library takes, and what is drawn for each point of a body, bytes."""
 
 
 class Shape(NamedTuple):
@@ -346,7 +349,11 @@ def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
 
 
 def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off_screen: bool) -> Drawing:
-    """The scene without its bodies."""
+    """The scene without its bodies; OutOfMemory if there is too little, of which VTK would die."""
+    number = int(scene.bodies.shown.sum(axis=1).max(initial=0))
+    points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
+    wants("bodies drawn", number, _POINT * points)
+    require(_GRAPHICS + _POINT * points * number)
     plotter = pyvista.Plotter(off_screen=off_screen or None, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)
     plotter.enable_anti_aliasing("msaa", multi_samples=8)
