@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.measures import shear_rate
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
@@ -109,7 +110,9 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
     scales = scales_of(flow)
     fluid = _fluid(case, source)
     step, interval, end = times(scales)
-    d = diameter(scales, fluid.nu)
+    rho0 = 1050.0 if fluid.rho > 500.0 else 1000.0
+    rotating = _rotating(case, flow, source)
+    d = diameter(scales, fluid.nu, rho0 / fluid.rho if len(rotating) > 1 else 0.0)
     rate = scales.shear or 1.0
     modulus = _rounded(fluid.rho * fluid.nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
     parts = [
@@ -120,13 +123,13 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
                 _line("deltaT", f"{step:g}", _said("solution", "deltaT", "a fifth of a cell in the flow")),
                 _line("endTime", f"{end:g}", _said("solution", "endTime")),
                 _line("writeInterval", f"{interval:g}", _said("solution", "writeInterval")),
-                *(_rotating(case, flow, source) or _transient(case, source)),
+                *(rotating or _transient(case, source)),
             ],
         ),
         _dictionary(
             "constantProperties",
             [
-                _line("rho0", "1050" if fluid.rho > 500.0 else "1000", _said("constantProperties", "rho0")),
+                _line("rho0", f"{rho0:g}", _said("constantProperties", "rho0")),
                 *fluid.lines,
                 "",
                 "solid",
@@ -211,9 +214,13 @@ def times(scales: FlowScales) -> tuple[float, float, float]:
     return step, step * steps, step * steps * _TIMES
 
 
-def diameter(scales: FlowScales, nu: float) -> float:
-    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most."""
-    stokes = math.sqrt(0.05 * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
+def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
+    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most.
+
+    ``ratio`` is how many times denser than the fluid a solid is whose inertia is to be small, too.
+    """
+    largest = min(0.05, 0.5 * SMALL_STOKES * 60.0 / ratio) if ratio > 0.0 else 0.05
+    stokes = math.sqrt(largest * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
     return _nice(min(1e-5, 0.2 * scales.cell, stokes), up=False)
 
 

@@ -123,6 +123,9 @@ def test_the_diameter_keeps_the_reynolds_number_small():
         d = diameter(scales(most_shear=most), 1e-6)
         assert most * d * d / 1e-6 <= 0.05 * (1 + 1e-9)
         assert d <= 1e-5
+        # The shape Stokes number of a solid a thousand times denser, too, where its inertia is left out.
+        d = diameter(scales(most_shear=most), 1e-6, 1000.0)
+        assert 1000.0 * most * d * d / (60.0 * 1e-6) <= 0.01 * (1 + 1e-9)
     assert diameter(scales(most_shear=0.0, cell=1e-6), 1e-6) == 2e-7
 
 
