@@ -141,6 +141,11 @@ def test_fluid_that_is_lost_is_counted_by_phi(case):
     assert "does not conserve mass: 2 kg/s enter and 3 kg/s leave (from phi)" in found
 
 
+def test_round_off_in_a_closed_domain_is_no_loss(case):
+    fluxes(case, -1e-17, 2e-17)
+    assert caveats(case) == []
+
+
 def test_fluid_that_is_lost_is_counted_by_the_velocity(case):
     """Without phi, or with one that is no flux."""
     velocity = case / "1e1/U"
