@@ -20,7 +20,7 @@ WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 AIR = Medium(1.8e-5, 1.2, (0.0, -400.0, 0.0))
 
 
-def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, **options):
+def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, rebounds=False, **options):
     """Particles spread over the inlet that start one after the other, from two injection models."""
     random = np.random.default_rng(1)
     r, phi = 0.97 * RADIUS * np.sqrt(random.uniform(0, 1, n)), random.uniform(0, 2 * np.pi, n)
@@ -30,7 +30,7 @@ def pipe_cloud(n=40, medium=AIR, length=0.03, integrator="stokes", walls=None, *
     p.injector[:] = np.arange(n) % 2
     flow = analytic.pipe(RADIUS, MEAN, length)
     walls = walls or (Stick(), Escape(), Escape())
-    return Cloud(p, flow, medium, walls, 1e-4, Models(integrator=integrator), **options)
+    return Cloud(p, flow, medium, walls, 1e-4, Models(integrator=integrator, rebounds=rebounds), **options)
 
 
 def observed(cloud):

@@ -109,6 +109,10 @@ class Medium(NamedTuple):
     """Coefficients of the models of the surroundings, likewise."""
 
 
+WIDTH = 21
+"""Numbers that are noted of a rebound (:func:`foamprb.cloud.rebounds.note`)."""
+
+
 class Scratch(NamedTuple):
     """Working memory of a loop: while a block is in it, the cloud's arrays are left alone.
 
@@ -129,19 +133,39 @@ class Scratch(NamedTuple):
     """9 × 10 numbers: one particle's equations."""
     stop: Any
     """A whole number that others share: not zero when a loop shall end at once."""
+    number: Any
+    """LANES whole numbers: which of the whole cloud each particle is."""
     outgrown: Any
-    """A whole number: not zero once a body may touch walls that are not listed."""
+    """A whole number: not zero once a body may touch walls that are not listed, or bounces is full."""
+    bounces: Any
+    """Room for the rebounds of this loop's particles, (n, :data:`WIDTH`)."""
+    bounced: Any
+    """Two whole numbers: how many are there, and how many of them of blocks that are done."""
     bounds: Bounds
     """What no particle may pass."""
 
 
-def new_scratch(rows: int, stop: Any = None, bounds: Bounds = Bounds()) -> Scratch:  # noqa: B008
-    """Working memory for a block of that many rows; ``stop`` and ``bounds`` as in :class:`Scratch`."""
-    a, b, c, d, e = np.empty((5, LANES), dtype=np.int64)
+def new_scratch(
+    rows: int,
+    stop: Any = None,
+    bounds: Bounds = Bounds(),  # noqa: B008
+    room: int = 0,
+) -> Scratch:
+    """Working memory for a block of that many rows.
+
+    Parameters
+    ----------
+    stop, bounds
+        As in :class:`Scratch`.
+    room
+        How many rebounds it can take.
+    """
+    a, b, c, d, e, f = np.empty((6, LANES), dtype=np.int64)
     nothing = np.zeros((2, 1), dtype=np.int64)
     return Scratch(
         np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)),
-        nothing[0] if stop is None else stop, nothing[1], bounds,
+        nothing[0] if stop is None else stop, f, nothing[1],
+        np.empty((room, WIDTH)), np.zeros(2, dtype=np.int64), bounds,
     )  # fmt: skip
 
 
@@ -343,7 +367,7 @@ def elongated_stage(block: Any) -> None:
 
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
-    s.status[i], s.host[i] = p.status[k], p.host[k]
+    s.status[i], s.host[i], s.number[i] = p.status[k], p.host[k], p.number[k]
     # None of those that are loaded has ended.
     s.reason[i], s.patch[i] = 0, -1
     load_rows(p, k, s.block, i)

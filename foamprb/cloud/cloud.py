@@ -199,7 +199,7 @@ class Cloud:
                 self._extend_reach()
             elif outcome.finished:
                 self.step += ready
-            else:
+            elif not outcome.crowded:
                 return
 
     @property
@@ -252,6 +252,15 @@ class Cloud:
     def gather(self) -> None:
         """Make sure that :attr:`particles` are as they were left by the last step."""
         self.executor.gather()
+
+    def take_rebounds(self) -> NDArray[np.float64]:
+        """The rebounds since it was last asked, if the models have ``rebounds``.
+
+        Returns
+        -------
+        A row for each, in the order of their times; :func:`foamprb.cloud.rebounds.rebounds_of` explains them.
+        """
+        return self.executor.take_rebounds()
 
     def snapshot(self, before: Snapshot | None = None) -> Snapshot:
         """A copy of what will change.

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.cloud.measures import gradients
 from foamprb.cloud.motion import longest_of
@@ -95,6 +96,10 @@ class Executor(ABC):
 
     def gather(self) -> None:  # noqa: B027
         """Put the state of every particle into the cloud's arrays."""
+
+    def take_rebounds(self) -> NDArray[np.float64]:
+        """The rebounds since it was last asked, as :meth:`~foamprb.cloud.cloud.Cloud.take_rebounds` has."""
+        return self._cloud.tracker.take_rebounds()
 
     def snapshot_files(self, stem: Path) -> tuple[Path, ...]:
         """The files that :meth:`begin_write` may write for a snapshot.

@@ -47,6 +47,10 @@ SEEN = 4.0
 """Distance from a body's centre, in semi-axes, from which on it does not see walls."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
+UNLISTED = 1
+"""In :attr:`~foamprb.cloud.block.Scratch.outgrown`: a body may touch walls that are not listed."""
+_TOUCH = 1e-6
+"""A gap below that, in radii, may be round-off of a body in touch."""
 _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
@@ -92,9 +96,18 @@ def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
     """Nothing else of the particle in lane i is thrown back by a wall of normal n."""
 
 
+def note_rebound(_s: Scratch, _i: int, _patch: int, _t: float, _x: Vector, _n: Vector) -> None:
+    """Nobody wants to know where and when the particle in lane i bounced off."""
+
+
 def interrupted(s: Scratch) -> bool:
     """Whether a loop shall end at once, and leave its particles as they were when it began."""
     return bool(s.stop[0] + s.outgrown[0] != 0)
+
+
+def end_block(s: Scratch) -> None:
+    """Let the rebounds of a block count, of which the particles are saved; those that are interrupted end."""
+    s.bounced[1] = s.bounced[0]
 
 
 def end_tracking_step(s: Scratch, i: int) -> None:
@@ -130,7 +143,7 @@ def reach_end(
     end, start, spent, mended = move_centre(flow, patches, s, i, goal, h)
     store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
-        spent *= touch(flow, patches, s, i, start)
+        spent *= touch(flow, patches, s, i, start, t_end - h, spent)
     if s.bounds.cells < math.inf and s.status[i] == ACTIVE:
         fail_in_small_cell(flow, s, i)
     s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
@@ -165,7 +178,7 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     R, F = block[at.R * LANES + i], load9(block, at.F, i)
     if SEEN * R * longest_stretch(F) > s.bounds.reach:
         if s.bounds.reach_grows:
-            s.outgrown[0] = 1
+            s.outgrown[0] = UNLISTED
         else:
             fail(s, i, WALLS_TOO_MANY)
     clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R)
@@ -293,6 +306,7 @@ def move_centre(
             start = moved(turn, shift, start)
             continue
         n = normal(flow, triangle, x0)
+        note_rebound(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
         v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
         store3(block, at.v, i, v)
         bounce_along(block, i, n)
@@ -323,10 +337,17 @@ def move_back(
     return x0, True
 
 
-def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> float:
+def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: float, spent: float) -> float:
     """Let the ellipsoid touch the walls near it, after its centre went from ``start`` to its new place.
 
-    Returns the fraction of the way at which a particle stopped.
+    Parameters
+    ----------
+    t, spent
+        When it went, and how long it took, s.
+
+    Returns
+    -------
+    The fraction of the way at which a particle stopped.
     """
     block = s.block
     before = block[at.clearance * LANES + i]
@@ -345,6 +366,9 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector) -> 
         return f
     n = normal(flow, triangle, x)
     v = load3(block, at.v, i)
+    # A body that rests on the wall or slides along it bounced when it came.
+    if before > _TOUCH * block[at.R * LANES + i]:
+        note_rebound(s, i, patch, t + f * spent, between(start, x, f), n)
     store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
     bounce_along(block, i, n)
     # What the centre went towards the wall after the contact is taken back: else a body that comes to rest

@@ -23,8 +23,9 @@ from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.limits import Bounds
-from foamprb.cloud.motion import RARE, PatchTable, reach_end, release
+from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, reach_end, release
 from foamprb.cloud.patches import Interaction, Rebound
+from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import total as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -55,11 +56,16 @@ class Outcome(NamedTuple):
     """Whether all particles came to the end."""
     outgrown: bool = False
     """Whether one did not as it may touch walls that are not listed."""
+    crowded: bool = False
+    """Whether some did not as there was no room for their rebounds; there is now."""
 
     def __add__(self, other: Any) -> Outcome:
         """Of two shares of the particles."""
         return Outcome(
-            self.mended + other.mended, self.finished and other.finished, self.outgrown or other.outgrown
+            self.mended + other.mended,
+            self.finished and other.finished,
+            self.outgrown or other.outgrown,
+            self.crowded or other.crowded,
         )
 
 
@@ -79,6 +85,8 @@ class Models:
     """What acts on the barycentre beside drag."""
     surroundings: tuple[Surrounding, ...] = ()
     """What changes the fluid that a particle feels, in this order."""
+    rebounds: bool = False
+    """Whether it is noted where and when particles bounce off (:meth:`Tracker.take_rebounds`)."""
 
 
 class Tracker:
@@ -127,6 +135,8 @@ class Tracker:
             bindings["strain_by"] = strain_in_frame
         if tense:
             bindings["interface"] = laplace_stress
+        if models.rebounds:
+            bindings["note_rebound"] = note
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
@@ -147,6 +157,8 @@ class Tracker:
         )
         self.dt, self.start = dt, start
         self.options = (models.tolerance,) if integrator.adaptive else ()
+        self._rebounds: list[NDArray[np.float64]] = []
+        self._room = _ROOM if models.rebounds else 0
         self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -239,13 +251,15 @@ class Tracker:
         halt = np.zeros(1, dtype=np.int64)
 
         def work(first: int) -> Outcome:
-            scratch = new_scratch(self.layout.rows, halt, bounds)
+            scratch = new_scratch(self.layout.rows, halt, bounds, self._room)
             mended: int = self._track(
                 flow, self.table, self.medium, p, rows, first, shares,
                 *steps, self.dt, self.start, scratch, self.options,
             )  # fmt: skip
-            outgrown = bool(scratch.outgrown[0])
-            return Outcome(mended, not (outgrown or halt[0]), outgrown)
+            if scratch.bounced[1]:
+                self._rebounds.append(scratch.bounces[: scratch.bounced[1]].copy())
+            outgrown = scratch.outgrown[0]
+            return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 
         blocks = -(-len(rows) // LANES)
         # A thread that is held up leaves the shares that it has not begun to others.
@@ -260,7 +274,15 @@ class Tracker:
             except BaseException:
                 halt[0] = 1
                 raise
-        return sum((share.result() for share in under_way), Outcome())
+        outcome = sum((share.result() for share in under_way), Outcome())
+        if outcome.crowded:
+            self._room *= _MORE_ROOM
+        return outcome
+
+    def take_rebounds(self) -> NDArray[np.float64]:
+        """The rebounds since it was last asked, as :func:`foamprb.cloud.rebounds.in_order` has them."""
+        found, self._rebounds = self._rebounds, []
+        return in_order(found)
 
 
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -278,6 +300,8 @@ _PATIENCE = 0.1
 """Seconds after which it is asked whether to stop."""
 _SHARES = 8
 """Of the particles, for each of several threads."""
+_ROOM, _MORE_ROOM = 1000, 4
+"""Rebounds of a share in a call; by what it grows where there are more."""
 
 
 def check(models: Models, tense: bool) -> None:

@@ -7,10 +7,10 @@ and a line in :mod:`foamprb.cloudfunctions.registry`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,8 @@ __all__ = [
     "Memory",
     "ObservedCloud",
     "Rows",
+    "SeesRebounds",
+    "wants_rebounds",
 ]
 
 Rows: TypeAlias = NDArray[np.int64]
@@ -65,18 +67,30 @@ class ObservedCloud:
         As :func:`foamprb.cloud.measures.contexts`, a few at a time.
         """
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
-            p = self.particles.take(rows[start : start + PER_CONTEXT])
-            p.status[:] = Status.ACTIVE
-            yield from contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
+            yield from self._contexts_of(self.particles.take(rows[start : start + PER_CONTEXT]))
 
     def collect(self, rows: Rows, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
         """Return values of particles, whatever their status."""
-        parts = [[np.array(value(c)) for value in values] for c in self.contexts(rows)]
-        return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
+        return _collect(self.contexts(rows), values)
+
+    def collect_of(self, p: Particles, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
+        """Return values of particles that need not be in the state in which the cloud has them."""
+        return _collect(self._contexts_of(p), values)
+
+    def _contexts_of(self, p: Particles) -> Iterator[Context]:
+        p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
+        return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
 
     def measure(self, rows: Rows, *names: str) -> list[NDArray[Any]]:
         """Return some of :data:`foamprb.cloud.measures.MEASURES` of particles, whatever their status."""
         return self.collect(rows, *(MEASURES[name].value for name in names))
+
+
+def _collect(
+    found: Iterable[Context], values: Sequence[Callable[[Context], NDArray[Any]]]
+) -> list[NDArray[Any]]:
+    parts = [[np.array(value(c)) for value in values] for c in found]
+    return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
 
 class CloudFunction(Schema, Protocol):
@@ -97,6 +111,22 @@ class CloudFunction(Schema, Protocol):
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write what was observed into the function's own folder, at each write time."""
+
+
+@runtime_checkable
+class SeesRebounds(Protocol):
+    """A cloud function that may want to know where and when particles bounce off."""
+
+    def wants_rebounds(self, bouncing: Collection[str]) -> bool:
+        """Whether it does, if they bounce off these patches."""
+
+    def note_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Remember those of :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` that count."""
+
+
+def wants_rebounds(functions: Iterable[CloudFunction], bouncing: Collection[str]) -> bool:
+    """Whether one of the functions wants rebounds to be noted, if particles bounce off these patches."""
+    return any(isinstance(f, SeesRebounds) and f.wants_rebounds(bouncing) for f in functions)
 
 
 class CloudFunctions:
@@ -141,13 +171,23 @@ class CloudFunctions:
     def write(self, folder: Path) -> None:
         """Let every function observe the cloud and write into a folder of its name."""
         self._cloud.cloud.gather()
+        self._note_rebounds()
         for name, function in self.functions.items():
             function.sample(self._memory[name], self._cloud)
             function.write(self._memory[name], self._cloud, folder / name)
 
     def state(self) -> Memory:
         """Return all that is remembered, by ``function/array``."""
+        self._note_rebounds()
         return {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
+
+    def _note_rebounds(self) -> None:
+        if not self._cloud.cloud.models.rebounds:
+            return
+        rows = self._cloud.cloud.take_rebounds()
+        for name, function in self.functions.items():
+            if isinstance(function, SeesRebounds) and len(rows):
+                function.note_rebounds(self._memory[name], self._cloud, rows)
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Take over what :meth:`state` returned in an earlier run.

@@ -1,7 +1,8 @@
-"""The particles that end on patches."""
+"""The particles that end on patches or bounce off them."""
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import REBOUND
+from foamprb.cloud.rebounds import Rebounds, in_order, rebounds_of
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import columns, masses, names_of
@@ -26,10 +28,12 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PatchPostProcessing:
-    """The particles that stick to a patch or leave through it: when, where, in what shape: ``<patch>.csv``.
+    """The particles that meet a patch: when, where, how fast, in what shape: ``<patch>.csv``.
 
+    There is a row for each that sticks to the patch or leaves through it, and for each ``rebound``, with the
+    velocity before. A body that stays in touch with the wall, rolls or slides along it, bounced when it came.
     ``impactAngle`` is the angle between the velocity and the normal out of the fluid, ``axisAngle`` that
-    between the longest axis and the normal, both in degrees. A rebound is not recorded.
+    between the longest axis and the normal, both in degrees.
     """
 
     patches: Annotated[Words, Meaning("`(name name)`")]
@@ -43,50 +47,94 @@ class PatchPostProcessing:
         return 0
 
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Check the names of the patches; nothing is remembered.
+        """Check the names of the patches; rebounds are remembered, if particles bounce off some of them.
 
         Raises
         ------
         InputError
-            If there is no such patch, or particles bounce off it.
+            If there is no such patch, or the cloud does not note the rebounds from it.
         """
         for name in self.patches:
             if name not in cloud.patches:
                 raise InputError(f"patch {name} is not in the mesh. {suggestion(name, cloud.patches)}")
-            if cloud.cloud.interactions[cloud.patches.index(name)].code == REBOUND:
-                raise InputError(
-                    f"patch {name}: particles bounce off it, but only those that stick or escape are seen."
-                )
-        return {}
+        bouncing = self._bouncing(cloud)
+        if bouncing and not cloud.cloud.models.rebounds:
+            raise InputError(
+                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which is noted if its models "
+                "have rebounds=True"
+            )
+        return {"rebounds": in_order([])} if bouncing else {}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Leave all to :meth:`write`."""
 
-    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:  # noqa: ARG002
+    def wants_rebounds(self, bouncing: Collection[str]) -> bool:
+        """Whether one of the patches is among those that particles bounce off."""
+        return not set(bouncing).isdisjoint(self.patches)
+
+    def note_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Remember the rebounds from these patches."""
+        mine = np.isin(rebounds_of(rows).patch, self._bouncing(cloud))
+        memory["rebounds"] = np.concatenate([memory["rebounds"], rows[mine]])
+
+    def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write a table for each patch, in the order of time."""
-        p = cloud.particles
+        bouncing = self._bouncing(cloud)
+        if bouncing:
+            self._drop(memory, bouncing)
         for name in self.patches:
-            ended = (p.status == Status.STUCK) | (p.status == Status.ESCAPED)
-            rows = np.flatnonzero(ended & (p.patch == cloud.patches.index(name)))
-            rows = rows[np.argsort(p.t[rows], kind="stable")][: self.maxStoredParcels]
-            axes, D, longest = cloud.collect(
-                rows,
-                MEASURES["semiAxes"].value,
-                MEASURES["taylorDeformation"].value,
-                lambda c: np.stack(c.frame[:3], axis=1),
-            )
-            n = cloud.cloud.contact_normals(rows)
-            write_table(
-                folder / f"{file_name(name)}.{cloud.tables}",
-                {
-                    "id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),
-                    "fate": names_of(STATUS_NAMES, p.status[rows]), "t": p.t[rows],
-                    **columns("xyz", p.x[rows]), **columns(("Ux", "Uy", "Uz"), p.v[rows]),
-                    "d": 2.0 * p.R[rows], "mass": masses(p, rows), "Ca": p.Ca[rows],
-                    **columns("abc", axes), "D": D,
-                    "impactAngle": _angle(p.v[rows], -n), "axisAngle": _axis_angle(longest, n),
-                },
-            )  # fmt: skip
+            patch = cloud.patches.index(name)
+            path = folder / f"{file_name(name)}.{cloud.tables}"
+            if patch in bouncing:
+                found = rebounds_of(memory["rebounds"])
+                mine = found.patch == patch
+                self._write(path, cloud, Rebounds(*(array[mine] for array in found)))
+            else:
+                self._write(path, cloud, self._landings(cloud, patch))
+
+    def _bouncing(self, cloud: ObservedCloud) -> list[int]:
+        """Those of the patches that particles bounce off."""
+        patches = (cloud.patches.index(name) for name in self.patches)
+        return [patch for patch in patches if cloud.cloud.interactions[patch].code == REBOUND]
+
+    def _drop(self, memory: Memory, bouncing: Sequence[int]) -> None:
+        """Forget all but the first rebounds from each patch; all particles have come to the same time."""
+        rows = in_order([memory["rebounds"]])
+        patch = rebounds_of(rows).patch
+        kept = [rows[patch == which][: self.maxStoredParcels] for which in bouncing]
+        memory["rebounds"] = in_order(kept)
+
+    def _landings(self, cloud: ObservedCloud, patch: int) -> Rebounds:
+        """The ends of particles on a patch, as if they were rebounds."""
+        p = cloud.particles
+        ended = (p.status == Status.STUCK) | (p.status == Status.ESCAPED)
+        rows = np.flatnonzero(ended & (p.patch == patch))
+        rows = rows[np.argsort(p.t[rows], kind="stable")][: self.maxStoredParcels]
+        n = cloud.cloud.contact_normals(rows)
+        return Rebounds(rows, p.patch[rows].astype(np.int64), p.t[rows], p.x[rows], p.v[rows], n, p.F[rows])
+
+    def _write(self, path: Path, cloud: ObservedCloud, met: Rebounds) -> None:
+        """Write the table of those that met a patch."""
+        p = cloud.particles.take(met.number)
+        p.F[:] = met.F
+        axes, D, longest = cloud.collect_of(
+            p,
+            MEASURES["semiAxes"].value,
+            MEASURES["taylorDeformation"].value,
+            lambda c: np.stack(c.frame[:3], axis=1),
+        )
+        bounces = cloud.cloud.interactions[met.patch[0]].code == REBOUND if len(met.patch) else False
+        write_table(
+            path,
+            {
+                "id": met.number, "injector": names_of(cloud.injectors, p.injector),
+                "fate": ["rebound"] * p.size if bounces else names_of(STATUS_NAMES, p.status), "t": met.t,
+                **columns("xyz", met.x), **columns(("Ux", "Uy", "Uz"), met.v),
+                "d": 2.0 * p.R, "mass": masses(p, np.arange(p.size)), "Ca": p.Ca,
+                **columns("abc", axes), "D": D,
+                "impactAngle": _angle(met.v, -met.n), "axisAngle": _axis_angle(longest, met.n),
+            },
+        )  # fmt: skip
 
 
 def _angle(a: Floats, b: Floats) -> Floats:

@@ -88,8 +88,13 @@ def track_each(
             cuda.local.array((9, 10), np.float64),
             cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
+            # Rebounds are not noted here.
+            cuda.local.array((1, 1), np.float64),
+            cuda.local.array(2, np.int64),
             bounds,
         )
+        scratch.bounced[0] = scratch.bounced[1] = 0
         scratch.stop[0] = scratch.outgrown[0] = 0
         # Not a slice of rows: that this has one element the compiler must see.
         members = cuda.local.array(1, np.int64)
@@ -135,6 +140,11 @@ class Device(Executor):
 
     def take(self, cloud: Cloud) -> None:
         """Compile for the models of a cloud; its particles are copied when they are first needed."""
+        if cloud.models.rebounds:
+            raise InputError(
+                "-device cuda: patchPostProcessing of patches that particles bounce off needs threads "
+                "of the processor; leave -device out, or those patches"
+            )
         super().take(cloud)
         self._track, self._find_longest = kernels(cloud.tracker)
         self._work, self._back = cuda.stream(), cuda.stream()

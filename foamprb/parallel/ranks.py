@@ -19,9 +19,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.executor import AT_ONCE, Executor
+from foamprb.cloud.rebounds import in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
 from foamprb.output.pvd import Series, with_ending
@@ -148,6 +150,10 @@ class Ranks(Executor):
         if not self._gathered:
             self.order("gather")
             self._gathered = True
+
+    def take_rebounds(self) -> NDArray[np.float64]:
+        """The rebounds of all processes since they were last asked."""
+        return in_order(self.order("take_rebounds"))
 
     def snapshot_files(self, stem: Path) -> tuple[Path, ...]:
         """The file that lists the pieces, and a piece of each process."""

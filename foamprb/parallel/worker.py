@@ -166,6 +166,10 @@ class Worker:
         outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
         return self.share()._replace(outcome=outcome)
 
+    def take_rebounds(self) -> NDArray[np.float64]:
+        """The rebounds of the particles that were here when they bounced off."""
+        return self._tracker.take_rebounds()
+
     def gather(self) -> None:
         """Send what may have changed since the last time to the first process."""
         rows = np.flatnonzero(self._fresh)

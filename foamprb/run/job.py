@@ -23,9 +23,10 @@ from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, r
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.measures import shear_rate_at
+from foamprb.cloud.patches import REBOUND, Rebound
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.tracker import Models, Tracker
-from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
+from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud, SeesRebounds, wants_rebounds
 from foamprb.compile.cache import cache_directory
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
@@ -166,6 +167,10 @@ def _precompile(settings: Settings, rotating: bool) -> Precompiler:
     scheme = settings.solution.shape
     # Most particles are small.
     models = _models(settings, "stokes" if scheme == "auto" else scheme, rotating)
+    # From which patches they bounce off is not known before these are read.
+    bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
+    seen = any(isinstance(function, SeesRebounds) for function in settings.functions.values())
+    models = replace(models, rebounds=bounce and seen)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
     tense = any(injection.solid.surface_tension != 0.0 for injection in settings.injections)
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
@@ -234,6 +239,8 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
     models = _models(settings, solution.shape, isinstance(flow, RotatingFlow))
+    bouncing = {patch.name for patch, i in zip(flow.patches, interactions, strict=True) if i.code == REBOUND}
+    models = replace(models, rebounds=wants_rebounds(settings.functions.values(), bouncing))
     try:
         cloud = Cloud(
             particles,

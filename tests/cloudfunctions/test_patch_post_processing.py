@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from observing import AIR, D, column, observe, pipe_cloud, table
+from observing import AIR, RADIUS, D, column, go_on, observe, observed, pipe_cloud, table
 
 from foamprb.body.tensor import principal_frame
+from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
@@ -70,3 +72,51 @@ def test_a_patch_with_any_name_stays_in_the_folder(tmp_path):
     expected = ["%2E%2E%2F%2E%2E%2F%2E%2E%2Fwall.csv", "%2E%2E.csv", "out%20let.csv"]
     assert files == [f"a/b/c/f/{name}" for name in expected]
     assert len(table(tmp_path / "a/b/c/f" / expected[0])) > 0
+
+
+BOUNCING = (Rebound(0.5, 0.1), Escape(), Escape())
+
+
+def bouncing_cloud():
+    """One that goes towards the wall by less than a body in a step."""
+    medium = Medium(AIR.mu, AIR.rho, (0.0, -40.0, 0.0))
+    cloud = pipe_cloud(medium=medium, walls=BOUNCING, integrator="rosenbrock", rebounds=True)
+    cloud.particles.x[:, 1:] *= 0.999 / 0.97
+    return cloud
+
+
+def test_rebounds_with_the_velocity_before(tmp_path):
+    cloud = bouncing_cloud()
+    observe(cloud, PatchPostProcessing(("wall", "outlet")), tmp_path)
+    rows, p = table(tmp_path / "f/wall.csv"), cloud.particles
+    assert {row["fate"] for row in rows} == {"rebound"}
+    assert {row["fate"] for row in table(tmp_path / "f/outlet.csv")} == {"escaped"}
+    k, t = column(rows, "id").astype(int), column(rows, "t")
+    assert len(k) > 100 * len(set(k)) > 0
+    assert (np.diff(t) >= 0.0).all()
+    assert (t > p.t0[k]).all()
+    # In touch with the wall, on the way to it, and in a shape of the same volume.
+    x, v = (np.stack([column(rows, c) for c in names], axis=1) for names in (("y", "z"), ("Uy", "Uz")))
+    a, b, c = (column(rows, name) for name in "abc")
+    gap = RADIUS - np.hypot(*x.T)
+    assert ((c * 0.9999 < gap) & (gap < a * 1.0001)).all()
+    assert (np.einsum("ni,ni->n", x, v) > 0.0).all()
+    assert (column(rows, "impactAngle") < 90.0).all()
+    np.testing.assert_allclose(a * b * c, (D / 2) ** 3, rtol=2e-3)
+    np.testing.assert_allclose(column(rows, "D"), (a - c) / (a + c), rtol=1e-9)
+
+
+def test_rebounds_after_a_restart(tmp_path):
+    """Stopped between two write times, with all that is remembered at hand: the same table in the end."""
+    whole, parts = PatchPostProcessing(("wall",)), PatchPostProcessing(("wall",))
+    observe(bouncing_cloud(), whole, tmp_path / "whole")
+    cloud = bouncing_cloud()
+    functions = observe(cloud, parts, tmp_path / "parts", (200,))
+    cloud.advance(77)
+    memory = {name: array.copy() for name, array in functions.state().items()}
+    again = CloudFunctions({"f": parts}, observed(cloud))
+    again.restore(memory)
+    go_on(cloud, again, tmp_path / "parts", (400, 700))
+    assert (tmp_path / "parts/f/wall.csv").read_bytes() == (tmp_path / "whole/f/wall.csv").read_bytes()
+    observe(bouncing_cloud(), PatchPostProcessing(("wall",), maxStoredParcels=4), tmp_path / "few")
+    assert table(tmp_path / "few/f/wall.csv") == table(tmp_path / "whole/f/wall.csv")[:4]

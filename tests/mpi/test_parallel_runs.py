@@ -389,3 +389,18 @@ def test_memory_of_the_flow_is_shared(case, tmp_path):
     assert len({tuple(file) for file in files}) == 1
     assert sum(shares) == pytest.approx(1 << 17, rel=0.02)
     assert max(grown) < 1 << 14
+
+
+def test_rebounds_are_noted_by_all_processes(tmp_path):
+    """Particles change hands, and take what they did with them."""
+    tables = []
+    for name in ("one", "three"):
+        case = case_with_functions(tmp_path / name)
+        edit(case, r"type\s+stick;", "type rebound; e 0.5; mu 0.1;")
+        if name == "one":
+            assert main(["run", "-case", str(case)]) == 0
+        else:
+            finish(3, case)
+        tables.append((folder_of(case) / "hits/wall.csv").read_text())
+    assert tables[0] == tables[1]
+    assert tables[0].count("rebound") > 3

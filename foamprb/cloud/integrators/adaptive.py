@@ -46,6 +46,7 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
+    end_block,
     end_tracking_step,
     fail_small_step,
     interrupted,
@@ -319,6 +320,7 @@ def track_adaptive(
         renew_end(flow, medium, scratch, len(members), last)
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
+    end_block(scratch)
     return recovered
 
 

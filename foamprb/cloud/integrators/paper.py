@@ -46,6 +46,7 @@ from foamprb.cloud.motion import (
     SHORTEST_STEP,
     PatchTable,
     clearance_of,
+    end_block,
     interrupted,
     is_sound,
     reach_end,
@@ -252,6 +253,7 @@ def track_block(
         return 0
     for i in range(len(members)):
         save_particle(p, members[i], scratch, i)
+    end_block(scratch)
     return recovered
 
 
