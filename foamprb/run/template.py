@@ -263,7 +263,8 @@ def _fluid(case: Path, source: Source) -> FluidGuess:
         lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; the case does not say, water has this"))
     rho, origin = _density(case, file, source.region, where)
     if rho is None:
-        water = (nu or 0.0) < 5e-6 or (nu or 0.0) > 1e-4
+        # Gases have some 1e-5 m²/s, or 1e-5 Pa s.
+        water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
         rho = 1000.0 if water else 1.2
         kind = "like water" if water else "like air"
         lines.append(

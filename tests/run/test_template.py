@@ -98,6 +98,15 @@ def test_a_fluid_that_depends_on_temperature_gets_one(case):
     assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
 
 
+@pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])
+def test_a_dynamic_viscosity_tells_a_gas_from_a_liquid(case, mu, kind):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        f"thermoType {{ transport const; equationOfState perfectGas; }} mixture {{ transport {{ mu {mu}; }} }}"
+    )
+    assert re.search(f"rhoInf +{kind}", write_template(case).read_text())
+
+
 def scales(**changed):
     values = {"speed": 1.0, "step": 1e-3, "duration": 2.0, "shear": 10.0, "most_shear": 100.0, "cell": 1e-3,
               "volume": 1e-3, "inlet": ""}  # fmt: skip

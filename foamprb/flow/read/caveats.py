@@ -23,6 +23,7 @@ _RHO = Kind("volScalarField", "scalar", (DENSITY,), "a density")
 _OFF = frozenset({"no", "off", "false", "n", "f", "none"})
 _STATIC = "staticFvMesh"
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
+_VARIES = re.compile(rb"internalField\s+nonuniform")
 _HEAD = 1 << 16
 LEAST_LOSS = 1e-3
 """Share of the flux by which inflow and outflow must differ for a warning."""
@@ -56,7 +57,7 @@ def caveats_of_case(
     """
     found = [*_rotating(case, region, relative), *_porous(case, region)]
     found += () if turbulent else _turbulent(folder)
-    found += _compressible(folder, case)
+    found += [*_compressible(folder, case), *_phases(folder)]
     return [*found, *(_moving(case, region, folder) if moving else ())]
 
 
@@ -155,6 +156,16 @@ def _compressible(folder: Path, case: Path) -> Iterator[Caveat]:
         yield Caveat(
             f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf, and so is the viscosity."
+        )
+
+
+def _phases(folder: Path) -> Iterator[Caveat]:
+    paths = sorted(folder.glob("alpha.*")) if folder.is_dir() else []
+    names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
+    if names:
+        yield Caveat(
+            f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with rhoInf "
+            "and one viscosity everywhere: they cross interfaces as if there were none."
         )
 
 
