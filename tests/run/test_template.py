@@ -102,7 +102,7 @@ def test_a_fluid_that_depends_on_temperature_gets_one(case):
 def test_a_dynamic_viscosity_tells_a_gas_from_a_liquid(case, mu, kind):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(
-        f"thermoType {{ transport const; equationOfState perfectGas; }} mixture {{ transport {{ mu {mu}; }} }}"
+        f"thermoType {{ transport const; }} mixture {{ transport {{ mu {mu}; }} }}"
     )
     assert re.search(f"rhoInf +{kind}", write_template(case).read_text())
 

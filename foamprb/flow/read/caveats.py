@@ -160,12 +160,12 @@ def _compressible(folder: Path, case: Path) -> Iterator[Caveat]:
 
 
 def _phases(folder: Path) -> Iterator[Caveat]:
-    paths = sorted(folder.glob("alpha.*")) if folder.is_dir() else []
+    paths = sorted(path for path in folder.glob("alpha.*") if path.is_file())
     names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
     if names:
         yield Caveat(
-            f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with rhoInf "
-            "and one viscosity everywhere: they cross interfaces as if there were none."
+            f"the flow has several phases ({', '.join(names)}), but to particles the fluid is one, with "
+            "rhoInf and one viscosity everywhere: they cross interfaces as if there were none."
         )
 
 
