@@ -285,6 +285,37 @@ def _angle(bp: Scalar, bq: Scalar, bpq: Scalar) -> tuple[Scalar, Scalar, Scalar]
     return twice * (w * both), h * (h * both), twice * (h * both)
 
 
+def _turn_all(b: Vector, off: Vector, R: Tensor) -> Tensor:
+    """All pairs of rows of R at once, of a tensor of which the component 23 is zero and 12 and 13 are small.
+
+    The angles b_pq/(b_q − b_p) are those of a skew W; the pair 23 is turned by what the others make of b₂₃ in
+    second order. R becomes (1 − W/2)⁻¹·(1 + W/2)·R, a rotation. Nearly equal pairs are turned by less.
+    """
+    b1, b2, b3 = b
+    b12, b13, _ = off
+    square = b12 * b12 + b13 * b13
+    z, y = b12 * _reciprocal(b2 - b1, square), b13 * _reciprocal(b3 - b1, square)
+    x = 0.5 * (z * b13 + y * b12) * _reciprocal(b3 - b2, square)
+    k = 1.0 / (1.0 + 0.25 * (x * x + y * y + z * z))
+    A = _skew_times(x, y, z, R)
+    B = _skew_times(x, y, z, A)
+    return add(R, scale(k, add(A, scale(0.5, B))))
+
+
+def _reciprocal(delta: Scalar, square: Scalar) -> Scalar:
+    """1/δ where its square is large against another number, and zero where it is zero."""
+    return delta / (delta * delta + square + _TINY)
+
+
+def _skew_times(x: Scalar, y: Scalar, z: Scalar, R: Tensor) -> Tensor:
+    """W·R, of a skew W with W₃₂ = x, W₃₁ = y and W₂₁ = z."""
+    return (
+        -(z * R[3] + y * R[6]), -(z * R[4] + y * R[7]), -(z * R[5] + y * R[8]),
+        z * R[0] - x * R[6], z * R[1] - x * R[7], z * R[2] - x * R[8],
+        y * R[0] + x * R[3], y * R[1] + x * R[4], y * R[2] + x * R[5],
+    )  # fmt: skip
+
+
 def _orthonormal(Q: Tensor) -> Tensor:
     """The rotation next to Q, which is one to round-off."""
     a1, a2, a3 = Q[0], Q[1], Q[2]
@@ -322,27 +353,36 @@ def longest_stretch(F: Tensor) -> Scalar:
     With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
+    m, variance = _spread(F)
+    return np.sqrt(m + np.sqrt(2.0 * variance))
+
+
+def is_stretched(F: Tensor, limit: Scalar) -> Any:
+    """Whether :func:`longest_stretch` is above a limit, but for round-off, without a root."""
+    m, variance = _spread(F)
+    rest = limit * limit - m
+    return (rest < 0.0) | (2.0 * variance > rest * rest)
+
+
+def _spread(F: Tensor) -> tuple[Scalar, Scalar]:
+    """Mean and variance of the eigenvalues of F Fᵀ."""
     x, xy, xz, _, y, yz, _, _, z = dot(F, transpose(F))
     m = (x + y + z) / 3.0
     x, y, z = x - m, y - m, z - m
-    variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
-    return np.sqrt(m + np.sqrt(2.0 * variance))
+    return m, (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
 
 
 def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
     """Principal frame of F from a frame Q that is nearly principal.
 
-    Two sweeps of Jacobi's method on b = F Fᵀ in the frame Q. Their convergence is quadratic at least: they
-    reach round-off where the frame has turned by up to 0.003 since, and do so twice up to 0.1. Where
-    :func:`stretches_in_frame` says that they have not, the caller repeats them.
+    A sweep of Jacobi's method on b = F Fᵀ in the frame Q, and then a turn of all pairs at once. Both converge
+    quadratically at least: they reach round-off where the frame has turned by up to 0.003 since, and do so
+    twice up to 0.1. Where :func:`stretches_in_frame` says that they have not, the caller repeats them.
     """
     G = dot(Q, F)
     x, xy, xz, _, y, yz, _, _, z = dot(G, transpose(G))
     b, off = (x, y, z), (xy, xz, yz)
-    # Two sweeps, written out: a loop here would keep the compiler from vectorising the one over lanes.
-    b, off, turned = _diagonalise(b, off, Q)
-    b, off, turned = _diagonalise(b, off, turned)
-    return _orthonormal(turned)
+    return _orthonormal(_turn_all(*_diagonalise(b, off, Q)))
 
 
 def principal_frame(F: Tensor) -> tuple[Tensor, Vector]:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
+from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, is_stretched, longest_stretch, transpose
 from foamprb.cloud.block import (
     CELLS_TOO_MANY,
     FLOW_NOT_FINITE,
@@ -40,10 +40,11 @@ from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import recover_free as recover
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
+from foamprb.flow.base import NEAR
 
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 
-SEEN = 4.0
+SEEN = 1.0 + NEAR
 """Distance from a body's centre, in semi-axes, from which on it does not see walls."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
@@ -171,18 +172,18 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle.
 
-    Where walls are listed, it is infinite, with −1 and −1, from three radii of the undeformed ball on, in
-    which metres it is: so it depends on no wall that may or may not be listed.
+    Where walls are listed, it is infinite, with −1 and −1, from :data:`NEAR` radii of the undeformed ball on,
+    in which metres it is: so it depends on no wall that may or may not be listed.
     """
     block = s.block
     R, F = block[at.R * LANES + i], load9(block, at.F, i)
-    if SEEN * R * longest_stretch(F) > s.bounds.reach:
+    if is_stretched(F, s.bounds.reach / (SEEN * R)):
         if s.bounds.reach_grows:
             s.outgrown[0] = UNLISTED
         else:
             fail(s, i, WALLS_TOO_MANY)
     clearance, patch, triangle = gap(flow, s.host[i], load3(block, at.x, i), F, R)
-    if clearance >= (SEEN - 1.0) * R and s.bounds.reach < math.inf:
+    if clearance >= NEAR * R and s.bounds.reach < math.inf:
         return math.inf, -1, -1
     return clearance, patch, triangle
 

@@ -17,6 +17,8 @@ Ints = NDArray[np.int32]
 
 WALLS = frozenset({"wall", "mappedWall"})
 """The types of patches that are walls: also those to which another region's wall fits."""
+NEAR = 3.0
+"""Gap between body and wall, in radii of the undeformed ball, from which on the wall does not count."""
 
 
 class Patch(NamedTuple):
@@ -98,7 +100,7 @@ class Flow(Sampled, Protocol):
     * ``walk(flow, host, x0, x1) -> (host, fraction, patch, triangle)``: along the segment, to its end (patch
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
-      nearest touchable wall, infinite when none is near;
+      nearest touchable wall; from :data:`NEAR` R on it may be infinite, with −1 and −1;
     * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as
       ``foamprb.flow.planes`` has them; a flow without walls need not have it;
     * ``turbulence(flow, host, x, t) -> (k, epsilon, slope, drift)``: as :data:`Turbulence`; a flow without

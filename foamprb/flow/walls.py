@@ -11,7 +11,7 @@ import numpy as np
 
 from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, longest_stretch, vector_dot
 from foamprb.compile.link import link
-from foamprb.flow.base import Floats, Ints
+from foamprb.flow.base import NEAR, Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
@@ -32,7 +32,7 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
     Returns
     -------
     gap, patch, triangle
-        The clearance in metres of the undeformed ball, ``inf`` with −1, −1 when no wall triangle is near.
+        The clearance in metres of the undeformed ball, ``inf`` with −1, −1 from :data:`NEAR` R on.
     """
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
@@ -47,14 +47,17 @@ def nearest_wall(
     flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float
 ) -> tuple[float, int, int]:
     """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
-    best, nearest = np.inf, NO_TRIANGLE
+    # Most walls are too far away, and then their planes say so.
+    best, nearest = NEAR * R, NO_TRIANGLE
     inverse_F = inverse(F)
     for k in range(begin, end):
         triangle = flow.near[k]
         distance = _mapped_distance(flow, triangle, x, F, inverse_F, best + R)
         if distance - R < best:
             best, nearest = distance - R, triangle
-    return best, (flow.triangle_patch[nearest] if nearest >= 0 else -1), nearest
+    if nearest == NO_TRIANGLE:
+        return np.inf, -1, NO_TRIANGLE
+    return best, flow.triangle_patch[nearest], nearest
 
 
 def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
@@ -63,7 +66,10 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
     Of several that are equally near it is the first, as in a list.
     """
     inverse_F, stretch = inverse(F), longest_stretch(F)
-    best, nearest = _mapped_distance(flow, seed, x, F, inverse_F, np.inf) - R, seed
+    best, nearest = NEAR * R, NO_TRIANGLE
+    distance = _mapped_distance(flow, seed, x, F, inverse_F, _TIE * (best + R))
+    if distance - R < best:
+        best, nearest = distance - R, seed
     boxes, triangles = flow.wall_boxes, flow.wall_leaves
     leaves = triangles.shape[0]
     node = 1
@@ -84,6 +90,8 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
             node >>= 1
         if node > 0:
             node += 1
+    if nearest == NO_TRIANGLE:
+        return np.inf, -1, NO_TRIANGLE
     return best, flow.triangle_patch[nearest], nearest
 
 

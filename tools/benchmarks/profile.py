@@ -9,8 +9,8 @@ import numpy as np
 
 import foamprb
 from benchmarks import pipe
-from benchmarks.records import Options, Row, interleaved, rows
-from benchmarks.report import USEFUL
+from benchmarks.records import Options, Row, cpu_of, interleaved, rows
+from benchmarks.report import GAP, USEFUL
 from benchmarks.tracker import OPENFOAM_STEP, Tracker
 from benchmarks.whole import CAPILLARY_NUMBERS, REACH
 from foamprb.cloud import block
@@ -20,6 +20,7 @@ from foamprb.cloud.block import frame_stage as medium_stage
 from foamprb.cloud.integrators import paper, rosenbrock, stokes
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES
+from foamprb.cloud.motion import SEEN
 from foamprb.cloud.tracker import Models, in_blocks
 from foamprb.compile.link import link
 from foamprb.flow.meshflow import LONG
@@ -46,28 +47,34 @@ STAGES: dict[str, dict[str, Stage]] = {
         "barycentre": Stage(paper.barycentre_stage, 1, "medium"),
     },
     "stokes": {
-        "frame": Stage(block.frame_stage, 2),
-        "stretches": Stage(block.stretch_stage, 2),
-        "integrals": Stage(block.compact_stage, 2),
+        "frame": Stage(block.frame_stage, 3),
+        "stretches": Stage(block.stretch_stage, 3),
+        "integrals": Stage(block.compact_stage, 3),
         "prediction": Stage(stokes.predict_inertialess, 1, "medium"),
         "first slope": Stage(stokes.first_inertialess, 1, "medium"),
         "second slope": Stage(stokes.second_inertialess, 1, "judging"),
+        "last argument": Stage(stokes.last_inertialess, 1, "medium"),
+        "third slope": Stage(stokes.third_inertialess, 1, "judging"),
     },
     "rosenbrock": {
-        "frame": Stage(block.frame_stage, 2),
-        "stretches": Stage(block.stretch_stage, 2),
-        "integrals": Stage(block.compact_stage, 2),
+        "frame": Stage(block.frame_stage, 3),
+        "stretches": Stage(block.stretch_stage, 3),
+        "integrals": Stage(block.compact_stage, 3),
         "prediction": Stage(rosenbrock.predict_inertial, 1, "medium"),
         "first slope": Stage(rosenbrock.first_inertial, 1, "medium"),
         "second slope": Stage(rosenbrock.second_inertial, 1, "judging"),
+        "last argument": Stage(rosenbrock.last_inertial, 1, "medium"),
+        "third slope": Stage(rosenbrock.third_inertial, 1, "judging"),
     },
 }
-"""Stages over the lanes of a block that every step goes through, in the order of the loop."""
+"""Stages over the lanes of a block that a step of order 3 goes through, in the order of the loop."""
+WIDTHS = (0.01, 0.1, 0.5, 2.0, 4.0)
+"""Diameters of bodies at the wall, in sizes of a cell."""
 
 FLOW_STAGES = {
     "paper": {"sample": 1, "walk": 1, "gap": 1},
-    "stokes": {"sample": 2, "walk": 2, "gap": 1},
-    "rosenbrock": {"sample": 2, "walk": 2, "gap": 1},
+    "stokes": {"sample": 3, "walk": 3, "gap": 1},
+    "rosenbrock": {"sample": 3, "walk": 3, "gap": 1},
 }
 """What goes particle by particle, and how often in a step."""
 
@@ -196,6 +203,26 @@ def share_of_use(flow: Any, n: int, Ca: float, steps: int = 20) -> float:
     return float(whole.sum() / (LANES * whole.max(axis=1).sum()))
 
 
+def gap_cost(flow: Any, width: float, n: int, repeats: int) -> float:
+    """Microseconds of CPU to find the gap between wall and a sphere that is so many cells wide.
+
+    Its centre is at 0.985 radii from the axis, or as near to the wall as 1.5 of its own radii.
+    """
+    cell = (np.pi * pipe.RADIUS**2 * pipe.LENGTH / pipe.GRIDS["40k"].cells) ** (1.0 / 3.0)
+    R = 0.5 * width * cell
+    random = np.random.default_rng(2)
+    r, angle = min(REACH * pipe.RADIUS, pipe.RADIUS - 1.5 * R), 2.0 * np.pi * random.random(n)
+    x = np.stack([pipe.LENGTH * (0.1 + 0.8 * random.random(n)), r * np.cos(angle), r * np.sin(angle)], axis=1)
+    hosts = flow.locate(x)
+    order = np.argsort(hosts, kind="stable")
+    arrays, hosts, x = flow.arrays(1.05 * SEEN * R), hosts[order], x[order]
+    shapes, radii, out = np.tile(np.eye(3).ravel(), (n, 1)), np.full(n, R), np.zeros(n)
+    touching = link(_repeat_gap, separate=LONG)
+    touching(arrays, hosts, x, shapes, radii, 1, out)
+    spent = [cpu_of(lambda: touching(arrays, hosts, x, shapes, radii, 5, out)) for _ in range(repeats)]
+    return 1e6 * min(spent) / (5 * n)
+
+
 def measure(options: Options) -> list[Row]:
     """CPU per particle-step of each stage, and of the whole loop with many steps a call and with one."""
     n, number, times, repeats = (6400, 10, 20, 3) if options.quick else (100_000, 50, 100, 7)
@@ -218,4 +245,5 @@ def measure(options: Options) -> list[Row]:
         found += rows("profile", f"stage of {integrator}", shares, unit)
     used = {f"Ca {Ca:g}": share_of_use(flow, min(n, 20_000), Ca) for Ca in CAPILLARY_NUMBERS}
     found += rows("profile", USEFUL, used, "")
-    return found
+    gaps = {f"bodies {w:g} cells wide": gap_cost(flow, w, min(n, 20_000), repeats) for w in WIDTHS}
+    return found + rows("profile", GAP, gaps, "us")

@@ -19,6 +19,7 @@ TABLES = (
 OVER_OPENFOAM = "cost over OpenFOAM's"
 WORST_DEFAULT = "worst default run over OpenFOAM's"
 USEFUL = "share of lane-steps of use in a default run"
+GAP = "cost of the gap to the wall"
 SAME = "same to the last bit"
 EQUAL_ERROR = "cost of paper over stokes"
 
@@ -187,6 +188,10 @@ def _profile(results: Results) -> str:
     if shares:
         lines = [(r.subject, f"{100 * r.value:.0f} %") for r in shares]
         texts.append(table(("a default run", "lane-steps of use"), lines))
+    gaps = [r for r in results.part("profile") if r.quantity == GAP]
+    if gaps:
+        lines = [(r.subject, number(KILO * r.value)) for r in gaps]
+        texts.append(table(("the gap to the wall, at the wall", "ns"), lines))
     return "\n\n".join(texts) or "Not measured."
 
 
