@@ -334,12 +334,13 @@ def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
 
 def new_integrals(block: Any) -> None:
     """Jeffery's integrals of the stretches."""
-    compact_stage(block)
     elongated = 0
     for i in range(LANES):
         if is_elongated(load3(block, at.stretch, i)):
             elongated += 1
-    if elongated:
+    if elongated < LANES:
+        compact_stage(block)
+    if elongated > 0:
         elongated_stage(block)
 
 

@@ -15,7 +15,7 @@ from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Reason, Status, spheres
-from foamprb.cloud.tracker import Models
+from foamprb.cloud.tracker import Models, Outcome
 from foamprb.flow.analytic import walk_free
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
@@ -422,3 +422,10 @@ def test_not_a_number_ends_its_particle_with_a_reason_and_no_other(array, integr
     assert p.reason[k] == Reason.NOT_FINITE
     others = np.arange(p.size) != k
     assert_same(p.take(others), clean.particles.take(others))
+
+
+def test_outcomes_of_two_shares_add_up():
+    assert Outcome(2) + Outcome(3) == Outcome(5)
+    for one, other in ((True, False), (False, True), (False, False)):
+        assert Outcome(0, one) + Outcome(0, other) == Outcome(0, False)
+        assert Outcome(0, True, not one) + Outcome(0, True, not other) == Outcome(0, True, True)

@@ -11,15 +11,17 @@ import pytest
 from device_cases import box_cloud, pipe_cloud
 
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
-from foamprb.cloud.block import Medium
+from foamprb.cloud.block import ROWS, Medium, accept_stage, at, load9, store9
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 OIL = Medium(1.0, 1000.0, (0.0, 0.0, 0.0))
 
 
@@ -302,3 +304,22 @@ class TestModels:
             warnings.simplefilter("error", FailedParticlesWarning)
             with pytest.raises(FailedParticlesWarning):
                 cloud.advance(300)
+
+
+@pytest.mark.parametrize("row", ["new_v", "new_F", "new_A"])
+def test_a_state_with_one_component_that_is_no_number_is_not_taken(row):
+    size = 3 if row == "new_v" else 9
+    for component in range(size):
+        block = np.zeros(ROWS * LANES)
+        for i in range(LANES):
+            store9(block, at.new_F, i, IDENTITY)
+            store9(block, at.F, i, IDENTITY)
+            for name in ("J", "moving", "R"):
+                block[getattr(at, name) * LANES + i] = 1.0
+            for name in ("most_length", "most_stretch"):
+                block[getattr(at, name) * LANES + i] = 10.0
+        block[(getattr(at, row) + component) * LANES] = np.nan
+        accept_stage(block, 1.0)
+        verdicts = block[at.verdict * LANES : (at.verdict + 1) * LANES]
+        assert verdicts.tolist() == [Reason.NOT_FINITE] + [0] * (LANES - 1), component
+        assert load9(block, at.F, 0) == IDENTITY

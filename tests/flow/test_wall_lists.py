@@ -128,3 +128,31 @@ def test_the_gap_is_the_same_from_a_tree_as_from_a_list(flow, monkeypatch):
             assert ours(arrays, host, tuple(x), F, R) == theirs(whole, 0, len(names), tuple(x), F, R)
     assert used > 50
     flow.arrays(0.9 * reach, walls)
+
+
+def times(unit, grid):
+    scaled = grid.copy()
+    scaled.points = unit * np.asarray(grid.points)
+    return scaled
+
+
+def test_the_gap_from_a_tree_grows_with_the_unit_of_length(monkeypatch):
+    """In a box of a kilometre as in one of a millimetre."""
+    monkeypatch.setattr("foamprb.flow.wall_lists.MOST_LISTED", 2)
+    shape, patches = SHAPES["box of tetrahedra"]
+    found, stretch, our_gap = [], (1.5, 0.3, 0.0, 0.0, 0.8, 0.1, 0.2, 0.0, 0.9), link(gap)
+    for unit in (1e-3, 1.0, 1e3):
+        mesh = build_mesh(
+            times(unit, shape), [patch._replace(surface=times(unit, patch.surface)) for patch in patches]
+        )
+        flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+        arrays = flow.arrays(0.6 * unit, solid(flow))
+        x = unit * np.random.default_rng(2).uniform(0.05, 0.95, (100, 3))
+        gaps = [
+            our_gap(arrays, host, tuple(y), stretch, 0.2 * unit)
+            for y, host in zip(x, flow.locate(x), strict=True)
+        ]
+        found.append(np.array([g[0] / unit for g in gaps]))
+    assert np.isfinite(found[0]).sum() > 50
+    for other in found[1:]:
+        np.testing.assert_allclose(other, found[0], rtol=0, atol=1e-12)

@@ -24,6 +24,8 @@ def sum_of(a: int | str, b: float = 1) -> int | float:
     if a > 9:
         raise ValueError(f"{a + 1} is more than 9")
     store(a, b)
+    for c, d in zip(a, b, strict=True):
+        store(c, d)
     return min(a, LIMIT) * b
 '''
 
@@ -40,7 +42,9 @@ CHANGES = [
     ("statement", "        a -= 1", "        pass"),
     ("statement", "    store(a, b)", "    pass"),
     ("argument", "store(a, b)", "store(b, a)"),
-    ("argument", "min(a, LIMIT)", "min(LIMIT, a)"),
+    ("argument", "zip(a, b,", "zip(b, a,"),
+    ("argument", "store(c, d)", "store(d, c)"),
+    ("statement", "        store(c, d)", "        pass"),
 ]
 
 BODY = """
@@ -78,7 +82,7 @@ def tool():
 
 
 def test_each_kind_is_made_and_nothing_else(tool):
-    """No messages, annotations or docstrings, and nothing under an if that only refuses."""
+    """No messages, annotations or docstrings, nothing that only refuses, and no other order of min."""
     made = {(m.kind, m.of(SOURCE).decode()) for m in tool.mutations("file", SOURCE)}
     text = SOURCE.decode()
     for kind, old, new in CHANGES:
@@ -164,6 +168,49 @@ def test_the_nearest_tests_are_those_that_import_a_file_by_the_fewest_steps(tool
         (tmp_path / name).write_text(text)
     near = tool.nearest(tool.imports(tmp_path), "foamprb/body/shape.py")
     assert near == [f"tests/body/test_{name}.py" for name in ("shape", "b", "a", "c")]
+
+
+def test_only_tests_that_reach_what_is_changed_are_asked(tool, tree, tmp_path):
+    """By a call, by compiling it, or in a process of their own."""
+    (tree / "foamprb/body/other.py").write_text(
+        "def _link(function):\n    return 1\n\n\ndef called(x):\n    return 3 * x\n\n\n"
+        "def compiled(x):\n    return 4 * x\n\n\ndef elsewhere(x):\n    return 5 * x\n\n\n"
+        "def never(x):\n    return 6 * x\n"
+    )
+    (tree / "tests/body/test_shape.py").write_text("def test_nothing():\n    pass\n")
+    for name, line in (
+        ("called", "assert called(1)"),
+        ("compiled", "assert _link(compiled)"),
+        ("elsewhere", "subprocess.run([sys.executable, '-c', PROGRAM], check=True)"),
+    ):
+        (tree / f"tests/body/test_{name}.py").write_text(
+            "import subprocess\nimport sys\n\nfrom foamprb.body.other import _link, called, compiled\n\n"
+            "PROGRAM = 'from foamprb.body.other import elsewhere; elsewhere(1)'\n\n\n"
+            f"def test_{name}():\n    {line}\n"
+        )
+    source = (tree / "foamprb/body/other.py").read_bytes()
+    tests = tool.nearest(tool.imports(tree), "foamprb/body/other.py")
+    lane = tool.Lane(tree, tmp_path / "lane")
+    trials = tool.Trials(lane, tmp_path / "trials.json")
+    reaching = {}
+    for mutation in tool.mutations("foamprb/body/other.py", source):
+        where = tool.place(mutation, source)
+        name = source.decode().splitlines()[int(where.partition(":")[2]) - 1][4:].partition("(")[0]
+        reaching[name] = list(trials.that_reach(tests, where))
+    assert reaching.pop("_link") == ["tests/body/test_compiled.py"]
+    assert reaching.pop("never") == []
+    assert reaching == {name: [f"tests/body/test_{name}.py"] for name in ("called", "compiled", "elsewhere")}
+    # The second time they are not tried again.
+    (lane.tree / "tests/body/test_called.py").unlink()
+    again = tool.Trials(lane, tmp_path / "trials.json")
+    assert again.of("tests/body/test_called.py") == trials.of("tests/body/test_called.py")
+
+
+def test_a_change_belongs_to_the_innermost_function_that_runs_it(tool):
+    """A default belongs to what stands around the function, and a decorator's line is its first."""
+    source = b"A = 1\n\n@cache\ndef f(x=2):\n    g = lambda y=3: y + 4\n    class B:\n        c = 5\n"
+    where = {m.text: tool.place(m, source) for m in tool.mutations("f.py", source) if m.kind == "constant"}
+    assert where == {"2": "f.py", "3": "f.py", "4": "f.py:3", "5": "f.py:5", "6": "f.py:3"}
 
 
 def test_interval_of_a_score(tool):

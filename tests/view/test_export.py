@@ -14,10 +14,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 import foamprb
 from foamprb import read_case
 from foamprb.cli import main
-from foamprb.errors import InputError
 from foamprb.output.ovito import write_dump
-from foamprb.output.vtk import PointCloud
-from foamprb.output.vtkhdf import write_vtkhdf
 
 
 @pytest.fixture
@@ -47,23 +44,6 @@ def test_one_file_has_every_array_of_every_time(case):
             np.testing.assert_array_equal(found.point_data[name], expected.point_data[name])
     # Bodies that come later are not there at first.
     assert run.snapshot(0.0).n_points < run.snapshot().n_points
-
-
-def test_a_file_that_cannot_be_made_leaves_what_was_there(tmp_path):
-    path = tmp_path / "a.vtkhdf"
-    path.write_text("before")
-
-    def cloud(index):
-        if index:
-            raise InputError("damaged")
-        return PointCloud(0.0, np.zeros((2, 3)), {"d": np.ones(2)})
-
-    with pytest.raises(InputError, match="damaged"):
-        write_vtkhdf(path, [0.0, 1.0], cloud)
-    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
-    assert path.read_text() == "before"
-    with pytest.raises(OSError, match=r"a\.vtkhdf"):
-        write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], cloud)
 
 
 def test_a_dump_has_ellipsoids_with_their_axes(tmp_path):

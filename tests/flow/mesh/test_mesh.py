@@ -22,6 +22,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.coupling import couple
+from foamprb.flow.mesh.faces import choose_bases
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.reconstruct import Reconstruction
@@ -264,3 +266,49 @@ def test_centres_of_faces_and_cells_without_size_stay_where_the_points_are():
         low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
         assert np.all((low <= mesh.centres) & (mesh.centres <= high))
         assert np.sum(volumes(mesh)) == pytest.approx(np.sum(mesh.volumes), rel=0.05)
+
+
+def test_cyclic_patches_without_faces_are_coupled_all_the_same():
+    """As a part of a mesh may have them."""
+    patches, nothing = [Patch("left", "cyclic", "right"), Patch("right", "cyclic", "left")], np.zeros((0, 3))
+    named, couplings = couple(patches, np.zeros(3, dtype=np.int64), nothing, nothing, (), "mesh")
+    assert list(named) == patches
+    assert [(c.patch, c.other, len(c.faces)) for c in couplings] == [(0, 1, 0), (1, 0, 0)]
+    assert all(np.array_equal(c.turn, np.eye(3)) and not c.shift.any() for c in couplings)
+
+
+@pytest.mark.parametrize("corners", [4, 5, 6])
+def test_a_face_is_cut_where_its_worst_tetrahedron_is_best(corners, random):
+    """By volume over the cube of the root-mean-square edge, from any corner; of a quadrangle, two count."""
+    start, owner, nobody = np.array([0, corners]), np.array([0]), np.zeros(0, dtype=np.int64)
+    angle = 2.0 * np.pi * np.arange(corners) / corners
+    chosen = set()
+    for _ in range(40):
+        points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
+        points += 0.35 * random.uniform(-1.0, 1.0, (corners, 3))
+        centre = np.array([[0.0, 0.0, -1.0]]) + 0.3 * random.uniform(-1.0, 1.0, 3)
+        worst = []
+        for base in range(2 if corners == 4 else corners):
+            ring = np.roll(points, -base, axis=0)
+            tets = [np.array([centre[0], ring[0], ring[k], ring[k + 1]]) for k in range(1, corners - 1)]
+            edges = [[t[i] - t[j] for i in range(4) for j in range(i)] for t in tets]
+            mean = np.sqrt(np.mean(np.sum(np.square(edges), axis=2), axis=1))
+            worst.append(min(np.array([np.linalg.det(t[1:] - t[0]) for t in tets]) / mean**3))
+        lists = np.arange(corners)
+        inverted = choose_bases(points, centre, start, lists, owner, nobody)
+        assert lists.tolist() == np.roll(np.arange(corners), -lists[0]).tolist()
+        # Two fans may have the same tetrahedron as their worst.
+        assert worst[lists[0]] > max(worst) - 1e-7
+        assert (inverted > 0) == (max(worst) <= 0.0)
+        chosen.add(int(lists[0]))
+    assert len(chosen) > 1
+
+
+@pytest.mark.parametrize("cells", [[0, 64], [-1, 0]])
+def test_a_zone_has_no_cells_but_those_of_the_mesh(cells):
+    mesh = build_mesh(block(4, 0.0))
+    nothing = np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
+    flow = MeshFlow(mesh, *nothing, zones=lambda: {"all": np.arange(64), "other": np.array(cells)})
+    assert flow.cell_zone("all").volumes.sum() == pytest.approx(1.0)
+    with pytest.raises(InputError, match=r"cellZone other names cells beyond the mesh's 64\."):
+        flow.cell_zone("other")

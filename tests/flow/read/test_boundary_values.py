@@ -82,6 +82,8 @@ RULES = {
         uniform(4.0, 5.0, 6.0),
     ),
     "outletInlet": ("type outletInlet; outletValue uniform (1 2 3);", uniform(1.0, 2.0, 3.0)),
+    "uniformInletOutlet": ("type uniformInletOutlet; uniformInletValue (1 2 3);", uniform(1.0, 2.0, 3.0)),
+    "freestream": ("type freestream; freestreamValue uniform (1 2 3);", uniform(1.0, 2.0, 3.0)),
     "freestreamVelocity": (
         "type freestreamVelocity; freestreamValue uniform (1 2 3);",
         uniform(1.0, 2.0, 3.0),
@@ -116,6 +118,16 @@ def test_a_condition_has_the_value_that_openfoam_computes(name, case):
     lid = on_lid(case, entry)
     assert np.abs(lid.u).min() > 0.1
     assert lid.values == pytest.approx(expected(lid), rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "name",
+    """outletInlet uniformInletOutlet freestream freestreamVelocity uniformFixedValue
+    flowRateInletVelocity rotatingWallVelocity""".split(),  # noqa: SIM905
+)
+def test_a_value_that_openfoam_wrote_comes_before_what_it_is_computed_from(name, case):
+    lid = on_lid(case, f"{RULES[name][0]} value uniform (4 5 6);")
+    assert lid.values == pytest.approx(uniform(4.0, 5.0, 6.0)(lid))
 
 
 MISSING = {

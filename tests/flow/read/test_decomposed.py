@@ -199,6 +199,17 @@ def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monke
     assert all((folder / "results.csv").exists() for folder in of_others)
 
 
+def test_a_mesh_beside_parts_that_alone_have_times_after_0(case):
+    """As decomposePar leaves it, before the run and after it."""
+    for time in TIMES[1:]:
+        shutil.rmtree(case / time)
+    assert is_only_decomposed(case)
+    for folder in case.glob("processor*"):
+        for time in TIMES[1:]:
+            shutil.rmtree(folder / time)
+    assert not is_only_decomposed(case)
+
+
 def test_parts_alone_are_found_and_described(case, capsys):
     assert not is_only_decomposed(case)
     alone(case)

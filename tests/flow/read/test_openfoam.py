@@ -180,6 +180,16 @@ def test_description(case):
     assert np.array_equal(info.bounds, [[0.0] * 3, [1.0] * 3])
 
 
+def test_a_mesh_that_moves_is_described_as_it_is_at_the_last_time(case):
+    """Of a box in the unit cube, one corner moves from 0 to −1."""
+    for time, x in (("0.5", -7), ("1e1", -1)):
+        (case / time / "polyMesh").mkdir()
+        text = (case / "constant/polyMesh/points").read_text()
+        assert text.count("(0 0 0)") == 1
+        (case / time / "polyMesh/points").write_text(text.replace("(0 0 0)", f"({x} 0 0)"))
+    assert np.array_equal(describe(case).bounds, [[-1.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
+
+
 def test_regions(case):
     whole = read_fields(case)
     folders = [case / "constant", *(case / time for time in available_times(case))]
