@@ -51,7 +51,10 @@ def crossings(memory: Memory, p: Particles, rows: Rows, origin: Any, normal: Any
     among = (heights[0] < 0.0) != (heights[1] < 0.0)
     at = rows[among]
     h = p.t[at] - memory["t"][at]
-    ends = [(memory["x"][at], h[:, None] * memory["v"][at]), (p.x[at], h[:, None] * p.v[at])]
+    before = memory["x"][at]
+    # A particle that had not moved yet had no velocity.
+    way = np.where(np.isfinite(memory["v"][at]), h[:, None] * memory["v"][at], p.x[at] - before)
+    ends = [(before, way), (p.x[at], h[:, None] * p.v[at])]
     s = _root(*((x - origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
     x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
     sense = np.where(heights[1][among] < 0.0, -1.0, 1.0)

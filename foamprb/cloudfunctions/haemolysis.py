@@ -76,7 +76,8 @@ class Haemolysis:
     """Damage to red blood cells on each path, A (∫τ^{α/β} dt)^β: ``haemolysis.csv``; means in ``means.csv``.
 
     τ is the scalar stress of the fluid at the particle, μ_f γ̇, or that of the shear that would deform Arora's
-    droplet as far as the particle is. The integral is a trapezoidal sum over the samples.
+    droplet as far as the particle is. The integral is a trapezoidal sum over the samples. Where the law says
+    more than 100 %, that is written.
     """
 
     constants: Annotated[
@@ -151,7 +152,8 @@ class Haemolysis:
         """Write the damage of all particles that were released, and the means by injection model."""
         p = cloud.particles
         rows = np.flatnonzero(p.status != Status.PENDING)
-        index = index_of_haemolysis(self.law, memory["dose"])
+        # The laws go on beyond the stresses that they were fitted to; there is no more than all of it.
+        index = np.minimum(index_of_haemolysis(self.law, memory["dose"]), 100.0)
         write_table(
             folder / f"haemolysis.{cloud.tables}",
             {"id": rows, "injector": names_of(cloud.injectors, p.injector[rows]),

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
@@ -19,6 +20,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walls
+from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import sample as sample_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
 
@@ -78,6 +80,11 @@ def turbulence(flow: RotatingArrays, host: int, x: Vector, t: float) -> Turbulen
     return turbulence_mesh(flow.mesh, host, x, t)
 
 
+def curvature(flow: RotatingArrays, host: int, x: Vector, t: float) -> Curvature:
+    """:func:`foamprb.flow.walk.curvature`, the same in all frames: a rotation has no second derivatives."""
+    return curvature_mesh(flow.mesh, host, x, t)
+
+
 class RotatingFlow(MeshFlow):
     """A :class:`MeshFlow` whose velocities at the nodes are absolute, and rotating zones of its cells.
 
@@ -91,6 +98,7 @@ class RotatingFlow(MeshFlow):
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "curvature": curvature,
         "walk": walk,
         "gap": gap,
         "walls": walls,

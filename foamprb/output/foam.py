@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,7 +13,7 @@ from numpy.typing import NDArray
 
 from foamprb.output.atomic import atomic_write
 
-__all__ = ["PatchValues", "write_lagrangian", "write_scalar_field"]
+__all__ = ["PatchValues", "remove_lagrangian", "write_lagrangian", "write_scalar_field"]
 
 Floats = NDArray[np.float64]
 
@@ -74,6 +76,30 @@ _SYMMETRIC = [0, 3, 5, 1, 4, 2]
 """Where xx xy xz yy yz zz stand among xx yy zz xy yz xz."""
 
 
+_GEOMETRY = "geometry        positions;\n"
+
+
+def remove_lagrangian(case: Path, cloud: str) -> None:
+    """Remove what :func:`write_lagrangian` has left of a cloud at all times of a case, and nothing else.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be removed.
+    """
+    for own in case.glob(f"[0-9]*/uniform/lagrangian/{cloud}/cloudProperties"):
+        # OpenFOAM's own have more to say.
+        if not own.read_text(encoding="utf-8", errors="replace").endswith(f"}}\n\n{_GEOMETRY}"):
+            continue
+        time = own.parents[3]
+        shutil.rmtree(time / "lagrangian" / cloud, ignore_errors=True)
+        shutil.rmtree(own.parent)
+        for folder in ("lagrangian", "uniform/lagrangian", "uniform", "."):
+            # That has nothing else in it.
+            with suppress(OSError):
+                (time / folder).rmdir()
+
+
 def write_lagrangian(
     folder: Path, points: Floats, cells: NDArray[np.int64], arrays: Mapping[str, NDArray[Any]]
 ) -> None:
@@ -103,7 +129,7 @@ def write_lagrangian(
     with atomic_write(own) as temporary:
         # Without it OpenFOAM would look for barycentric coordinates, and find no particles.
         head = _header("dictionary", str(own.parent.relative_to(time.parent)), own.name)
-        temporary.write_text(f"{head}geometry        positions;\n", encoding="utf-8")
+        temporary.write_text(head + _GEOMETRY, encoding="utf-8")
     n = len(points)
     lines = [
         f"({x!r} {y!r} {z!r}) {c}\n" for (x, y, z), c in zip(points.tolist(), cells.tolist(), strict=True)

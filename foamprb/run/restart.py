@@ -48,7 +48,9 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
     for field in fields(settings):
         if field.name not in _LEFT_OUT:
             texts |= _leaves(field.name, getattr(settings, field.name))
-    texts |= _leaves("models", cloud.models)
+    own = dict(_leaves("models", cloud.models))
+    # These the settings have by their names.
+    texts |= {n: v for n, v in own.items() if not n.startswith(("models/forces", "models/surroundings"))}
     texts |= _leaves("limits", cloud.limits)
     for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
         texts |= {f"patch {patch.name}": interaction}
@@ -199,6 +201,11 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
     if is_dataclass(value):
         for field in fields(value):
             yield from _leaves(f"{name}/{field.name}", getattr(value, field.name))
+    elif isinstance(value, Mapping):
+        for key, item in value.items():
+            # A model without entries is more than none.
+            yield f"{name}/{key}", type(item).__name__
+            yield from _leaves(f"{name}/{key}", item)
     elif isinstance(value, tuple) and any(is_dataclass(item) for item in value):
         for i, item in enumerate(value):
             yield from _leaves(f"{name}/{getattr(item, 'name', i)}", item)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.measures import shear_rate
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
@@ -18,8 +19,12 @@ from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import available_times
+from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.flow.read.mrf import read_rotations
+from foamprb.flow.read.processors import processors
 from foamprb.flow.read.source import Source, check_region, read_flow
+from foamprb.flow.read.turbulence import turbulence_fields
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
@@ -105,7 +110,9 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
     scales = scales_of(flow)
     fluid = _fluid(case, source)
     step, interval, end = times(scales)
-    d = diameter(scales, fluid.nu)
+    rho0 = 1050.0 if fluid.rho > 500.0 else 1000.0
+    rotating = _rotating(case, flow, source)
+    d = diameter(scales, fluid.nu, rho0 / fluid.rho if len(rotating) > 1 else 0.0)
     rate = scales.shear or 1.0
     modulus = _rounded(fluid.rho * fluid.nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
     parts = [
@@ -116,13 +123,13 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
                 _line("deltaT", f"{step:g}", _said("solution", "deltaT", "a fifth of a cell in the flow")),
                 _line("endTime", f"{end:g}", _said("solution", "endTime")),
                 _line("writeInterval", f"{interval:g}", _said("solution", "writeInterval")),
-                *_transient(case),
+                *(rotating or _transient(case, source)),
             ],
         ),
         _dictionary(
             "constantProperties",
             [
-                _line("rho0", "1050" if fluid.rho > 500.0 else "1000", _said("constantProperties", "rho0")),
+                _line("rho0", f"{rho0:g}", _said("constantProperties", "rho0")),
                 *fluid.lines,
                 "",
                 "solid",
@@ -207,9 +214,13 @@ def times(scales: FlowScales) -> tuple[float, float, float]:
     return step, step * steps, step * steps * _TIMES
 
 
-def diameter(scales: FlowScales, nu: float) -> float:
-    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most."""
-    stokes = math.sqrt(0.05 * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
+def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
+    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most.
+
+    ``ratio`` is how many times denser than the fluid a solid is whose inertia is to be small, too.
+    """
+    largest = min(0.05, 0.5 * SMALL_STOKES * 60.0 / ratio) if ratio > 0.0 else 0.05
+    stokes = math.sqrt(largest * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
     return _nice(min(1e-5, 0.2 * scales.cell, stokes), up=False)
 
 
@@ -252,7 +263,8 @@ def _fluid(case: Path, source: Source) -> FluidGuess:
         lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; the case does not say, water has this"))
     rho, origin = _density(case, file, source.region, where)
     if rho is None:
-        water = (nu or 0.0) < 5e-6 or (nu or 0.0) > 1e-4
+        # Gases have some 1e-5 m²/s, or 1e-5 Pa s.
+        water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
         rho = 1000.0 if water else 1.2
         kind = "like water" if water else "like air"
         lines.append(
@@ -298,14 +310,56 @@ def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
     return found
 
 
-def _transient(case: Path) -> list[str]:
+def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+    """How particles are seen in the zones of ``MRFProperties``, if there are any."""
+    if source.file is not None:
+        return []
+    try:
+        zones = read_rotations(case, source.region)
+        for zone in zones:
+            flow.cell_zone(zone.zone)
+    except InputError:
+        return [_line("rotatingZones", "absolute", "MRFProperties has what is not modelled")]
+    if not zones:
+        return []
+    names = ", ".join(zone.name for zone in zones)
+    return [
+        _line("rotatingZones", "relative", f"{names} of MRFProperties; absolute: as if blades stood still"),
+        "integrationSchemes  { shape stokes; } // the one that rotating zones can have",
+    ]
+
+
+def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+    """The choice of a model of the eddies, where the flow is a mean and the case has what it needs."""
+    if source.file is not None:
+        return []
+    divided = source.decomposed or is_only_decomposed(case, source.region)
+    folder = processors(case)[0] if divided else case
+    fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
+    if not fields:
+        return []
+    why = f"or stochasticDispersionRAS: {' and '.join(fields)} are there"
+    return [_line("dispersionModel", "none", why), ""]
+
+
+def _transient(case: Path, source: Source) -> list[str]:
     """A hint, where the flow has been written at several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
-    if len(names) < 2:
+    if len(names) < 2 or _steady(case, source.region):
         return []
     return [
         f"// transient       true;   // the flow at its times {names[0]} to {names[-1]}; without: the latest"
     ]
+
+
+def _steady(case: Path, region: str) -> bool:
+    """Whether the times of a case are iterations of a steady solver, as ``fvSchemes`` says."""
+    try:
+        schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
+    except InputError:
+        return False
+    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
+    return isinstance(default, Stream) and default.text == "steadyState"
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -342,6 +396,7 @@ def _sub_models(case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: f
         *_gravity(case, source.region),
         "}",
         "",
+        *_dispersion(case, flow, source),
         "injectionModels",
         "{",
         *_indented(_injection(scales, end, size)),

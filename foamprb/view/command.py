@@ -31,7 +31,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--time", type=float, metavar="TIME", help="time to show first [that with most bodies]")
     add("--colour", "--color", default="taylorDeformation", metavar="ARRAY",
         help="array, or array:component, to colour by [taylorDeformation]")  # fmt: skip
-    add("--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="of the colours [all values]")
+    ranges = parser.add_mutually_exclusive_group()
+    ranges.add_argument(
+        "--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="of the colours [-percentiles]"
+    )
+    ranges.add_argument(
+        "--percentiles", type=float, nargs=2, metavar=("LOW", "HIGH"), default=[1.0, 99.0],
+        help="of all values, between which the colours range [1 99]; 0 100: all",
+    )  # fmt: skip
     add(
         "--enlargement",
         type=float,
@@ -89,6 +96,7 @@ def view(arguments: argparse.Namespace, source: Source) -> int:
         arguments.enlargement,
         arguments.slice,
         arguments.bodies,
+        tuple(arguments.percentiles),
     )
     if arguments.png or arguments.film or arguments.window:
         picture_of(request, arguments.png, arguments.film, read_size(arguments.size), arguments.dark)

@@ -15,7 +15,7 @@ from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import Source, read_flow
-from foamprb.output.foam import write_lagrangian
+from foamprb.output.foam import remove_lagrangian, write_lagrangian
 from foamprb.output.ovito import write_dump
 from foamprb.output.vtk import PointCloud
 from foamprb.output.vtkhdf import write_vtkhdf
@@ -86,6 +86,8 @@ def _openfoam(e: _Export) -> None:
     flow = read_flow(e.case, e.time, e.source)
     if e.target.resolve() != e.case.resolve():
         _make_case(e)
+    # A run before may have had other times.
+    remove_lagrangian(e.target, e.results.name)
     for index in range(len(e.results.entries)):
         cloud = _cloud(e.results, index)
         here = np.isin(cloud.arrays["status"], (Status.ACTIVE, Status.STUCK))

@@ -39,12 +39,13 @@ from foamprb.view.scene import (
     Scene,
     anchor,
     box,
+    extremes_of,
     limits_of,
     round_limits,
 )
 
 _FOLDER = Path(__file__).parent / "page"
-_NOTES, _DESCRIPTION = 400, 1000
+_NOTES, _DESCRIPTION = 400, 2000
 """Bytes that a page may say of arrays that are left out, and of one that is not."""
 
 
@@ -229,14 +230,21 @@ class Page:
         }
 
     def _field(self, field: Field, packed: Packed) -> dict[str, Any]:
-        bodies = self._scene.bodies
         return {
             "name": field.name,
             "label": field.label,
             "unit": field.unit,
             "parts": field.parts,
-            "ranges": {part: limits_of(bodies, field.name, part) for part in field.parts},
+            "ranges": {part: self._ranges(field.name, part) for part in field.parts},
         } | self._packed(packed)
+
+    def _ranges(self, name: str, part: str) -> dict[str, list[float]]:
+        """Limits of the colours at first, those of all values, and the least and the largest value."""
+        bodies = self._scene.bodies
+        usual = limits_of(bodies, name, part, self._scene.percentiles)
+        whole = limits_of(bodies, name, part)
+        found = {"usual": usual, "whole": whole, "extremes": extremes_of(bodies, name, part) or whole}
+        return {key: _rounded(np.array(values)) for key, values in found.items()}
 
     def _codes(self, codes: Codes) -> dict[str, Any]:
         described = {"name": codes.name, "label": codes.label, "meanings": codes.meanings}

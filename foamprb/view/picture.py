@@ -18,6 +18,7 @@ from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtk
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.memory import require, wants
 from foamprb.output.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
@@ -46,6 +47,8 @@ _MOST_MARKED = 2_000
 _MARK_WIDTH, _SPOT_WIDTH = 0.04, 0.3
 _BAR = 280.0
 _UNKNOWN = 153
+_GRAPHICS, _POINT = 0.7e9, 205.0
+"""Address space that the graphics library takes, and what is drawn for each point of a body, bytes."""
 
 
 class Shape(NamedTuple):
@@ -109,7 +112,9 @@ class Drawing:
         if name in scene.bodies.fields:
             field = scene.bodies.fields[name]
             label = f"{field.label}, {part}" if part else field.label
-            self._bar("legend", label, field.unit, scene.limits, colour_map(scene.map_name), left)
+            self._bar(
+                "legend", label, field.unit, scene.limits, colour_map(scene.map_name), left, scene.beyond
+            )
         else:
             self._names(scene.codes(name), left)
         for surface in scene.geometry.surfaces if scene.geometry is not None else ():
@@ -144,8 +149,12 @@ class Drawing:
         limits: tuple[float, float],
         table: Table,
         left: float,
+        beyond: tuple[bool, bool] = (False, False),
     ) -> float:
-        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins."""
+        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins.
+
+        ``beyond`` is whether values lie below its limits, and above them.
+        """
         bottom = self.plotter.window_size[1] / self.scale
         factor, shown_unit = readable(unit, max(map(abs, limits)))
         low, high = limits[0] / factor, limits[1] / factor
@@ -157,7 +166,8 @@ class Drawing:
         for k, value in enumerate(ticks(low, high)):
             share = (value - low) / (high - low)
             side = "left" if share == 0.0 else "center"
-            self._write(f"{name} {k}", number(value), 12, side, bottom - 20, left + _BAR * share)
+            sign = "≤ " if share == 0.0 and beyond[0] else "≥ " if value == high and beyond[1] else ""
+            self._write(f"{name} {k}", sign + number(value), 12, side, bottom - 20, left + _BAR * share)
         return left + _BAR + 40.0
 
     def _names(self, codes: Codes, left: float) -> None:
@@ -339,7 +349,11 @@ def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
 
 
 def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off_screen: bool) -> Drawing:
-    """The scene without its bodies."""
+    """The scene without its bodies; OutOfMemory if there is too little, of which VTK would die."""
+    number = int(scene.bodies.shown.sum(axis=1).max(initial=0))
+    points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
+    wants("bodies drawn", number, _POINT * points)
+    require(_GRAPHICS + _POINT * points * number)
     plotter = pyvista.Plotter(off_screen=off_screen or None, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)
     plotter.enable_anti_aliasing("msaa", multi_samples=8)

@@ -35,8 +35,14 @@ INSETS = (66.0, 88.0)
 """Pixels that words take above and below what is shown."""
 TALL = 1.6
 """Something long is at least 1/1.6 of the picture high, its length cut, unless too little of that is left."""
+PERCENTILES = (1.0, 99.0)
+"""Of the values of an array that are ever shown: what lies beyond may be clamped."""
+ALL = (0.0, 100.0)
+"""The percentiles between which all values are."""
 MOST_DEPOSITS = 3000
 """Of more deposits none is marked at first."""
+_SLACK = 1e-5
+"""How far beyond the limits, as a share of what is between them, a value is not noticed."""
 _THIN = 0.35
 """A geometry whose shortest side is a smaller share of the second one is looked at along the shortest."""
 _TILTED = 1.3
@@ -101,6 +107,8 @@ class Scene:
         Its lowest and highest colour, if the user chose them.
     first
         Index of the time that is shown first.
+    percentiles
+        Between which of all values the colours range, where the user chose no range.
     """
 
     title: str
@@ -115,6 +123,7 @@ class Scene:
     colour: tuple[str, str]
     range: tuple[float, float] | None
     first: int
+    percentiles: tuple[float, float] = PERCENTILES
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -122,7 +131,15 @@ class Scene:
         name, part = self.colour
         if self.range is not None:
             return self.range
-        return limits_of(self.bodies, name, part)
+        return limits_of(self.bodies, name, part, self.percentiles)
+
+    @cached_property
+    def beyond(self) -> tuple[bool, bool]:
+        """Whether values of the chosen array that are ever shown lie below the limits, and above them."""
+        low, high = self.limits
+        least, most = extremes_of(self.bodies, *self.colour) or (low, high)
+        slack = _SLACK * (high - low)
+        return least < low - slack, most > high + slack
 
     def codes(self, name: str) -> Codes:
         """A property that has names, by its own."""
@@ -145,11 +162,38 @@ def caption(shown: int, enlargement: float) -> str:
     return f"{number}, drawn {enlargement:g}× larger" if enlargement != 1.0 else f"{number}, drawn to scale"
 
 
-def limits_of(bodies: Bodies, name: str, part: str) -> tuple[float, float]:
-    """Round numbers around the values of an array that are ever shown; from zero where that is near."""
+def limits_of(
+    bodies: Bodies, name: str, part: str, percentiles: tuple[float, float] = ALL
+) -> tuple[float, float]:
+    """Round numbers around the values of an array that are ever shown; from zero where that is near.
+
+    Parameters
+    ----------
+    bodies, name, part
+        The bodies, the array, and its component.
+    percentiles
+        Which of the values count; of up to a hundred values, and where those that count are all alike, all.
+    """
+    values = _values(bodies, name, part)
+    if not values.size:
+        return 0.0, 1.0
+    shares = np.array(percentiles) / 100.0
+    low = float(np.quantile(values, shares[0], method="lower"))
+    high = float(np.quantile(values, shares[1], method="higher"))
+    if low == high:
+        low, high = float(values.min()), float(values.max())
+    return round_limits(low, high)
+
+
+def extremes_of(bodies: Bodies, name: str, part: str) -> tuple[float, float] | None:
+    """Least and largest of the values of an array that are ever shown; None if there is none."""
+    values = _values(bodies, name, part)
+    return (float(values.min()), float(values.max())) if values.size else None
+
+
+def _values(bodies: Bodies, name: str, part: str) -> Floats:
     values = np.broadcast_to(bodies.fields[name].channel(part), bodies.present.shape)[bodies.shown]
-    values = values[np.isfinite(values)]
-    return round_limits(float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
+    return np.asarray(values[np.isfinite(values)])
 
 
 def round_limits(low: float, high: float) -> tuple[float, float]:

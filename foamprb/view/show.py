@@ -22,7 +22,15 @@ from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
 from foamprb.view.picture import film, has_display, picture, require_display, require_graphics, window
 from foamprb.view.results import Results, open_results
-from foamprb.view.scene import Scene, automatic_enlargement, box, busiest, camera_for, gravity
+from foamprb.view.scene import (
+    PERCENTILES,
+    Scene,
+    automatic_enlargement,
+    box,
+    busiest,
+    camera_for,
+    gravity,
+)
 
 log = logging.getLogger("foamprb")
 
@@ -54,6 +62,8 @@ class Request:
     slice: str | None = None
     bodies: int | None = None
     """Most bodies."""
+    percentiles: tuple[float, float] = PERCENTILES
+    """Between which of all values the colours range, without a range."""
 
 
 def write_page(request: Request, path: Path | None, megabytes: float, version: str) -> Path:
@@ -155,6 +165,11 @@ def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Sce
         raise InputError(
             f"-range {request.range[0]:g} {request.range[1]:g}: the second must be the larger one."
         )
+    low, high = request.percentiles
+    if not 0.0 <= low < high <= 100.0:
+        raise InputError(
+            f"-percentiles {low:g} {high:g}: two numbers from 0 to 100 are needed, the second the larger one."
+        )
     colour = require_array(results, request.colour)
     bodies = gather(results, frames, most=request.bodies)
     fates = results.fates()
@@ -166,7 +181,7 @@ def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Sce
         bodies.times[first], request.time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15
     ):
         log.warning("-time %g s was not written; the nearest is %g s.", request.time, bodies.times[first])
-    low, high = box(geometry, bodies)
+    corners = box(geometry, bodies)
     region = request.source.region if request.source else ""
     return Scene(
         title=request.case.resolve().name,
@@ -177,10 +192,11 @@ def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Sce
         slice=plane,
         paths=results.paths(),
         camera=camera_for(geometry, bodies, first, gravity(request.case, region)),
-        enlargement=request.enlargement or automatic_enlargement(bodies, high - low),
+        enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
         colour=colour,
         range=request.range,
         first=first,
+        percentiles=request.percentiles,
     )
 
 

@@ -143,3 +143,13 @@ def test_the_papers_integrator_is_refused():
         InputError, match="BrownianMotion needs the integrator stokes or rosenbrock, not paper"
     ):
         carried(beads(1), 1, 1e-4, integrator="paper")
+
+
+def test_where_molecules_deform_more_than_the_flow_a_warning_says_so():
+    """√(5 k_B T/(2 μ_s V)): a strain of 1 % for a radius of 1 µm and 25 Pa, of 1 where both are small."""
+    model, hard, soft = BrownianMotion(T=293.15), beads(3, mu=25.0), beads(3, mu=0.1)
+    hard.R[:], soft.R[:] = 1e-6, 3e-7
+    assert model.warnings(hard, STILL, WATER, 1e-3) == ()
+    (said,) = model.warnings(soft, STILL, WATER, 1e-3)
+    assert "by a strain of 0.95 (median)" in said
+    assert BrownianMotion(T=293.15, shape=False).warnings(soft, STILL, WATER, 1e-3) == ()

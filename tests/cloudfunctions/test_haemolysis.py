@@ -169,3 +169,10 @@ def test_own_constants():
         Haemolysis(constants="own", A=1.0)
     with pytest.raises(InputError, match="constants own takes it"):
         Haemolysis(constants="Song", A=1.0)
+
+
+def test_no_more_is_set_free_than_there_is(tmp_path):
+    observe(pipe_cloud(), Haemolysis(constants="own", A=1e9, alpha=1.0, beta=1.0), tmp_path)
+    found = column(table(tmp_path / "f/haemolysis.csv"), "haemolysis")
+    assert found.max() == 100.0
+    assert column(table(tmp_path / "f/means.csv"), "haemolysis").max() <= 100.0

@@ -50,6 +50,21 @@ def test_tracers_cross_when_their_speed_says(tmp_path, every):
         assert float(row["massFlowRate"]) == pytest.approx(fresh * mass / (end - begin))
 
 
+def test_a_particle_without_a_velocity_crosses_where_its_path_says(tmp_path):
+    """As one that is released with the fluid's, before its first step."""
+    cloud = pipe_cloud(medium=WATER)
+    p = cloud.particles
+    speed = 2.0 * MEAN * (1.0 - (p.x[:, 1] ** 2 + p.x[:, 2] ** 2) / RADIUS**2)
+    due = p.t0 + (0.01 - p.x0[:, 0]) / speed
+    p.v[:] = np.nan
+    observe(cloud, collector(sampleInterval=1000), tmp_path)
+    rows = table(tmp_path / "f/crossings.csv")
+    k = column(rows, "id").astype(int)
+    assert len(k) > 5
+    np.testing.assert_allclose(column(rows, "t"), due[k], rtol=1e-3)
+    np.testing.assert_allclose(column(rows, "x"), 0.01, rtol=1e-12)
+
+
 def orbit(folder, dt, function, turns=3.2):
     """A particle on a given circle, seen at times dt apart; the rows of crossings.csv."""
     p = spheres([[1.0, 0.2, 0.0]], d=D, rho=1.0, mu=1.0)

@@ -185,6 +185,14 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda c: edit(c, r"shape(\s+)paper", r"shape\1rosenbrock"),
         "models/integrator was paper",
     ),
+    "surroundings": (
+        lambda c: edit(c, r"^(\s*)gravity;", r"\1gravity; faxenCorrection;"),
+        r"else: surroundings/faxenCorrection was absent, is FaxenCorrection\. Undo",
+    ),
+    "force": (
+        lambda c: edit(c, r"^(\s*)gravity;", r"\1gravity; virtualMass { Cvm 0.4; }"),
+        r"else: forces/virtualMass was absent, is VirtualMass; forces/virtualMass/Cvm was absent, is 0\.4; ",
+    ),
     "wall": (lambda c: edit(c, r"type(\s+)stick", r"type\1escape"), "patch wall was Stick"),
     "one place": (
         lambda c: edit(c, r"-0\.00165", "-0.00165001", "constant/softCloudPositions"),

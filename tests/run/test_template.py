@@ -6,7 +6,9 @@ import re
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
+from foam_writer import header, write_case
 from paths import PIPE
 
 from foamprb.cli import main
@@ -96,6 +98,15 @@ def test_a_fluid_that_depends_on_temperature_gets_one(case):
     assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
 
 
+@pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])
+def test_a_dynamic_viscosity_tells_a_gas_from_a_liquid(case, mu, kind):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        f"thermoType {{ transport const; }} mixture {{ transport {{ mu {mu}; }} }}"
+    )
+    assert re.search(f"rhoInf +{kind}", write_template(case).read_text())
+
+
 def scales(**changed):
     values = {"speed": 1.0, "step": 1e-3, "duration": 2.0, "shear": 10.0, "most_shear": 100.0, "cell": 1e-3,
               "volume": 1e-3, "inlet": ""}  # fmt: skip
@@ -121,6 +132,9 @@ def test_the_diameter_keeps_the_reynolds_number_small():
         d = diameter(scales(most_shear=most), 1e-6)
         assert most * d * d / 1e-6 <= 0.05 * (1 + 1e-9)
         assert d <= 1e-5
+        # The shape Stokes number of a solid a thousand times denser, too, where its inertia is left out.
+        d = diameter(scales(most_shear=most), 1e-6, 1000.0)
+        assert 1000.0 * most * d * d / (60.0 * 1e-6) <= 0.01 * (1 + 1e-9)
     assert diameter(scales(most_shear=0.0, cell=1e-6), 1e-6) == 2e-7
 
 
@@ -142,3 +156,59 @@ def test_patches_with_odd_names_and_many_walls_are_matched(case):
     (case / "constant/softCloudProperties").write_text(changed)
     names = [type(i).__name__ for i in match_patches(read_settings(case).patches, patches, "file")]
     assert names == ["Escape", "Escape", "Mirror", *["Stick"] * 9]
+
+
+def scalar_field(file, dimensions, value):
+    file.write_text(
+        header("volScalarField", file.name) + f"dimensions {dimensions}; internalField uniform {value}; "
+        'boundaryField { ".*" { type zeroGradient; } }'
+    )
+
+
+@pytest.mark.parametrize(("second", "unit"), [("epsilon", "[0 2 -3 0 0 0 0]"), ("omega", "[0 0 -1 0 0 0 0]")])
+def test_a_mean_flow_is_offered_the_dispersion_by_its_eddies(tmp_path, second, unit):
+    write_case(tmp_path, perturbation=0.0)
+    scalar_field(tmp_path / "1e1/k", "[0 2 -2 0 0 0 0]", 0.01)
+    scalar_field(tmp_path / "1e1" / second, unit, 3)
+    file = write_template(tmp_path)
+    text = file.read_text()
+    assert re.search(rf"dispersionModel +none; +// or stochasticDispersionRAS: k and {second} are", text)
+    assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 0
+    file.write_text(re.sub(r"(dispersionModel +)none", r"\1stochasticDispersionRAS", text))
+    assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 0
+
+
+def test_a_laminar_flow_is_offered_no_eddies(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    scalar_field(tmp_path / "1e1/k", "[0 2 -2 0 0 0 0]", 0)
+    scalar_field(tmp_path / "1e1/epsilon", "[0 2 -3 0 0 0 0]", 0)
+    assert "dispersion" not in write_template(tmp_path).read_text()
+
+
+@pytest.mark.parametrize(
+    ("omega", "zone", "expected"),
+    [("3", "upper", "relative"), ("table ((0 1) (1 3))", "upper", "absolute"), ("3", "lower", "absolute")],
+)
+def test_rotating_zones_are_named(tmp_path, omega, zone, expected, capsys):
+    mesh = write_case(tmp_path, perturbation=0.0)
+    cells = np.flatnonzero(mesh.centres[:, 2] > 0.5)
+    (tmp_path / "constant/polyMesh/cellZones").write_text(
+        header("regIOobject", "cellZones") + f"1 (upper {{ type cellZone; cellLabels List<label> {len(cells)}"
+        f"({' '.join(map(str, cells))}); }})"
+    )
+    (tmp_path / "constant/MRFProperties").write_text(
+        header("dictionary", "MRFProperties")
+        + f"rotor {{ cellZone {zone}; origin (0.5 0.5 0); axis (0 0 1); omega {omega}; }}"
+    )
+    assert re.search(rf"rotatingZones +{expected};", write_template(tmp_path).read_text())
+    assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 0
+    assert ("zone rotor of" in capsys.readouterr().out) == (expected == "relative")
+
+
+def test_iterations_of_a_steady_solver_are_no_times(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    assert "// transient" in write_template(tmp_path).read_text()
+    (tmp_path / "constant/softCloudProperties").unlink()
+    (tmp_path / "system").mkdir(exist_ok=True)
+    (tmp_path / "system/fvSchemes").write_text("ddtSchemes { default steadyState; }")
+    assert "transient" not in write_template(tmp_path).read_text()

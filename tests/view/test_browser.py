@@ -445,7 +445,9 @@ class TestControls:
         tab.page.fill("#range-high", "0.25")
         tab.page.keyboard.press("Tab")
         assert tab.run("foamprb.state.high") == 0.25
-        assert "250" in tab.page.locator("#legends").inner_text()
+        assert "≥ 250" in tab.page.locator("#legends").inner_text()
+        tab.page.click("#range-all")
+        assert not set("≤≥") & set(tab.page.locator("#legends").inner_text())
         tab.page.click("#range-now")
         assert tab.run("foamprb.state.low") > 0.0
         tab.page.select_option("#colour", "fate:")

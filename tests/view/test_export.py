@@ -105,6 +105,24 @@ def test_openfoams_files_go_into_the_case_if_asked(case):
     assert not (case / "constant").is_symlink()
 
 
+@pytest.mark.parametrize("inside", [False, True])
+def test_what_an_earlier_run_left_there_goes(case, inside):
+    """Its later times would look as if this run had gone so far; what OpenFOAM wrote stays."""
+    options = ["-output", str(case)] if inside else []
+    target = case if inside else case / "postProcessing/softCloud/openfoam"
+    export(case, "openfoam", *options)
+    assert (target / "0.4/lagrangian/softCloud/positions").exists()
+    fields = sorted(path for path in case.rglob("U") if "lagrangian" not in path.parts)
+    own = target / "0.3/uniform/lagrangian/softCloud/cloudProperties"
+    own.write_text(own.read_text() + "processor0 { particleCount 3; }\n")
+    write_run(case, motion(9, 3), mesh=False)
+    export(case, "openfoam", *options)
+    assert not (target / "0.4/lagrangian").exists()
+    assert (target / "0.3/lagrangian/softCloud/positions").exists()
+    assert sorted(path.name for path in target.glob("0*/lagrangian")) == ["lagrangian"] * 4
+    assert sorted(path for path in case.rglob("U") if "lagrangian" not in path.parts) == fields
+
+
 def test_a_body_a_little_outside_is_in_the_cell_at_the_wall(case):
     from foamprb.view.export import _cells
 

@@ -76,9 +76,10 @@ class TestWhatItHolds:
         stretch = np.linalg.svd(moved.F, compute_uv=False)
         expected = ((stretch[..., 0] - stretch[..., 2]) / (stretch[..., 0] + stretch[..., 2]))[page.present()]
         assert np.abs(found - expected).max() < 1e-5
-        low, high = spec["ranges"][""]
-        assert low == 0.0
-        assert high >= expected.max() - 1e-6
+        ranges = spec["ranges"][""]
+        assert ranges["usual"][0] == ranges["whole"][0] == 0.0
+        assert ranges["whole"][1] >= expected.max() - 1e-6
+        assert ranges["extremes"] == pytest.approx([expected.min(), expected.max()], abs=1e-5)
 
     def test_names(self, page):
         codes = page.scene["codes"]

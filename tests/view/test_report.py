@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from view_run import PATCHES, motion, write_run
 
+from foamprb import memory
 from foamprb.cli import main
 from foamprb.output.tables import write_table
 from foamprb.view.geometry import Surface
@@ -182,3 +183,11 @@ def test_a_floor_stays_in_its_plane_and_its_particles_where_they_are():
     i, j = np.unravel_index(np.nanargmax(found.density), found.density.shape)
     assert (found.edges[0][i], found.edges[1][j]) == pytest.approx((0.9, 0.4), abs=0.5)
     assert found.triangles.max() >= 0.0
+
+
+def test_where_memory_is_short_the_report_has_no_picture(case, tmp_path, monkeypatch):
+    """VTK would end the process without a word of ours."""
+    monkeypatch.setattr(memory, "_limit", lambda _: 1.5e9)
+    monkeypatch.setattr(memory, "_taken", lambda: 1.0e9)
+    text = write_report(case, tmp_path / "report.html").read_text(encoding="utf-8")
+    assert re.search(r"No picture: not enough memory for .*60 bodies drawn; needs", text)

@@ -14,21 +14,24 @@ from view_run import motion, write_run
 
 from foamprb.errors import InputError
 from foamprb.flow.read.openfoam import read_case
-from foamprb.view.bodies import Bodies, Codes, gather
+from foamprb.view.bodies import Bodies, Codes, Field, gather
 from foamprb.view.colours import colour_of_name, readable, rgb, ticks, written
 from foamprb.view.geometry import Geometry, Surface, boundary, cut, flat_normal, read_plane
 from foamprb.view.results import open_results
 from foamprb.view.scene import (
+    ALL,
+    PERCENTILES,
     VIEW_ANGLE,
     automatic_enlargement,
     busiest,
     camera_for,
     gravity,
+    limits_of,
     principal_axes,
     round_down,
     round_limits,
 )
-from foamprb.view.show import spread
+from foamprb.view.show import Request, make_scene, spread
 
 NOBODY = Bodies(
     times=np.zeros(1),
@@ -240,6 +243,47 @@ class TestNumbers:
     def test_the_first_forty_names_have_forty_colours(self):
         colours = [rgb(colour_of_name(k)) for k in range(40)]
         assert len(set(colours)) == 40
+
+
+def with_values(values):
+    """Bodies at one time, all in the flow, with an array of these values."""
+    n = len(values)
+    field = Field("D", "D", "", ("",), np.array(values, dtype=np.float32)[None, :, None])
+    status = Codes("status", "status", ("pending", "active"), np.ones((1, n), dtype=np.uint8))
+    return replace(NOBODY, present=np.ones((1, n), dtype=bool), status=status, fields={"D": field})
+
+
+class TestOutliers:
+    def test_one_among_many_has_no_share_in_the_colours(self):
+        bodies = with_values([*np.linspace(0.0, 0.1, 999), 70.0, np.nan])
+        assert limits_of(bodies, "D", "", PERCENTILES) == (0.0, pytest.approx(0.1))
+        assert limits_of(bodies, "D", "", ALL) == limits_of(bodies, "D", "") == (0.0, 70.0)
+
+    def test_of_up_to_a_hundred_values_none_is_left_out(self):
+        assert limits_of(with_values([*[0.1] * 99, 7.0]), "D", "", PERCENTILES)[1] == 7.0
+        assert limits_of(with_values([]), "D", "", PERCENTILES) == (0.0, 1.0)
+
+    def test_where_nearly_all_are_alike_the_others_count(self):
+        assert limits_of(with_values([*[0.0] * 999, 7.0]), "D", "", PERCENTILES) == (0.0, 7.0)
+
+    def test_the_legend_knows_of_them(self, tmp_path):
+        write_run(tmp_path, motion(40, 8), mesh=False)
+        results = open_results(tmp_path)
+
+        def scene(**asked):
+            return make_scene(Request(tmp_path, **asked), results, range(8))
+
+        assert scene(percentiles=ALL).beyond == (False, False)
+        assert scene(percentiles=(30.0, 70.0)).beyond == (True, True)
+        assert scene(range=(0.0, 0.2)).beyond == (False, True)
+        usual, middle = scene(), scene(percentiles=(30.0, 70.0))
+        assert middle.limits[1] - middle.limits[0] < usual.limits[1] - usual.limits[0]
+
+    @pytest.mark.parametrize("wrong", [(1.0, 1.0), (-1.0, 99.0), (1.0, 101.0), (math.nan, 99.0)])
+    def test_what_are_no_percentiles(self, tmp_path, wrong):
+        write_run(tmp_path, motion(4, 2), mesh=False)
+        with pytest.raises(InputError, match=r"-percentiles .*: two numbers from 0 to 100"):
+            make_scene(Request(tmp_path, percentiles=wrong), open_results(tmp_path), range(2))
 
 
 def test_enlargement_makes_bodies_visible_but_not_overlapping(bodies):

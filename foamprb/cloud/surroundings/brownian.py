@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.brownian import (
     BOLTZMANN,
@@ -35,6 +36,8 @@ from foamprb.flow.base import Flow, Patch
 
 __all__ = ["BrownianMotion"]
 
+LARGE_STRAIN = 0.3
+"""Of the shape by molecules, above which the user is warned."""
 _KIND = np.uint64(1)
 """What tells these random numbers from others of the same seed."""
 
@@ -155,6 +158,21 @@ class BrownianMotion(Surrounding):
         """How far molecules take the particles, and how much they deform them."""
         if p.size == 0:
             return ()
-        kT = BOLTZMANN * self.T
-        strain = np.sqrt(2.5 * kT / (p.mu * 4.0 / 3.0 * math.pi * p.R**3))
+        strain = self._strain(p)
         return (f"{'thermal strain':24s} {strain.min():.3g} to {strain.max():.3g}",)
+
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
+        """That molecules deform the particles more than the model of their push can know."""
+        strain = float(np.median(self._strain(p))) if p.size and self.shape else 0.0
+        if strain <= LARGE_STRAIN:
+            return ()
+        return (
+            f"molecules deform the particles by a strain of {strain:.2g} (median), beside which the "
+            "flow's may not be seen: they are too small or too soft. BrownianMotion { shape no; } leaves the "
+            "shape to the flow.",
+        )
+
+    def _strain(self, p: Particles) -> NDArray[np.float64]:
+        """√(5 k_B T/(2 μ_s V)) of each particle."""
+        volume = 4.0 / 3.0 * math.pi * p.R**3
+        return np.asarray(np.sqrt(2.5 * BOLTZMANN * self.T / (p.mu * volume)))

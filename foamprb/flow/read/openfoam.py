@@ -100,7 +100,7 @@ def read_case(
     field = read(name, velocity, VELOCITY_FIELD)
     whole = read_mesh(case, name, region)
     cells, boundary = velocities(field, whole)
-    flux = caveat_of_flux(whole.mesh, whole.patches, boundary, case, case / name / region, velocity)
+    flux = caveat_of_flux(whole.mesh, whole.patches, cells, boundary, case, case / name / region, velocity)
     zones = mesh_folder(case, name, region)
     rotating: list[RotatingZone] = []
     if rotations:

@@ -71,7 +71,7 @@ def read_series(
     read_field = fields or fields_of_case(case, region)
     field = read_field(names[0], velocity, VELOCITY_FIELD)
     whole = read_mesh(case, names[0], region)
-    _, boundary = velocities(field, whole)
+    first_cells, boundary = velocities(field, whole)
     reconstruct = Reconstruction(whole.mesh)
     folder = mesh_folder(case, names[0], region)
 
@@ -88,7 +88,7 @@ def read_series(
     notes += notes_of_forms(case / name / region / velocity for name in names)[:1]
     first = case / names[0] / region
     notes += caveats_of_case(case, case / names[-1] / region, region, moving=False, turbulent=turbulent)
-    notes += caveat_of_flux(whole.mesh, whole.patches, boundary, case, first, velocity)
+    notes += caveat_of_flux(whole.mesh, whole.patches, first_cells, boundary, case, first, velocity)
     zones = partial(cell_zones, folder)
     return series_of(case, whole.mesh, names, read, period, notes, zones, turbulent)
 

@@ -14,11 +14,12 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.case import MissingFieldError
+from foamprb.flow.read.caveats import is_not_zero
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.field import Field, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["read_turbulence"]
+__all__ = ["read_turbulence", "turbulence_fields"]
 
 _K = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
@@ -73,6 +74,12 @@ def read_turbulence(
     boundary = np.stack([at_patches, wall, _diffusivity(at_patches, wall)], axis=1)
     values, slopes = reconstruct.scalars(cells, boundary)
     return np.concatenate([values[:, :2], slopes[:, 0], slopes[:, 2]], axis=1)
+
+
+def turbulence_fields(folder: Path) -> tuple[str, ...]:
+    """Names of the fields of a time directory from which :func:`read_turbulence` has k and ε; () without."""
+    found = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
+    return next(found, ()) if is_not_zero(folder / "k") else ()
 
 
 _WANTED = "The dispersionModel needs k and epsilon, or k and omega, at the time of the flow."

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
+from foamprb.memory import OutOfMemory
 from foamprb.output.atomic import atomic_write
 from foamprb.output.names import file_name
 from foamprb.view.colours import DARK, LIGHT, written
@@ -170,7 +171,7 @@ def _scene(given: _Given, case: Path, cloud: str | None, source: Source | None, 
             f"{scene.colour[0]}."
         )
         body = image(drawn[0], drawn[1], caption)
-    except InputError as error:
+    except (InputError, OutOfMemory) as error:
         body = f"<p>No picture: {html.escape(str(error))}</p>"
     if live.exists():
         body += f'<p><a href="{_link(live, target)}">The same, to turn, play and ask</a> (foamprb view).</p>'

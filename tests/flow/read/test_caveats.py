@@ -141,6 +141,21 @@ def test_fluid_that_is_lost_is_counted_by_phi(case):
     assert "does not conserve mass: 2 kg/s enter and 3 kg/s leave (from phi)" in found
 
 
+def test_phases_are_one_fluid_to_particles(case):
+    boundary = 'boundaryField { ".*" { type zeroGradient; } }'
+    put(case / "1e1/alpha.water", f"dimensions []; internalField uniform 1; {boundary}", "volScalarField")
+    assert caveats(case) == []
+    values = scalars([0, 1] * 4)
+    put(case / "1e1/alpha.water", f"dimensions []; internalField {values}; {boundary}", "volScalarField")
+    (found,) = caveats(case)
+    assert "several phases (alpha.water)" in found
+
+
+def test_round_off_in_a_closed_domain_is_no_loss(case):
+    fluxes(case, -1e-17, 2e-17)
+    assert caveats(case) == []
+
+
 def test_fluid_that_is_lost_is_counted_by_the_velocity(case):
     """Without phi, or with one that is no flux."""
     velocity = case / "1e1/U"

@@ -68,6 +68,23 @@ def test_velocities_are_relative_in_the_zone(case):
     assert "absolute velocity" in warning
 
 
+def test_second_derivatives_are_the_same_in_all_frames(case):
+    """As Faxén's correction asks for them."""
+    folder, _, _ = case
+    random = np.random.default_rng(3)
+    absolute, rotating = read_flow(folder), read_flow(folder, source=RELATIVE)
+    u, l = random.standard_normal((2, len(absolute.arrays().nodes), 3, 3))
+    zones = rotating.rotating
+    seen, plain = RotatingFlow(zones, absolute.mesh, u[:, 0], l), MeshFlow(absolute.mesh, u[:, 0], l)
+    for x in ((0.4, 0.6, 0.2), (0.4, 0.6, 0.8)):
+        host = int(plain.locate(np.array([x]))[0])
+        found = seen.kernels["curvature"](seen.arrays(), host, x, 0.0)
+        assert np.array(found) == pytest.approx(
+            np.array(plain.kernels["curvature"](plain.arrays(), host, x, 0.0))
+        )
+        assert np.abs(found).max() > 0.1
+
+
 @pytest.mark.parametrize("still", ["", "sides"])
 def test_walls_of_the_zone_turn_with_it_unless_named(case, still):
     """Whatever stands in U."""

@@ -7,6 +7,13 @@ const title = (spec) => {
   return { text: spec.label, unit: scale.unit ? pretty(scale.unit) : "", factor: scale.factor };
 };
 
+// What is written at a tick: at an end beyond which there are values, that it stands for them, too.
+export function tickText(spec, value, factor) {
+  const slack = 1e-5 * (spec.high - spec.low);
+  const below = value === spec.low && spec.least < spec.low - slack, above = value === spec.high && spec.most > spec.high + slack;
+  return `${below ? "≤ " : above ? "≥ " : ""}${number(value / factor, 3)}`;
+}
+
 export function showLegend(parent, spec) {
   const box = document.createElement("div");
   box.className = "legend";
@@ -40,7 +47,7 @@ export function showLegend(parent, spec) {
     scale.className = "ticks";
     for (const value of ticks(spec.low, spec.high)) {
       const tick = document.createElement("span");
-      tick.textContent = number(value / factor, 3);
+      tick.textContent = tickText(spec, value, factor);
       tick.style.left = `${(100 * (value - spec.low)) / (spec.high - spec.low || 1)}%`;
       scale.append(tick);
     }
@@ -74,7 +81,7 @@ export function paintLegends(context, specs, style, s, height) {
       for (const value of ticks(spec.low, spec.high)) {
         const share = (value - spec.low) / (spec.high - spec.low || 1);
         context.textAlign = share === 0 ? "left" : share === 1 ? "right" : "center";
-        context.fillText(number(value / factor, 3), left + 280 * s * share, bottom);
+        context.fillText(tickText(spec, value, factor), left + 280 * s * share, bottom);
       }
       context.textAlign = "left";
       const bar = new OffscreenCanvas(256, 1);

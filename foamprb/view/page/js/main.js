@@ -345,7 +345,7 @@ function setColour(name, part, range = null) {
     legends[0] = { label: capital(codes.label), names: codes.meanings.map((word, k) => [k, word]).filter(([k, word]) => present[k] && word) };
     showLegends();
   } else {
-    setRange(...(range ?? data.fields[name].ranges[part]), false);
+    setRange(...(range ?? data.fields[name].ranges[part].usual), false);
     const symmetric = state.low === -state.high;
     setMap(symmetric && data.scene.maps.coolwarm ? "coolwarm" : "viridis");
   }
@@ -360,7 +360,8 @@ function setRange(low, high, redraw = true) {
   const field = data.fields[state.name];
   const unit = field.unit ? ` (${pretty(field.unit)})` : "";
   $("range-word").textContent = `Range${unit}`;
-  legends[0] = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, table: textures[state.map]?.bytes };
+  const [least, most] = field.ranges[state.part].extremes;
+  legends[0] = { label: capital(nameOf(field, state.part)), unit: field.unit, low, high, least, most, table: textures[state.map]?.bytes };
   if (redraw) { showLegends(); show(state.t); }
 }
 
@@ -687,7 +688,7 @@ function listen() {
   on("speed", "change", () => { state.speed = Number($("speed").value); });
   on("colour", "change", () => setColour(...$("colour").value.split(":")));
   for (const id of ["range-low", "range-high"]) on(id, "change", () => setRange(readNumber("range-low", state.low), readNumber("range-high", state.high)));
-  on("range-all", "click", () => setRange(...data.fields[state.name].ranges[state.part]));
+  on("range-all", "click", () => setRange(...data.fields[state.name].ranges[state.part].whole));
   on("range-now", "click", () => {
     let low = Infinity, high = -Infinity;
     for (let i = 0; i < data.n; i++) {
