@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
+from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -21,6 +22,7 @@ from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
+from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.patches import REBOUND, Rebound
@@ -165,8 +167,7 @@ def prepare(
 def _precompile(settings: Settings, rotating: bool) -> Precompiler:
     """Begin to compile the loop that the settings will want, as far as they tell."""
     scheme = settings.solution.shape
-    # Most particles are small.
-    models = _models(settings, "stokes" if scheme == "auto" else scheme, rotating)
+    models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
     # From which patches they bounce off is not known before these are read.
     bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
     seen = any(isinstance(function, SeesRebounds) for function in settings.functions.values())
@@ -181,6 +182,24 @@ def _precompile(settings: Settings, rotating: bool) -> Precompiler:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
         tracker.compile_stages()
     return precompiler
+
+
+def likely_integrator(settings: Settings) -> str:
+    """What ``auto`` will choose, as far as can be told before the flow is read.
+
+    The shear rate is the reference, else such that Δt is a tenth of its inverse, as users choose it.
+    """
+    numbers = [0.0]
+    for injection in settings.injections:
+        if injection.size is not None:
+            rho, d = _most(injection.rho), injection.size.limits[1]
+            rate = injection.solid.reference_shear_rate or 0.1 / settings.solution.deltaT
+            numbers.append(rate * float(relaxation_time(rho, 0.5 * d, settings.fluid.mu)))
+    return automatic(max(numbers))
+
+
+def _most(quantity: float | Distribution) -> float:
+    return quantity if isinstance(quantity, float | int) else quantity.limits[1]
 
 
 def _medium(settings: Settings) -> Medium:

@@ -19,7 +19,8 @@ from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.output.pvd import read_pvd
-from foamprb.run.job import prepare
+from foamprb.run.job import likely_integrator, prepare
+from foamprb.settings.reading import read_settings
 
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"
 D = 5e-6
@@ -281,6 +282,22 @@ def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     monkeypatch.setattr("foamprb.compile.link._parts", {})
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     assert "ompiling" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("rho", "nu", "expected"), [(1.208, 1.491e-5, "rosenbrock"), (1000.0, 1e-6, "stokes")]
+)
+@pytest.mark.parametrize("solid", ["Ca 0.5; referenceShearRate 923.8", "shearModulus 0.033"])
+def test_what_auto_will_choose_is_known_before_the_flow_is_read(rho, nu, expected, solid, case):
+    """In air and in water: else a process compiles a loop that nobody wants."""
+    edit(case, r"shape\s+paper;", "shape auto;")
+    edit(case, r"rhoInf\s+\S+;", f"rhoInf {rho};")
+    edit(case, r"nu\s+.*;", f"nu [0 2 -1 0 0 0 0] {nu};", "constant/transportProperties")
+    if solid.startswith("shear"):
+        edit(case, r"solid \{ Ca \S+; \}", "")
+        edit(case, r"Ca\s+0.5;.*\n\s+referenceShearRate\s+\S+;", f"{solid};")
+    assert likely_integrator(read_settings(case)) == expected
+    assert prepare(case).cloud.models.integrator == expected
 
 
 def test_a_cloud_function_that_cannot_work_stops_a_dry_run(case, capsys):
