@@ -98,7 +98,7 @@ TARGETS = (
         "share of a run's time in which it waits for output", _got("share of the wall time", "output"), 0.1
     ),
     Target("`foamprb -help`, s", _got("start", "-help"), 0.4),
-    Target("compilation in the first run, s of CPU: it less a later one", _compiled, 10),
+    Target("compilation in the first run, s on the wall: it less a later one", _compiled, 10),
     Target("first run says that it compiles", _got("first run says so"), 1, least=True),
     Target(
         "water: CPU of `paper` over `stokes` at equal error",
