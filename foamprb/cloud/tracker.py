@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -17,7 +16,6 @@ from foamprb.body.error_control import strain_in_frame
 from foamprb.body.material import MATERIALS, finger, finger_in_frame
 from foamprb.body.rosenbrock import kirchhoff
 from foamprb.body.surface_tension import laplace_stress
-from foamprb.body.tensor import longest_stretch
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, new_scratch
@@ -297,18 +295,14 @@ def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """
     effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
     key = (p.status[rows].astype(np.int64) << 48) + (effort.astype(np.int64) << 33) + p.host[rows]
-    for first in range(0, len(rows), _AT_ONCE):
-        part = slice(first, first + _AT_ONCE)
-        # Of a body in shear, whose middle axis is about as long as at rest.
-        elongated = longest_stretch(tuple(p.F[rows[part]].T)) > math.sqrt(COMPACT)
-        key[part] += elongated.astype(np.int64) << 32
+    # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
+    elongated = np.einsum("ni,ni->n", p.F, p.F) > COMPACT + 1.0 + 1.0 / COMPACT
+    key += elongated[rows].astype(np.int64) << 32
     return rows[np.argsort(key, kind="stable")]
 
 
 _PATIENCE = 0.1
 """Seconds after which it is asked whether to stop."""
-_AT_ONCE = 1 << 16
-"""Particles whose shapes are looked at at a time."""
 _SHARES = 8
 """Of the particles, for each of several threads."""
 _ROOM, _MORE_ROOM = 1000, 4

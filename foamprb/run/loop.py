@@ -186,7 +186,7 @@ _FIRST_CALL = 1 / 800
 """Share of the most that an executor takes in a call: some tenths of a second."""
 _CALL, _PROMPT = 2.0, 0.25
 """Seconds that a call should take, where a stop ends it and where it does not."""
-_FEW, _LONG = 16, 30.0
+_FEW, _LONG = 100, 30.0
 """Steps that a call has anyway where a stop ends it, unless they take longer than so many seconds."""
 _SLOWER, _FASTER = 0.1, 4.0
 
