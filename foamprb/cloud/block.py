@@ -109,7 +109,7 @@ class Medium(NamedTuple):
     """Coefficients of the models of the surroundings, likewise."""
 
 
-WIDTH = 21
+REBOUND_NUMBERS = 21
 """Numbers that are noted of a rebound (:func:`foamprb.cloud.rebounds.note`)."""
 
 
@@ -136,10 +136,10 @@ class Scratch(NamedTuple):
     number: Any
     """LANES whole numbers: which of the whole cloud each particle is."""
     outgrown: Any
-    """A whole number: not zero once a body may touch walls that are not listed, or bounces is full."""
-    bounces: Any
-    """Room for the rebounds of this loop's particles, (n, :data:`WIDTH`)."""
-    bounced: Any
+    """A whole number: not zero once a wall may not be listed, or a rebound has no room."""
+    rebounds: Any
+    """Room for the rebounds of this loop's particles, (n, :data:`REBOUND_NUMBERS`)."""
+    noted: Any
     """Two whole numbers: how many are there, and how many of them of blocks that are done."""
     bounds: Bounds
     """What no particle may pass."""
@@ -165,7 +165,7 @@ def new_scratch(
     return Scratch(
         np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)),
         nothing[0] if stop is None else stop, f, nothing[1],
-        np.empty((room, WIDTH)), np.zeros(2, dtype=np.int64), bounds,
+        np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
     )  # fmt: skip
 
 

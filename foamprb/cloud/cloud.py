@@ -199,7 +199,7 @@ class Cloud:
                 self._extend_reach()
             elif outcome.finished:
                 self.step += ready
-            elif not outcome.crowded:
+            elif not outcome.crowded or stop():
                 return
 
     @property

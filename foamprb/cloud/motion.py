@@ -108,7 +108,7 @@ def interrupted(s: Scratch) -> bool:
 
 def end_block(s: Scratch) -> None:
     """Let the rebounds of a block count, of which the particles are saved; those that are interrupted end."""
-    s.bounced[1] = s.bounced[0]
+    s.noted[1] = s.noted[0]
 
 
 def end_tracking_step(s: Scratch, i: int) -> None:

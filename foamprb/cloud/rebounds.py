@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
-from foamprb.cloud.block import WIDTH, Scratch, at, load3, load9
+from foamprb.cloud.block import REBOUND_NUMBERS, Scratch, at, load3, load9
 
 __all__ = ["CROWDED", "Rebounds", "in_order", "note", "rebounds_of"]
 
@@ -46,12 +46,12 @@ def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None
     n
         The wall's unit normal into the fluid.
     """
-    k = s.bounced[0]
-    if k >= s.bounces.shape[0]:
+    k = s.noted[0]
+    if k >= s.rebounds.shape[0]:
         s.outgrown[0] = CROWDED
         return
-    s.bounced[0] = k + 1
-    b, v, F = s.bounces, load3(s.block, at.v, i), load9(s.block, at.F, i)
+    s.noted[0] = k + 1
+    b, v, F = s.rebounds, load3(s.block, at.v, i), load9(s.block, at.F, i)
     b[k, 0], b[k, 1], b[k, 2] = s.number[i], patch, t
     b[k, 3], b[k, 4], b[k, 5] = x[0], x[1], x[2]
     b[k, 6], b[k, 7], b[k, 8] = v[0], v[1], v[2]
@@ -63,8 +63,8 @@ def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None
 
 def in_order(rows: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
     """Rows of :func:`note`, (n, 21), in the order of their times; of the same time, in the particles'."""
-    bounces = np.concatenate([np.empty((0, WIDTH)), *rows])
-    return bounces[np.lexsort((bounces[:, 0], bounces[:, 2]))]
+    found = np.concatenate([np.empty((0, REBOUND_NUMBERS)), *rows])
+    return found[np.lexsort((found[:, 0], found[:, 2]))]
 
 
 def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:

@@ -257,8 +257,8 @@ class Tracker:
                 flow, self.table, self.medium, p, rows, first, shares,
                 *steps, self.dt, self.start, scratch, self.options,
             )  # fmt: skip
-            if scratch.bounced[1]:
-                self._rebounds.append(scratch.bounces[: scratch.bounced[1]].copy())
+            if scratch.noted[1]:
+                self._rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
             return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 

@@ -77,7 +77,7 @@ class Haemolysis:
 
     τ is the scalar stress of the fluid at the particle, μ_f γ̇, or that of the shear that would deform Arora's
     droplet as far as the particle is. The integral is a trapezoidal sum over the samples. Where the law says
-    more than 100 %, that is written.
+    more than 100 %, 100 is written.
     """
 
     constants: Annotated[

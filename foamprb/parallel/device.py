@@ -94,7 +94,7 @@ def track_each(
             cuda.local.array(2, np.int64),
             bounds,
         )
-        scratch.bounced[0] = scratch.bounced[1] = 0
+        scratch.noted[0] = scratch.noted[1] = 0
         scratch.stop[0] = scratch.outgrown[0] = 0
         # Not a slice of rows: that this has one element the compiler must see.
         members = cuda.local.array(1, np.int64)

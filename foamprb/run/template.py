@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foamprb.body.imex import relaxation_time
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.measures import shear_rate
 from foamprb.dictionary.constraints import Vector3
@@ -219,7 +220,7 @@ def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
 
     ``ratio`` is how many times denser than the fluid a solid is whose inertia is to be small, too.
     """
-    largest = min(0.05, 0.5 * SMALL_STOKES * 60.0 / ratio) if ratio > 0.0 else 0.05
+    largest = min(0.05, 0.5 * SMALL_STOKES / relaxation_time(ratio, 0.5, 1.0)) if ratio > 0.0 else 0.05
     stokes = math.sqrt(largest * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
     return _nice(min(1e-5, 0.2 * scales.cell, stokes), up=False)
 

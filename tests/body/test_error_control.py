@@ -108,3 +108,10 @@ def test_what_is_accepted_has_an_error_below_the_tolerance():
     assert shares[0] == 1.0
     assert shares[1] > 0.3
     assert shares[3] < 0.2
+
+
+@given(tensors, st.integers(0, 8), st.sampled_from([-1.0, 1.0]))
+def test_the_longest_step_is_that_of_the_largest_component(l_f, place, sign):
+    most = 1.0 + max(map(abs, l_f))
+    l_f = (*l_f[:place], sign * most, *l_f[place + 1 :])
+    np.testing.assert_allclose(control.longest_step(l_f), control.LONGEST / most, rtol=1e-15)

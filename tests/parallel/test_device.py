@@ -97,6 +97,17 @@ class TestSimulated:
             whole, pieces = (on_device[f"{kind} {integrator}/{name}"] for kind in ("pipe_cloud", "pieces"))
             np.testing.assert_array_equal(pieces, whole, err_msg=name)
 
+    def test_rebounds_are_refused_and_not_lost(self, tmp_path):
+        case = small_case(tmp_path)
+        edit(case, r"type\s+stick;", "type rebound;")
+        hits = "hits { type patchPostProcessing; patches (wall); }"
+        edit(case, r"cloudFunctions\s*\{\}", f"cloudFunctions {{ {hits} }}")
+        words = ("-m", "foamprb", "run", "-case", str(case), "-device", "cuda")
+        done = run_python(*words, NUMBA_ENABLE_CUDASIM="1")
+        assert done.returncode == 1
+        assert done.stderr.startswith("--> foamprb Error : -device cuda: patchPostProcessing of patches that")
+        assert len(done.stderr.splitlines()) == 1
+
     def test_particles_here_know_nothing_of_steps_begun_ahead(self, on_device):
         assert on_device["early paper/t"][0] == pytest.approx(3 * 4e-5)
 

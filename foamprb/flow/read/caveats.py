@@ -160,7 +160,7 @@ def _compressible(folder: Path, case: Path) -> Iterator[Caveat]:
 
 
 def _phases(folder: Path) -> Iterator[Caveat]:
-    paths = sorted(path for path in folder.glob("alpha.*") if path.is_file())
+    paths = sorted(path for path in folder.glob("alpha.*") if path.is_file() and ".orig" not in path.name)
     names = [path.name.removesuffix(".gz") for path in paths if _VARIES.search(read_bytes(path, _HEAD))]
     if names:
         yield Caveat(

@@ -1,0 +1,50 @@
+"""Blocks of particles: who shares one, and what all lanes of one go through."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from foamprb.body.ellipsoid import COMPACT, integrals
+from foamprb.cloud.block import ROWS, at, idle_lanes, load_integrals, new_integrals, new_scratch, store3
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.state import Status, spheres
+from foamprb.cloud.tracker import in_blocks
+from foamprb.compile.link import link
+
+LONG, ROUND = (2.5, 1.0, 0.4), (1.3, 1.0, 1.0 / 1.3)
+
+
+@pytest.mark.parametrize("elongated", [0, 1, LANES - 1, LANES])
+def test_every_lane_has_the_integrals_of_its_own_shape(elongated):
+    """Whichever of the two ways to them a block goes, or both."""
+    block = new_scratch(ROWS).block
+    idle_lanes(block, 1.0)
+    shapes = [LONG if i < elongated else ROUND for i in range(LANES)]
+    for i, stretches in enumerate(shapes):
+        store3(block, at.stretch, i, stretches)
+    link(new_integrals)(block)
+    for i, stretches in enumerate(shapes):
+        found, expected = load_integrals(block, i), integrals(stretches)
+        for name in ("alpha", "ring", "star", "chi"):
+            np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-13)
+
+
+def test_those_that_cost_alike_share_blocks():
+    """Of each kind only what is left over shares a block with others; within, neighbours are side by side."""
+    random, n = np.random.default_rng(4), 40 * LANES
+    p = spheres(np.zeros((n, 3)), d=1e-6, rho=1.0, mu=1.0)
+    p.status[:] = Status.ACTIVE
+    p.host[:] = random.integers(0, 2**31 - 1, n)
+    p.substeps[:] = random.choice([1.0, 2.0, 64.0], n)
+    long = random.random(n) < 0.5
+    turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    for shape, chosen in ((LONG, long), (ROUND, ~long)):
+        p.F[chosen] = (np.diag(shape) @ turn).ravel()
+    assert LONG[0] / LONG[2] > COMPACT > ROUND[0] / ROUND[2]
+    order = in_blocks(p, np.arange(n))
+    np.testing.assert_array_equal(np.sort(order), np.arange(n))
+    kinds = (p.substeps[order] * 2 + long[order]).reshape(-1, LANES)
+    assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 5
+    flat, hosts = kinds.ravel(), p.host[order]
+    assert (np.diff(hosts)[flat[1:] == flat[:-1]] >= 0).all()
