@@ -17,6 +17,12 @@ def test_a_linear_flow_is_its_gradient_times_the_place():
     np.testing.assert_array_equal(gradient, np.broadcast_to(l, (3, 3, 3)))
 
 
+def test_a_flow_without_a_mesh_has_nothing_at_nodes():
+    flow = analytic.pipe(0.5, 1.0, 2.0)
+    time, u, l = flow.at_nodes()
+    assert (time, u.shape, l.shape, flow.turbulence_at_nodes().shape) == ("", (0, 3), (0, 9), (0, 8))
+
+
 def test_between_walls_flows_a_parabola_and_above_one_a_shear():
     z, h, U = np.array([0.0, 0.01, 0.15, 0.2]), 0.2, 3.0
     x = np.stack([1.0 + z, 2.0 - z, z], axis=1)
