@@ -4,16 +4,17 @@ from functools import cache
 
 import numpy as np
 import pytest
+import pyvista
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mesh_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches
+from mesh_shapes import KINDS, block, box_patches, corners, grid, interfaces, pipe, pipe_patches, rings
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.locator import build_tree, cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.walk import FAILED, REACHED, normal, recover, walk
+from foamprb.flow.walk import FAILED, REACHED, cross, normal, recover, walk
 from foamprb.flow.wall_lists import near_walls, wall_tree
 from foamprb.flow.walls import gap
 
@@ -47,6 +48,10 @@ def cleared(flow, x, F, R, reach):
         flow.arrays(reach), flow.locate(x), x, np.asarray(F, dtype=float).reshape(-1, 9), R, gaps, triangles
     )
     return gaps, triangles
+
+
+def at_rest(mesh):
+    return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
 
 
 def linear(mesh):
@@ -133,6 +138,42 @@ def test_walls_are_met_where_the_straight_line_crosses_them(kind, random):
 
 
 @pytest.mark.parametrize("perturbation", [0.0, 0.25])
+def crossed(flow, triangles, x, hosts, y):
+    for i in range(x.shape[0]):
+        hosts[i], place, _ = cross(flow, triangles[i], (x[i, 0], x[i, 1], x[i, 2]))
+        y[i, 0], y[i, 1], y[i, 2] = place[0], place[1], place[2]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "apart"),
+    [(rings(), 1.0 - np.cos(np.pi / 24)), (interfaces(0.0)[0], 0.0), (interfaces(40.0, (4, 5))[0], 0.0)],
+    ids=["rings", "row", "bend"],
+)
+def test_across_an_interface_the_nearest_place_of_the_other_side_is_next(mesh, apart, random):
+    """The two sides may be cut differently, and lie apart by what is between their chords."""
+    flow = at_rest(mesh)
+    coupled = [c.patch for c in mesh.couplings]
+    triangles = np.repeat(np.flatnonzero(np.isin(mesh.triangle_patch, coupled)), 5).astype(np.int32)
+    share = random.dirichlet((1.0, 1.0, 1.0), len(triangles))
+    x = np.einsum("nk,nki->ni", share, mesh.points[mesh.triangles[triangles]])
+    hosts, y = np.empty(len(x), dtype=np.int32), np.empty((len(x), 3))
+    link(crossed)(flow.arrays(), triangles, x, hosts, y)
+    assert np.all(weights(flow, hosts, y) > -1e-9)
+    for c in mesh.couplings:
+        here = mesh.triangle_patch[triangles] == c.patch
+        there = mesh.triangles[mesh.triangle_patch == c.other]
+        surface = pyvista.PolyData.from_regular_faces(mesh.points, there)
+        images = x[here] @ c.turn.T + c.shift
+        _, nearest = surface.find_closest_cell(images, return_closest_point=True)
+        off, least = (np.linalg.norm(z - images, axis=1) for z in (y[here], nearest))
+        # An image that a tetrahedron over there holds stays where it is.
+        inside = weights(flow, hosts[here], images).min(axis=1) > -1e-9
+        assert off[inside] == pytest.approx(0.0, abs=1e-9)
+        assert off[~inside] == pytest.approx(least[~inside], abs=1e-9)
+        assert least.max() <= apart + 1e-9
+        assert inside.any()
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_walks_from_vertex_to_vertex(kind, perturbation, random):
     """Along edges and faces, and through vertices: every choice of the way is a tie."""
