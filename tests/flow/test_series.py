@@ -105,6 +105,27 @@ def test_what_is_linear_in_time_is_met_exactly(mesh, random):
         np.testing.assert_allclose(sampled[2], slope, rtol=1e-12)
 
 
+def test_turbulence_that_is_linear_in_place_and_time_is_met_exactly(mesh, random):
+    """k, ε and their gradients, eight numbers that have nothing to do with each other."""
+    times, n = [0.0, 0.3, 1.0], mesh.n_points + mesh.n_cells
+    base, slope, growth = random.random(8), random.standard_normal((3, 8)), random.standard_normal(8)
+
+    def exact(x, t):
+        return base + x @ slope + t * growth
+
+    still = np.zeros((n, 3)), np.zeros((n, 3, 3))
+    flow = SeriesFlow(mesh, times, lambda i: (*still, exact(mesh.nodes, times[i])), turbulent=True)
+    steady = MeshFlow(mesh, *still, turbulence=exact(mesh.nodes, 0.4))
+    np.testing.assert_array_equal(flow.turbulence_at_nodes(), exact(mesh.nodes, 0.0))
+    flow.load(0.0, 1.0)
+    for t in (0.0, 0.1, 0.3, 0.4, 1.0):
+        for x in random.random((20, 3)):
+            host = flow.locate(x[None])[0]
+            for known in (flow, steady) if t == 0.4 else (flow,):
+                found = known.kernels["turbulence"](known.arrays(), host, tuple(x), t)
+                np.testing.assert_allclose(np.hstack(found), exact(x, t), rtol=0, atol=1e-13)
+
+
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_particles_go_through_files_as_through_the_flow_itself(mesh, integrator):
     steps = 400 if integrator == "paper" else 40
