@@ -11,7 +11,7 @@ from foamprb.compile.link import link
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among
-from foamprb.flow.wall_lists import EDGE, SURE, edges_out
+from foamprb.flow.wall_lists import EDGE, SURE, edges_out, wall_tree
 from foamprb.flow.walls import gap, nearest_wall
 
 
@@ -58,6 +58,30 @@ def places(flow, n=400):
 
 def solid(flow):
     return [index for index, patch in enumerate(flow.patches) if patch.type == "wall"]
+
+
+def test_every_branch_of_the_tree_knows_the_triangles_below_it(flow):
+    """Their boxes, the cone in which their normals are, and whether they have an edge that counts."""
+    mesh = flow.mesh
+    walls = np.flatnonzero(np.isin(mesh.triangle_patch, solid(flow)))
+    corners, normals = mesh.points[mesh.triangles[walls]], mesh.triangle_normals[walls]
+    tree = wall_tree(corners, normals, np.ones(len(walls), dtype=bool))
+    n = len(tree.leaves)
+    below = {n + k: leaf[leaf >= 0] for k, leaf in enumerate(tree.leaves)}
+    for node in range(n - 1, 0, -1):
+        below[node] = np.concatenate([below[2 * node], below[2 * node + 1]])
+    assert np.array_equal(np.sort(below[1]), np.arange(len(walls)))
+    for node, names in below.items():
+        if len(names):
+            points = corners[names].reshape(-1, 3)
+            ends = np.concatenate([points.min(axis=0), points.max(axis=0)])
+            np.testing.assert_array_equal(tree.boxes[node], ends)
+            axis, angle, edge = tree.cones[node, :3], tree.cones[node, 3], tree.cones[node, 4]
+            assert np.linalg.norm(axis) == pytest.approx(1.0, abs=1e-12)
+            widest = np.arccos(np.clip(normals[names] @ axis, -1.0, 1.0)).max()
+            # Of a leaf no wider than need be.
+            assert widest - 1e-7 <= angle <= (widest + 1e-7 if node >= n else np.pi)
+            assert edge == tree.edges[names].any()
 
 
 @pytest.mark.parametrize("cut", [0.1, 0.4])
