@@ -137,7 +137,6 @@ def test_walls_are_met_where_the_straight_line_crosses_them(kind, random):
     assert np.array_equal(names == "floor", hits[:, 2] < 1e-9)
 
 
-@pytest.mark.parametrize("perturbation", [0.0, 0.25])
 def crossed(flow, triangles, x, hosts, y):
     for i in range(x.shape[0]):
         hosts[i], place, _ = cross(flow, triangles[i], (x[i, 0], x[i, 1], x[i, 2]))
@@ -174,6 +173,7 @@ def test_across_an_interface_the_nearest_place_of_the_other_side_is_next(mesh, a
         assert inside.any()
 
 
+@pytest.mark.parametrize("perturbation", [0.0, 0.25])
 @pytest.mark.parametrize("kind", KINDS)
 def test_walks_from_vertex_to_vertex(kind, perturbation, random):
     """Along edges and faces, and through vertices: every choice of the way is a tie."""
