@@ -105,7 +105,8 @@ def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
     """The tetrahedron itself or, if it is flat, the one nearby that comes nearest to holding x.
 
     A place in a flat tetrahedron is as near to one beside it as that is thin. It is sought in the cell, in
-    those that share faces with it, and in those that share faces with these.
+    those that share faces with it, and in those that share faces with these; behind a pile of flat cells, by
+    the tree.
     """
     if not is_flat(flow, tet):
         return tet
@@ -120,6 +121,34 @@ def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
             for other in range(start[beside], start[beside + 1]):
                 if neighbours[other, 0] >= 0:
                     best, depth = _deepest(flow, _cell(flow, neighbours[other, 0]), x, best, depth)
+    if depth < -TOLERANCE:
+        best = _deepest_of_all(flow, x, best, depth)
+    return best
+
+
+def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int:
+    """As :func:`_deepest`, of all cells that may hold x; only the tetrahedron."""
+    boxes, cells = flow.tree_boxes, flow.tree_cells
+    leaves = cells.shape[0]
+    node = 1
+    while node > 0:
+        inside = (
+            boxes[node, 0] <= x[0] <= boxes[node, 3]
+            and boxes[node, 1] <= x[1] <= boxes[node, 4]
+            and boxes[node, 2] <= x[2] <= boxes[node, 5]
+        )
+        if inside and node < leaves:
+            node = 2 * node
+            continue
+        if inside:
+            for k in range(cells.shape[1]):
+                if cells[node - leaves, k] >= 0:
+                    best, depth = _deepest(flow, cells[node - leaves, k], x, best, depth)
+        # As in foamprb.flow.mesh.locator.seek.
+        while node & 1:
+            node >>= 1
+        if node > 0:
+            node += 1
     return best
 
 
