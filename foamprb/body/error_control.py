@@ -8,12 +8,13 @@ attitude is held to the same number in radians.
 The pair of order 3(2) of :mod:`foamprb.body.exponential_runge_kutta` has two estimates. With δ₁ the part that
 the slope of N has of the solution of order 2, and δ_f that of the fluid's gradient,
 
-    δ₁ + δ_f/32 ≤ tolerance
+    θ δ₁ + δ_f/32 ≤ tolerance
 
-says that the solution of order 2 will do, and two evaluations are enough; its error is smaller by one
-order in h. Else the third is made, and δ₂, the difference of the two solutions, is the error of order 2.
-That of the solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), so that a step is
-accepted for
+says that the solution of order 2 will do, and two evaluations are enough. Its error is 5/48 h³ N'' where δ₁
+is ½ h² N', that is 0.21 h N''/N' δ₁. N changes at the rate ρ at which the elastic stress relaxes, or at
+that of the fluid's gradient, and θ = ½ min(1, h (ρ + max |∂u_i/∂x_j|)) is more than twice as much. Else the
+third evaluation is made, and δ₂, the difference of the two solutions, is the error of order 2. That of the
+solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), so that a step is accepted for
 
     δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
 """
@@ -30,6 +31,8 @@ LEAST_STRAIN = 1e-6
 """Smaller elastic strains count as this."""
 FLUID_SHARE = 1.0 / 32.0
 """Share of δ_f that counts: what is not linear in time of the fluid's gradient is not sampled for order 2."""
+SECOND_SHARE = 0.5
+"""θ of a step in which N has all the time to change."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
 LONGEST = 0.5
@@ -78,6 +81,21 @@ def relative_size(Omega: Tensor, b_e: Tensor, strain: Scalar) -> Scalar:
         :func:`strain_scale` of the step.
     """
     return np.maximum(largest(Omega), largest(strain_by(Omega, b_e)) / strain)
+
+
+def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
+    """θ, at most what the error of the solution of order 2 is of the part that the slope of N has in it.
+
+    Parameters
+    ----------
+    h
+        The step, s.
+    rho
+        Rate at which the elastic stress relaxes, 1/s.
+    l_f
+        Velocity gradient of the fluid, 1/s.
+    """
+    return SECOND_SHARE * np.minimum(1.0, h * (rho + largest(l_f)))
 
 
 def longest_step(l_f: Tensor) -> Scalar:

@@ -16,9 +16,9 @@ A step goes as follows; tensors are components in the particle frame of its star
 
 1. l_s, J and the known rates of change at 0 give Ω(¼), :func:`first_argument`.
 2. g there gives the :func:`slope` of N, and :func:`second_order` the solution of order 2. That is enough
-   where the part that the slope has in it is below the tolerance: its error is less than that.
+   where its error, a share of the part that the slope has in it, is below the tolerance.
 3. Else Ω(1) is :func:`last_argument`. g there gives :func:`third_order`. The difference of the two solutions
-   is the error of the first (:mod:`foamprb.body.error_control`).
+   is the error of the first. Both errors: :mod:`foamprb.body.error_control`.
 """
 
 from __future__ import annotations

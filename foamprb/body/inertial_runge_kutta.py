@@ -273,11 +273,18 @@ def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step:
 
 
 def second_order(
-    n: Stiffness, whole: Resolvent, h: Scalar, rate: Pair, change: Tensor, slope: Pair, share: Scalar
+    n: Stiffness,
+    whole: Resolvent,
+    h: Scalar,
+    rate: Pair,
+    change: Tensor,
+    slope: Pair,
+    shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2, and the part of them by the slope and a share of the fluid's change."""
+    """Ω and change of l_s of order 2, and what shares of the slope and of the fluid's change have in them."""
     two = respond(n, whole, h, rate, (slope[0], add(slope[1], change)), NOTHING)
-    judged = (slope[0], add(slope[1], scale(share, change)))
+    p, q = shares
+    judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
     return two, respond(n, whole, h, NOTHING, judged, NOTHING)
 
 

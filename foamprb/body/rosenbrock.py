@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
@@ -246,3 +248,16 @@ def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
         q[2] * X[1] + q[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],
         p[6] * X[2] + p[7] * X[6], p[2] * X[5] + p[3] * X[7], d[2],
     )  # fmt: skip
+
+
+def relaxation_rate(n: Stiffness) -> Scalar:
+    """The fastest rate at which drag lets shear stresses relax where it outweighs inertia, 1/s."""
+    (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
+    first = _pair_rate(p[0], p[1], p[2], p[3], f[0], f[1])
+    second = _pair_rate(p[4], p[5], p[6], p[7], f[4], f[5])
+    return np.maximum(np.maximum(first, second), _pair_rate(q[0], q[1], q[2], q[3], k[0], k[1]))
+
+
+def _pair_rate(p: Scalar, q: Scalar, r: Scalar, s: Scalar, e: Scalar, f: Scalar) -> Scalar:
+    """The one eigenvalue but zero of T⁻¹E, T = (p, q; r, s) and E = (e, f; e, f)."""
+    return abs((e * (s - q) + f * (p - r)) / (p * s - q * r))

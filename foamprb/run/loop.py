@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time as clock
 from collections.abc import Callable
 
@@ -222,4 +223,6 @@ class _Pace:
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
         most = cloud.executor.at_once / work
         steps = min(most, self._steps or _FIRST_CALL * most)
-        return min(target - cloud.step, max(1, int(steps)))
+        rest = target - cloud.step
+        # Calls of like length: not a long one and the rest.
+        return max(1, min(int(most), math.ceil(rest / max(1, round(rest / max(1.0, steps))))))

@@ -110,6 +110,25 @@ def test_what_is_accepted_has_an_error_below_the_tolerance():
     assert shares[3] < 0.2
 
 
+@pytest.mark.parametrize(("h", "rho", "share"), [(0.01, 3.0, 0.04), (0.01, 0.0, 0.01), (0.5, 3.0, 1.0)])
+def test_the_error_is_the_smaller_a_share_of_the_slopes_part_the_less_its_time(h, rho, share):
+    found = control.share_of_slope(h, rho, (0.0, 0.3, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.7))
+    np.testing.assert_allclose(found, control.SECOND_SHARE * share, rtol=1e-12)
+
+
+def test_soft_bodies_in_steady_shear_need_two_evaluations():
+    """At γ̇h = 0.07, and then the error is below the tolerance still."""
+    n, tolerance = len(study.CA), 1e-4
+    flow, (bodies, F) = study.uniform(study.GRADIENTS["shear"]), study.unit_bodies(study.CA, "sphere")
+    x, t, h = study.spread(np.zeros(3), n), np.zeros(n), np.full(n, 0.07)
+    for _ in range(20):
+        F, t = study.pair_step(bodies, study.PLAIN, flow, t, x, F, h, 0.0).F, t + h
+    args = (bodies, study.PLAIN, flow, t, x, F, h)
+    step = study.pair_step(*args, tolerance)
+    assert (step.evaluations == 2).all()
+    assert (distance(bodies, step.F, study.exact_step(*args)) < tolerance).all()
+
+
 @given(tensors, st.integers(0, 8), st.sampled_from([-1.0, 1.0]))
 def test_the_longest_step_is_that_of_the_largest_component(l_f, place, sign):
     most = 1.0 + max(map(abs, l_f))

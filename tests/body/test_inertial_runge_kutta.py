@@ -66,6 +66,18 @@ def test_stiff_rate_is_that_of_elasticity(stretch, X, c):
     np.testing.assert_allclose(square(rate) * np.array(n.b), -c * stress, atol=1e-8)
 
 
+@given(mild_stretches, st.floats(0.1, 10.0), st.floats(0.0, 20.0))
+def test_where_drag_outweighs_inertia_shear_relaxes_at_its_rate(stretch, c, eta):
+    """The traction's and the elastic part of dl_s/dt balance: T Y + E X = 0, and X decays by −T⁻¹E."""
+    n, _ = stiffness(stretch, c, eta)
+    units = [flat(unit) for unit in np.eye(9)]
+    T = np.array([own.stiff_rate(n, (AT_REST, unit))[1] for unit in units]).T
+    E = np.array([own.stiff_rate(n, (unit, AT_REST))[1] for unit in units]).T
+    shear = np.ix_([1, 2, 3, 5, 6, 7], [1, 2, 3, 5, 6, 7])
+    rates = np.linalg.eigvals(np.linalg.solve(T[shear], E[shear]))
+    np.testing.assert_allclose(rosenbrock.relaxation_rate(n), abs(rates).max(), rtol=1e-8)
+
+
 @given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
 def test_response_is_that_function_of_the_stiffness(stretch, X, Y, h):
     n, _ = stiffness(stretch)

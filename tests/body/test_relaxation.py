@@ -10,7 +10,15 @@ from strategies import flat, mild_stretches, square, tensors
 
 from foamprb.body import rosenbrock, stokes
 from foamprb.body.ellipsoid import integrals
-from foamprb.body.relaxation import phi_functions, phi_of_twice, relaxation, relaxing, respond, responses
+from foamprb.body.relaxation import (
+    fastest,
+    phi_functions,
+    phi_of_twice,
+    relaxation,
+    relaxing,
+    respond,
+    responses,
+)
 
 MU, MU_F = 2.0, 0.7
 AT_REST = (0.0,) * 9
@@ -86,3 +94,10 @@ def test_a_body_with_two_equal_rates_is_no_exception():
         rate = 2.0 * MU / (3.0 * MU_F)
         expected = (1.0 - np.exp(-rate * 0.3)) / rate
         np.testing.assert_allclose((found[0], found[4], found[8]), (expected, -expected, 0.0), atol=1e-6)
+
+
+@given(mild_stretches, st.floats(0.0, 20.0), st.floats(0.0, 3.0))
+def test_the_fastest_rate_is_not_below_that_of_the_matrix(stretch, eta, tension):
+    *_, n = assemble(stretch, eta, tension)
+    most = abs(np.linalg.eigvals(matrix(n))).max()
+    assert most * (1.0 - 1e-9) <= fastest(n) <= 2.0 * most * (1.0 + 1e-9)

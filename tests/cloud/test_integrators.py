@@ -279,6 +279,41 @@ def test_rosenbrock_needs_no_steps_below_the_relaxation_time(Ca):
     np.testing.assert_allclose(cloud.particles.F[0], expected, atol=5e-3)
 
 
+@pytest.mark.parametrize("number", [0.055, 0.012])
+def test_what_inertia_did_at_a_sudden_start_is_soon_forgotten(number):
+    """From rest in shear, γ̇Δt = 0.073: no estimate sees how the first few τ_s are gone through.
+
+    After twenty steps the strain is right to half of the tolerance times their number.
+    """
+    Ca, dt, tolerance = [1e-3, 1e-2, 0.03, 0.1, 0.3, 0.5, 1.0, 2.0], 0.073, 1e-4
+    clouds = [in_flow(analytic.shear(1.0), Ca, dt, "rosenbrock", t, number) for t in (tolerance, 1e-8)]
+    for steps, limits in ((1, (0.4, *7 * (0.04,))), (9, (3e-3,) * 8), (10, (1e-3,) * 8)):
+        for cloud in clouds:
+            cloud.advance(steps)
+        errors = relative_errors(*(cloud.particles.F for cloud in clouds))
+        assert (errors < limits).all(), errors
+
+
+@pytest.mark.parametrize("gamma_h", [0.03, 0.073, 0.15])
+def test_the_error_of_every_step_is_about_below_the_tolerance(gamma_h):
+    """Of steps from right states, from rest on: below in 95 of 100, and nowhere twice as much."""
+    Ca, tolerance, parts = [1e-3, 1e-2, 0.03, 0.1, 0.3, 0.5, 1.0, 2.0], 1e-4, 64
+    # Steps of fixed size are of order 3 whatever their errors are.
+    exact = in_flow(analytic.shear(1.0), Ca, gamma_h / parts, "stokes")
+    errors = []
+    for _ in range(30):
+        cloud = in_flow(analytic.shear(1.0), Ca, gamma_h, "stokes", tolerance)
+        for name in ("F", "A", "v", "Q"):
+            getattr(cloud.particles, name)[:] = getattr(exact.particles, name)
+        cloud.particles.h[:] = gamma_h
+        exact.advance(parts)
+        cloud.advance(1)
+        found = relative_errors(cloud.particles.F, exact.particles.F)
+        errors.append(found / np.maximum(cloud.particles.substeps, 1.0))
+    assert np.max(errors) < 2 * tolerance
+    assert np.mean(np.array(errors) < tolerance) > 0.95
+
+
 def test_rosenbrock_and_the_papers_scheme_go_to_one_limit():
     found = {}
     for integrator, dt in (("paper", 2e-4), ("paper", 1e-4), ("rosenbrock", 1e-3)):

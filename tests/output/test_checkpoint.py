@@ -48,6 +48,33 @@ def test_round_trip_is_exact(tmp_path: Path) -> None:
         assert read.arrays[name].flags.writeable
 
 
+@pytest.mark.parametrize(
+    "array",
+    [
+        np.ones(4000),
+        np.full((4000, 9), np.nan),
+        np.tile(np.eye(3).ravel(), (4000, 1)),
+        np.tile(np.float32([0.1, -0.0]), (4000, 1)),
+        np.full(4000, -1, dtype=np.int32),
+        np.broadcast_to(np.zeros(3), (4000, 3)),
+    ],
+)
+def test_alike_rows_are_one_row_in_the_file(tmp_path: Path, array: np.ndarray) -> None:
+    write_checkpoint(tmp_path / "a", Checkpoint(0.0, {}, {"a": array}))
+    assert (tmp_path / "a").stat().st_size < 1000
+    read = read_checkpoint(tmp_path / "a").arrays["a"]
+    assert (read.dtype, read.shape, read.tobytes()) == (array.dtype, array.shape, array.tobytes())
+    assert read.flags.writeable
+
+
+@pytest.mark.parametrize("row", [0, 1, 999, 1000, 2500, 3999])
+def test_rows_that_differ_in_one_bit_are_all_in_the_file(tmp_path: Path, row: int) -> None:
+    array = np.zeros((4000, 3))
+    array[row, 2] = -0.0
+    write_checkpoint(tmp_path / "a", Checkpoint(0.0, {}, {"a": array}))
+    assert read_checkpoint(tmp_path / "a").arrays["a"].tobytes() == array.tobytes()
+
+
 @given(data=st.data())
 def test_every_changed_byte_and_every_cut_shows(
     whole: bytes, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject

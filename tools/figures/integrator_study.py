@@ -250,7 +250,7 @@ def pair_step(
     k = pair.slope(n, first, g, s.l, scale(pair.NODE, change), 1.0 / pair.NODE)
     two, by_fluid, own = pair.second_order(n, whole, h, s.l, change, k)
     strain = control.strain_scale(s.b_e, two)
-    size = control.relative_size(own, s.b_e, strain)
+    size = control.share_of_slope(h, relaxation.fastest(n), L0) * control.relative_size(own, s.b_e, strain)
     size = size + control.FLUID_SHARE * control.relative_size(by_fluid, s.b_e, strain)
     third = ~(size <= tolerance)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
+from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, share_of_slope, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
 from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
@@ -35,7 +35,7 @@ from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.material import viscous_stress
-from foamprb.body.rosenbrock import Stiffness, inertial_stiffness
+from foamprb.body.rosenbrock import Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -214,7 +214,8 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
         rates = _rates(block, i, medium, Q0, start[0])
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
-        two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, FLUID_SHARE)
+        share = share_of_slope(h, relaxation_rate(n), load9(block, during.start_l, i))
+        two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
         size = _size(judged, h, b_e, strain_scale(b_e, two[0]))
         store9(block, own.slope_Omega, i, k[0])
         store9(block, own.slope_l, i, k[1])

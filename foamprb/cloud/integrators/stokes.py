@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Annotated, Any, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.error_control import FLUID_SHARE, relative_size, strain_scale
+from foamprb.body.error_control import FLUID_SHARE, relative_size, share_of_slope, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
 from foamprb.body.exponential_runge_kutta import first_argument as quarter_argument
 from foamprb.body.exponential_runge_kutta import last_argument as end_argument
@@ -19,7 +19,7 @@ from foamprb.body.exponential_runge_kutta import slope as slope_of
 from foamprb.body.exponential_runge_kutta import third_order as of_third_order
 from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
-from foamprb.body.relaxation import Relaxation, Response, relaxation, relaxing, responses
+from foamprb.body.relaxation import Relaxation, Response, fastest, relaxation, relaxing, responses
 from foamprb.body.slip import balanced_slip
 from foamprb.body.stokes import Mobility, isochoric, mobility, velocity_gradient
 from foamprb.body.tensor import (
@@ -157,7 +157,9 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
         two, by_fluid, by_slope = of_second_order(n, whole, h, l_s, change, k)
         strain = strain_scale(b_e, two)
-        size = relative_size(by_slope, b_e, strain) + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
+        share = share_of_slope(h, fastest(n), load9(block, during.start_l, i))
+        size = share * relative_size(by_slope, b_e, strain)
+        size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
         third = select(size <= tolerance, 0.0, 1.0)
         block[during.third * LANES + i] = third
         store9(block, own.slope, i, k)

@@ -1,0 +1,35 @@
+"""How many steps a run takes at once."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from foamprb.cloud.state import Status
+from foamprb.run.loop import _Pace
+
+
+def calls(wanted: float, target: int, most: float = 1e9) -> list[int]:
+    """Lengths of the calls to a target."""
+    counts = {Status.PENDING: 1, Status.ACTIVE: 3}
+    cloud = SimpleNamespace(step=0, executor=SimpleNamespace(at_once=4 * most), counts=lambda: counts)
+    pace, found = _Pace(), []
+    pace._steps = wanted
+    while cloud.step < target:
+        found.append(pace._at_once(cast("Any", cloud), target))
+        cloud.step += found[-1]
+    return found
+
+
+@pytest.mark.parametrize(
+    ("wanted", "lengths"),
+    [(97.0, [100]), (103.0, [100]), (45.0, [50, 50]), (30.0, [34, 33, 33]), (1e6, [100]), (0.2, [1] * 100)],
+)
+def test_calls_to_a_write_time_are_alike(wanted: float, lengths: list[int]) -> None:
+    assert calls(wanted, 100) == lengths
+
+
+def test_no_call_is_longer_than_the_executor_takes() -> None:
+    assert calls(50.0, 100, most=40.0) == [40, 30, 30]
