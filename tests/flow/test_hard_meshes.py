@@ -9,6 +9,7 @@ import pytest
 from hard_meshes import FLUSH, HARD, N, cut, flow_in, from_hosts, seen, shaken, try_walks
 from mesh_shapes import block, grid
 
+from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.folds import FLAT, FOLDED, SOUND
 from foamprb.flow.walk import REACHED, walk
@@ -84,6 +85,25 @@ def test_what_leaves_through_a_pile_of_flat_cells_has_its_host_behind_all_of_the
         assert patch >= 0
         assert fraction == pytest.approx(0.5, abs=1e-12)
         assert from_hosts(flow, np.array([host]), np.array([rim])) < FLUSH
+
+
+def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_goal():
+    """In the fused products of a processor it met a face, which it lies in, beyond its goal."""
+    flow = flow_in(HARD["slivers"](582))
+    goal = np.array([[0.6875, 0.625, 0.3125]])
+    found = np.empty((1, 2), dtype=np.int32)
+    start = np.array([[0.125, 0.4375, 0.5]])
+    link(arrive)(flow.arrays(), flow.locate(start).astype(np.int32), start, goal, found)
+    assert found[0, 1] == REACHED
+    assert from_hosts(flow, found[:, 0], goal) < FLUSH
+
+
+def arrive(flow, hosts, start, end, found):
+    for i in range(start.shape[0]):
+        host, _, patch, _ = walk(
+            flow, hosts[i], (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
+        )
+        found[i, 0], found[i, 1] = host, patch
 
 
 def test_the_tree_finds_no_place_outside_in_a_fold(random):

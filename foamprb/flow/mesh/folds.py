@@ -45,6 +45,8 @@ _PULLS = 5
 _HEALED = 1e3
 # How near to a plane a place is in it, in the same units.
 _FLUSH = 1e-4
+# Smaller weights than this, negative, are no round-off.
+_ASTRAY = 1e-6
 _MOST_CROSSINGS = 1_000_000
 _REACHED, _FAILED, _NONE = -1, -2, -1
 
@@ -104,12 +106,27 @@ def is_flat(flow: MeshArrays, tet: int) -> bool:
 def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
     """The tetrahedron itself or, if it is flat, the one nearby that comes nearest to holding x.
 
-    A place in a flat tetrahedron is as near to one beside it as that is thin. It is sought in the cell, in
-    those that share faces with it, and in those that share faces with these; behind a pile of flat cells, by
-    the tree.
+    A place in a flat tetrahedron is as near to one beside it as that is thin.
     """
-    if not is_flat(flow, tet):
-        return tet
+    return _nearby(flow, tet, x) if is_flat(flow, tet) else tet
+
+
+def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
+    """As :func:`settle`, of where a thread passes x.
+
+    A line in the plane of a face meets it somewhere in it, so that the thread may seem to pass x a face too
+    early; then the tetrahedron does not hold it.
+    """
+    host = settle(flow, tet, x)
+    return host if _depth(flow, host, x) >= -_ASTRAY else _nearby(flow, host, x)
+
+
+def _nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
+    """The tetrahedron that comes nearest to holding x, flat ones excepted.
+
+    It is sought in the cell, in those that share faces with it, and in those that share faces with these;
+    behind a pile of flat cells, by the tree.
+    """
     cell, start, neighbours = _cell(flow, tet), flow.cell_start, flow.neighbours
     best, depth = _deepest(flow, cell, x, tet, -np.inf)
     for own in range(start[cell], start[cell + 1]):
@@ -232,11 +249,11 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
                 candidate = tet
             # Nothing comes back from a place that is covered once; and before the boundary all is inside.
             if candidate >= 0 and (not folded or t >= leaving):
-                return settle(flow, candidate, x1), 1.0, _REACHED, _NONE
+                return _arrived(flow, candidate, x1), 1.0, _REACHED, _NONE
             other = flow.neighbours[tet, face]
             if other < 0:
                 if t >= 1.0 - 1e-12:
-                    return settle(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
+                    return _arrived(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
                 if t < -room and _height(flow, -1 - other, x0) > flush:
                     return host, 0.0, _FAILED, _NONE
                 return _left_by(flow, -1 - other, x0, d, t, room)
