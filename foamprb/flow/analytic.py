@@ -477,6 +477,7 @@ def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow
         },
         patches,
         inside,
+        parameters.height,
     )
 
 

@@ -103,17 +103,17 @@ class Reconstruction:
         return u_nodes, l_nodes
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
-        """Reconstruct m scalars, none of them beyond the values around a node: so they stay positive.
+        """Reconstruct three scalars, none of them beyond the values around a node: so they stay positive.
 
         Parameters
         ----------
         cells, boundary
-            (n_cells, m) and (n_boundary, m).
+            (n_cells, 3) and (n_boundary, 3); :func:`mean_series` takes three at a time.
 
         Returns
         -------
         values, slopes
-            (n_nodes, m) and their gradients (n_nodes, m, 3), of least squares.
+            (n_nodes, 3) and their gradients (n_nodes, 3, 3), of least squares.
         """
         mesh, images, m = self.mesh, self._images, cells.shape[1]
         n, owner = mesh.n_cells, self._owner[self._valued]
@@ -137,7 +137,7 @@ class Reconstruction:
         return values, slopes
 
     def _means(self, values: Floats) -> Floats:
-        """Means (n_points, m) at the mesh points of values (n_sites, m) around, by the inverse distance."""
+        """Means (n_points, 3) at the mesh points of values (n_sites, 3) around, by the inverse distance."""
         m = values.shape[1]
         means = np.zeros((self.mesh.n_points, m))
         slopes, bends = np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6))

@@ -5,7 +5,15 @@ import pytest
 from hypothesis import given
 from strategies import flat, mild_stretches, rotations, square
 
-from foamprb.body.material import MATERIALS, invariants, lame_parameter, piola, stored_energy
+from foamprb.body.material import (
+    MATERIALS,
+    Parameter,
+    add_material,
+    invariants,
+    lame_parameter,
+    piola,
+    stored_energy,
+)
 
 MU, LAME = 3.0, 40.0
 
@@ -93,3 +101,46 @@ def test_lame_parameter():
     np.testing.assert_allclose(
         lame_parameter(MU, nu) + 2 / 3 * MU, 2 * MU * (1 + nu) / (3 * (1 - 2 * nu)), rtol=1e-14
     )
+
+
+def coupled_energy(I1, I2, J, mu, lame, k):
+    """Of which each derivative depends on all three invariants."""
+    x, y, z = I1 - 3.0, I2 - 3.0, J - 1.0
+    own = 0.1 * x * x + 0.2 * y * y + 0.3 * x * y + 0.4 * y * z + 0.5 * z * x
+    return 0.5 * mu * (x - 2.0 * np.log(J)) + mu * own + 0.5 * lame * z * z
+
+
+def coupled_derivatives(I1, I2, J, mu, lame, k):
+    """The derivative k is wrong by as little as 2 per mille of the shear modulus, but not at rest."""
+    x, y, z = I1 - 3.0, I2 - 3.0, J - 1.0
+    off = 0.005 * mu * x
+    return (
+        0.5 * mu + mu * (0.2 * x + 0.3 * y + 0.5 * z) + off * (k == 1.0),
+        mu * (0.4 * y + 0.3 * x + 0.4 * z) + off * (k == 2.0),
+        -mu / J + mu * (0.4 * y + 0.5 * x) + lame * z + off * (k == 3.0),
+    )
+
+
+def test_a_solid_whose_derivatives_are_those_of_its_energy_is_added():
+    try:
+        found = [
+            add_material(
+                "given", coupled_energy, coupled_derivatives, parameter=Parameter("wrong", 0.0, 0.0)
+            ),
+            add_material("taken", coupled_energy),
+        ]
+        for material in found:
+            w = material.derivatives(3.2, 3.1, 1.05, MU, LAME, 0.0)
+            expected = coupled_derivatives(3.2, 3.1, 1.05, MU, LAME, 0.0)
+            np.testing.assert_allclose(w, expected, rtol=1e-13)
+    finally:
+        for name in ("given", "taken"):
+            MATERIALS.pop(name, None)
+
+
+@pytest.mark.parametrize("wrong", [1, 2, 3])
+def test_a_solid_whose_derivatives_are_not_those_of_its_energy_is_refused(wrong):
+    parameter = Parameter("wrong", float(wrong), float(wrong))
+    with pytest.raises(ValueError, match=rf"at .*3\.3, 3\.2, 1\.02.* derivative {wrong} of its energy"):
+        add_material("given", coupled_energy, coupled_derivatives, parameter=parameter)
+    assert "given" not in MATERIALS

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from mesh_shapes import block, box_patches
 
 from foamprb import analytic
 from foamprb.body.drag import oberbeck
@@ -17,6 +18,8 @@ from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Reason, Status, spheres
 from foamprb.cloud.tracker import Models, Outcome
 from foamprb.flow.analytic import walk_free
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.series import SeriesFlow
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 WALL_RATE, RADIUS, D = 923.8, 2.1e-3, 5e-6
@@ -65,6 +68,27 @@ def scattered_cloud(n=70, **options):
 def assert_same(a: Particles, b: Particles):
     for name, x, y in zip(Particles._fields, a, b, strict=True):
         np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+@pytest.mark.parametrize("calls", [(20,), (3, 1, 16)], ids=str)
+@pytest.mark.parametrize("start", [0.0, 0.2])
+def test_a_flow_that_changes_is_followed_from_one_of_its_times_to_the_next(calls, start):
+    """In one call past several of them: the way of a tracer is the area under the velocity's corners."""
+    times, speed = [0.0, 0.25, 0.5, 0.8, 1.3], [1.0, 0.0, 0.5, -0.5, 1.0]
+    shape = block(2, 0.0)
+    mesh = build_mesh(shape, box_patches(shape))
+    n = len(mesh.nodes)
+    way = np.array([0.3, 0.2, -0.1])
+    flow = SeriesFlow(mesh, times, lambda k: (np.tile(speed[k] * way, (n, 1)), np.zeros((n, 3, 3))))
+    p = spheres([[0.5, 0.5, 0.5]], d=1e-6, rho=1e3, mu=1e3, t0=start)
+    medium = Medium(1.0, 1e3, (0.0, 0.0, 0.0))
+    walls = [Rebound() for _ in flow.patches]
+    cloud = Cloud(p, flow, medium, walls, 0.05, Models(integrator="stokes"), threads=1, start=start)
+    for steps in calls:
+        cloud.advance(steps)
+    t = np.linspace(start, start + 1.0, 2001)
+    assert p.t[0] == pytest.approx(start + 1.0)
+    assert p.x[0] - 0.5 == pytest.approx(np.trapezoid(np.interp(t, times, speed), t) * way, abs=1e-7)
 
 
 class TestPipe:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+import re
 import threading
 import time
 import warnings
+from dataclasses import asdict
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,6 +43,14 @@ def reasons(cloud):
 def assert_same(a: Particles, b: Particles):
     for name, x, y in zip(Particles._fields, a, b, strict=True):
         np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+def test_the_defaults_are_those_that_the_manual_tells():
+    page = Path(__file__).parents[2] / "docs/settings.md"
+    told = dict(re.findall(r"^\| `(max\w+)` \| 1 \| (\w[\w.]*) \|", page.read_text(), re.MULTILINE))
+    for name, default in asdict(Limits()).items():
+        word = told["max" + "".join(part.capitalize() for part in name.split("_")[1:])]
+        assert default == (math.inf if word == "none" else float(word))
 
 
 class TestStretch:

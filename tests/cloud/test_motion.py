@@ -32,6 +32,10 @@ def recover_upper_part(flow, x):
     return 0 if x[1] > FOUND else -1
 
 
+def recover_least_part(flow, x):
+    return 0 if x[1] > -0.3 else -1
+
+
 def at_rest(mesh):
     nodes = mesh.nodes
     return MeshFlow(mesh, np.zeros((len(nodes), 3)), np.zeros((len(nodes), 3, 3)))
@@ -80,9 +84,9 @@ def test_a_corner_that_a_particle_cannot_leave_holds_it_for_the_step():
     assert flow.locate(p.x)[0] == p.host[0]
 
 
-def in_pipe_with_walks_that_fail(interaction, dt):
+def in_pipe_with_walks_that_fail(interaction, dt, recover=recover_upper_part):
     flow = analytic.pipe(RADIUS, 0.0, 10.0)
-    flow.kernels = {**flow.kernels, "walk": walk_that_fails_at_first, "recover": recover_upper_part}
+    flow.kernels = {**flow.kernels, "walk": walk_that_fails_at_first, "recover": recover}
     return flying(flow, (interaction, Escape(), Escape()), (5.0, 0.0, 0.0), (0.0, -2.0, 0.0), dt)
 
 
@@ -110,6 +114,16 @@ def test_a_walk_that_is_mended_in_the_middle_of_the_mesh_ends_at_its_goal():
     cloud = in_pipe_with_walks_that_fail(Rebound(), 0.2)
     assert cloud.recovered == 1
     assert cloud.particles.x[0, 1] == pytest.approx(-0.4, abs=1e-9)
+
+
+def test_a_walk_that_fails_once_more_leaves_the_centre_where_it_was_mended():
+    """The tree finds the way down to 0.3 radii, where every walk fails: there the step ends, in time."""
+    cloud = in_pipe_with_walks_that_fail(Stick(), 0.8, recover_least_part)
+    p = cloud.particles
+    assert cloud.recovered == 1
+    assert p.status[0] == Status.ACTIVE
+    assert p.t[0] == 0.8
+    assert p.x[0] == pytest.approx([5.0, -0.3, 0.0], abs=1e-9)
 
 
 @pytest.mark.parametrize("turn", [np.eye(3), OBLIQUE], ids=["level", "oblique"])

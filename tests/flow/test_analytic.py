@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 from foamprb import analytic
+from foamprb.errors import InputError
+from foamprb.flow import analytic as module
+from foamprb.flow.base import NO_PLANES
 
 
 def test_a_linear_flow_is_its_gradient_times_the_place():
@@ -15,6 +20,12 @@ def test_a_linear_flow_is_its_gradient_times_the_place():
     u, gradient = analytic.linear(l, u0).sample(x, np.zeros(3, dtype=np.int32), 0.0)
     assert u == pytest.approx(u0 + x @ l.T, rel=1e-15)
     np.testing.assert_array_equal(gradient, np.broadcast_to(l, (3, 3, 3)))
+
+
+def test_a_flow_without_a_mesh_has_nothing_at_nodes():
+    flow = analytic.pipe(0.5, 1.0, 2.0)
+    time, u, l = flow.at_nodes()
+    assert (time, u.shape, l.shape, flow.turbulence_at_nodes().shape) == ("", (0, 3), (0, 9), (0, 8))
 
 
 def test_between_walls_flows_a_parabola_and_above_one_a_shear():
@@ -50,3 +61,126 @@ def test_a_straight_way_leaves_a_pipe_where_it_meets_its_end_or_its_wall():
         assert found[1] == pytest.approx(fraction, rel=1e-14)
         assert names[found[2]] == name
     assert walk(arrays, 0, (1.0, 0.1, 0.0), (1.5, 0.3, 0.2)) == (0, 1.0, -1, -1)
+
+
+def test_named_flows_have_the_gradients_of_their_names():
+    for flow, rows in (
+        (analytic.shear(3.0), [[0, 3, 0], [0, 0, 0], [0, 0, 0]]),
+        (analytic.rotation(3.0), [[0, 1.5, 0], [-1.5, 0, 0], [0, 0, 0]]),
+        (analytic.extension(3.0), [[3, 0, 0], [0, -1.5, 0], [0, 0, -1.5]]),
+    ):
+        x = np.array([[0.3, -0.7, 1.1]])
+        u, l = flow.sample(x, flow.locate(x), 0.0)
+        np.testing.assert_allclose(l[0], rows)
+        np.testing.assert_allclose(u[0], np.array(rows) @ x[0])
+
+
+def test_a_flow_without_bounds_has_none():
+    flow = analytic.linear(np.arange(9.0).reshape(3, 3), (0.1, 0.2, 0.3))
+    arrays, kernels = flow.arrays(0.1, (0,)), flow.kernels
+    x, F, no = (0.1, 0.2, 0.3), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
+    assert kernels["walk"](arrays, 4, x, (9.0, 9.0, 9.0)) == (4, 1.0, -1, -1)
+    assert kernels["gap"](arrays, 4, x, F, 0.1) == (np.inf, -1, -1)
+    assert kernels["normal"](arrays, 4, x) == no
+    assert kernels["recover"](arrays, x) == 0
+    assert kernels["curvature"](arrays, 4, x, 0.0) == (no,) * 6
+    assert kernels["sample"](arrays, 4, x, 0.0)[2] == no
+    assert module.walls_free(arrays, 4, x, 1.0, None) == NO_PLANES
+    assert module.turbulence_free(arrays, 4, x, 0.0) == (0.0, 0.0, no, no)
+    assert module.no_rotation(arrays, 4) == (no, no)
+    assert module.cross_free(arrays, 4, x) == (0, x, F)
+    assert module.cell_volume_free(arrays, 4) == np.inf
+    assert flow.locate(np.zeros((3, 3))).tolist() == [0, 0, 0]
+    assert flow.cell_size(np.zeros(3, dtype=np.int32)).tolist() == [np.inf] * 3
+    assert flow.width == np.inf
+    assert flow.span == (-np.inf, np.inf)
+    assert flow.load(0.0, 3.0) == np.inf
+    assert flow.patches == flow.notes == ()
+    assert not flow.lists_walls
+    assert flow.at_nodes()[0] == ""
+    assert [a.shape for a in flow.at_nodes()[1:]] == [(0, 3), (0, 9)]
+    assert flow.turbulence_at_nodes().shape == (0, 8)
+    traits = flow.traits()
+    assert traits["u0"].tolist() == [0.1, 0.2, 0.3]
+    assert traits["l"].tolist() == list(range(9))
+
+
+def test_a_flow_in_closed_form_has_neither_faces_nor_cells():
+    flow = analytic.pipe(1.0, 1.0)
+    with pytest.raises(InputError, match="patch wall: a flow in closed form has no faces to inject from"):
+        flow.patch_faces("wall", 0.0)
+    with pytest.raises(InputError, match="all cells: a flow in closed form has no cells to inject into"):
+        flow.cell_zone(None)
+    with pytest.raises(InputError, match="cellZone rotor: a flow in closed form"):
+        flow.cell_zone("rotor")
+
+
+def wavy(x, y, z, t):
+    """All components depend on all coordinates and on time, each in another way."""
+    return (
+        math.sin(x + 2.0 * y + 3.0 * z + 4.0 * t),
+        math.exp(0.3 * x - 0.2 * y + 0.5 * z + 0.7 * t),
+        x * y * z * z + y**3 * x * t + math.cos(2.0 * z * x),
+    )
+
+
+def wavy_gradient(x, y, z, t):
+    c, e = math.cos(x + 2.0 * y + 3.0 * z + 4.0 * t), wavy(x, y, z, t)[1]
+    s = math.sin(2.0 * z * x)
+    return (
+        (c, 2.0 * c, 3.0 * c),
+        (0.3 * e, -0.2 * e, 0.5 * e),
+        (y * z * z + y**3 * t - 2.0 * z * s, x * z * z + 3.0 * y * y * x * t, 2.0 * x * y * z - 2.0 * x * s),
+    )
+
+
+@pytest.mark.parametrize("given", [False, True])
+def test_a_function_has_its_derivatives_in_the_plain_text_too(given):
+    """Its gradient, ∂u/∂t and second derivatives, component by component."""
+    flow = analytic.function(wavy, wavy_gradient if given else None, length=1.0, time=1.0)
+    arrays, x, t = flow.arrays(0.0, ()), (0.3, -0.7, 0.4), 0.2
+    assert tuple(arrays) == (1e-3, 1e-3)
+    u, l, u_t = flow.kernels["sample"](arrays, 0, x, t)
+    assert u == wavy(*x, t)
+    assert l == pytest.approx(np.ravel(wavy_gradient(*x, t)), rel=1e-14 if given else 1e-9, abs=1e-10)
+    c, e = math.cos(0.3 - 1.4 + 1.2 + 0.8), wavy(*x, t)[1]
+    assert u_t == pytest.approx((4.0 * c, 0.7 * e, (-0.7) ** 3 * 0.3), rel=1e-9)
+    h, D = 1e-5, []
+    for arm in h * np.eye(3):
+        after, before = (np.array(wavy_gradient(*(np.array(x) + s * arm), t)) for s in (1.0, -1.0))
+        D.append((after - before) / (2.0 * h))
+    found = flow.kernels["curvature"](arrays, 0, x, t)
+    for (j, k), second in zip(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)), found, strict=True):
+        assert second == pytest.approx(0.5 * (D[k][:, j] + D[j][:, k]), abs=1e-6)
+
+
+def test_differences_are_of_the_fourth_order():
+    """Exact for polynomials up to the fourth degree, each component with its own."""
+    h, values = 0.3, []
+    for at in (-2.0, -1.0, 1.0, 2.0):
+        s = 1.0 + at * h
+        values.append((s**4, 2.0 * s**3 - s, 5.0 * s + s * s))
+    assert module._difference(*values, h) == pytest.approx((4.0, 5.0, 7.0), rel=1e-12)
+    tensors = [tuple(k * v[k % 3] for k in range(9)) for v in values]
+    exact = [k * (4.0, 5.0, 7.0)[k % 3] for k in range(9)]
+    assert module._derivative(*tensors, h) == pytest.approx(exact, rel=1e-12)
+
+
+def test_functions_of_place_alone_with_defaults_and_with_numbers_captured():
+    k = 3.0
+    for u in (
+        lambda x, y, z: (k * y, 0, z + 0 * x),
+        lambda x, y, z, s=3.0: (s * y, 0, z + 0 * x),
+        lambda x, y, z, t: (3 * y, 0, z + 0 * x * t),
+    ):
+        flow = analytic.function(u)
+        x = np.array([[0.1, 0.2, 0.3], [1.0, 2.0, 3.0]])
+        found, l = flow.sample(x, flow.locate(x), 0.0)
+        np.testing.assert_allclose(found, [[0.6, 0.0, 0.3], [6.0, 0.0, 3.0]], rtol=1e-14)
+        np.testing.assert_allclose(l, [[[0, 3, 0], [0, 0, 0], [0, 0, 1]]] * 2, atol=1e-8)
+
+
+def test_a_function_that_has_no_value_at_the_place_of_the_trial_is_taken():
+    flow = analytic.function(lambda x, y, z: (math.sqrt(x - 1.0), 1.0 / (y - 0.2), z))
+    x = np.array([[2.0, 1.2, 0.3]])
+    assert flow.sample(x, flow.locate(x), 0.0)[0][0] == pytest.approx([1.0, 1.0, 0.3])

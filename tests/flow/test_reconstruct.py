@@ -265,3 +265,67 @@ def test_gradient_converges_to_first_order_at_least():
     assert np.all(np.log2(errors[:-1] / errors[1:]) > 0.9)
     assert errors[-1, 0] < 2e-4
     assert errors[-1, 1] < 1e-2
+
+
+def test_scalars_stay_between_the_values_around_and_are_those_of_walls_on_them(random):
+    shape = block(3, 0.3)
+    mesh = build_mesh(shape, box_patches(shape))
+    walls = [patch.type == "wall" for patch in mesh.patches]
+    cells, faces = random.random((mesh.n_cells, 3)), random.random((len(mesh.boundary_centres), 3))
+    values, slopes = Reconstruction(mesh).scalars(cells, faces)
+    assert values.shape == (len(mesh.nodes), 3)
+    assert slopes.shape == (len(mesh.nodes), 3, 3)
+    np.testing.assert_array_equal(values[mesh.n_points :], cells)
+    patch_of = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
+    for p in range(mesh.n_points):
+        own = [
+            f for f in range(len(patch_of))
+            if p in mesh.face_points[slice(*mesh.face_start[mesh.n_internal + f :][:2])]
+        ]  # fmt: skip
+        of_walls = [f for f in own if walls[patch_of[f]]]
+        if of_walls:
+            np.testing.assert_allclose(values[p], faces[of_walls].mean(axis=0), rtol=1e-12)
+            continue
+        around = [c for c in range(mesh.n_cells)
+                  if p in mesh.cell_points[slice(*mesh.cell_point_start[c : c + 2])]]  # fmt: skip
+        sites = np.concatenate([mesh.centres[around], mesh.boundary_centres[own]])
+        w = 1.0 / np.linalg.norm(sites - mesh.points[p], axis=1)
+        mean = w @ np.concatenate([cells[around], faces[own]]) / w.sum()
+        np.testing.assert_allclose(values[p], mean, rtol=1e-12)
+
+
+def test_slopes_of_scalars_are_those_of_a_linear_field(random):
+    """At every node; on a plane of symmetry only along it."""
+    slope = random.normal(size=(3, 3))
+    for kind in ("wall", "symmetryPlane"):
+        slope[:, 2] = 0.0 if kind == "symmetryPlane" else slope[:, 2]
+        shape = block(3, 0.3)
+        patches = [p._replace(type=kind) if p.name == "floor" else p for p in box_patches(shape)]
+        mesh = build_mesh(shape, patches)
+        values, slopes = Reconstruction(mesh).scalars(mesh.centres @ slope.T, mesh.boundary_centres @ slope.T)
+        np.testing.assert_allclose(slopes, np.broadcast_to(slope, slopes.shape), atol=1e-10)
+        assert values[mesh.n_points :] == pytest.approx(mesh.centres @ slope.T)
+
+
+def test_a_gradient_that_is_known_is_taken(random):
+    """At the cells as it is, and at the points by its own second derivatives."""
+    mesh = build_mesh(block(3, 0.2))
+    x = mesh.centres
+    u, l = quadratic(x)
+    reconstruct = Reconstruction(mesh)
+    u_nodes, l_nodes = reconstruct(u, quadratic(mesh.boundary_centres)[0], l)
+    np.testing.assert_array_equal(l_nodes[mesh.n_points :], l)
+    np.testing.assert_array_equal(u_nodes[mesh.n_points :], u)
+    other = reconstruct(u, quadratic(mesh.boundary_centres)[0], 2.0 * l)[1]
+    np.testing.assert_allclose(other[: mesh.n_points], 2.0 * l_nodes[: mesh.n_points], atol=1e-9)
+    exact = quadratic(mesh.nodes)[1]
+    assert np.abs(l_nodes - exact).max() < 0.35 * np.abs(exact).max()
+
+
+def test_parts_of_the_cells_are_reconstructed_alike(monkeypatch, random):
+    mesh = build_mesh(block(3, 0.3))
+    cells, faces = random.normal(size=(27, 3)), random.normal(size=(54, 3))
+    whole = Reconstruction(mesh)(cells, faces)
+    monkeypatch.setattr("foamprb.flow.reconstruct.CHUNK", 5)
+    for a, b in zip(Reconstruction(mesh)(cells, faces), whole, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-11)

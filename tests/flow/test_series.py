@@ -16,10 +16,11 @@ from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
+from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_times
-from foamprb.flow.series import SeriesFlow
+from foamprb.flow.series import SeriesArrays, SeriesFlow, _interval, _one_period
 
 WATER = Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
@@ -103,6 +104,27 @@ def test_what_is_linear_in_time_is_met_exactly(mesh, random):
         sampled = flow.kernels["sample"](flow.arrays(), hosts[0], tuple(x[0]), t)
         slope = sample_swing((0.0, 2.0), 0, tuple(x[0]), t)[2]
         np.testing.assert_allclose(sampled[2], slope, rtol=1e-12)
+
+
+def test_turbulence_that_is_linear_in_place_and_time_is_met_exactly(mesh, random):
+    """k, ε and their gradients, eight numbers that have nothing to do with each other."""
+    times, n = [0.0, 0.3, 1.0], mesh.n_points + mesh.n_cells
+    base, slope, growth = random.random(8), random.standard_normal((3, 8)), random.standard_normal(8)
+
+    def exact(x, t):
+        return base + x @ slope + t * growth
+
+    still = np.zeros((n, 3)), np.zeros((n, 3, 3))
+    flow = SeriesFlow(mesh, times, lambda i: (*still, exact(mesh.nodes, times[i])), turbulent=True)
+    steady = MeshFlow(mesh, *still, turbulence=exact(mesh.nodes, 0.4))
+    np.testing.assert_array_equal(flow.turbulence_at_nodes(), exact(mesh.nodes, 0.0))
+    flow.load(0.0, 1.0)
+    for t in (0.0, 0.1, 0.3, 0.4, 1.0):
+        for x in random.random((20, 3)):
+            host = flow.locate(x[None])[0]
+            for known in (flow, steady) if t == 0.4 else (flow,):
+                found = known.kernels["turbulence"](known.arrays(), host, tuple(x), t)
+                np.testing.assert_allclose(np.hstack(found), exact(x, t), rtol=0, atol=1e-13)
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
@@ -317,3 +339,181 @@ def test_between_two_times_every_component_is_their_mean_by_time():
     np.testing.assert_allclose(u, 0.75 * u0 + 0.25 * u1, atol=1e-13)
     np.testing.assert_allclose(l, 0.75 * l0 + 0.25 * l1, atol=1e-13)
     assert np.unique(np.round(l, 6)).size == l.size
+
+
+def tables(mesh, times, turbulent=True, **options):
+    """Random values of all columns at all nodes and times, and the flow of them."""
+    n = mesh.n_points + mesh.n_cells
+    values = np.random.default_rng(3).normal(size=(len(times), n, 20))
+
+    def read(k):
+        parts = values[k, :, :3], values[k, :, 3:12].reshape(-1, 3, 3), values[k, :, 12:]
+        return parts if turbulent else parts[:2]
+
+    return values, SeriesFlow(mesh, times, read, turbulent=turbulent, **options)
+
+
+@pytest.mark.parametrize("period", [None, 1.4])
+def test_all_columns_are_linear_in_time_and_between_nodes(mesh, random, period):
+    times = (0.0, 0.3, 1.0)
+    values, flow = tables(mesh, times, period=period)
+    steady = MeshFlow(mesh, values[0, :, :3], values[0, :, 3:12].reshape(-1, 3, 3))
+    x = tuple(random.uniform(0.2, 0.8, 3))
+    host = int(flow.locate(np.array([x]))[0])
+    rows = mesh.tets[host]
+    w = np.linalg.solve(np.vstack([mesh.nodes[rows].T, np.ones(4)]), [*x, 1.0])
+    ends = (*times, 1.4) if period else times
+    for start, end, t in (
+        (0.0, 1.0, 0.1), (0.0, 1.0, 0.5), (0.3, 0.9, 0.5), (0.0, 0.3, 0.2),
+        *(((1.0, 1.4, 1.2), (0.3, 1.4, 1.1)) if period else ()),
+    ):  # fmt: skip
+        flow.load(start, end)
+        arrays = flow.arrays()
+        k = int(np.searchsorted(ends, t)) - 1
+        length = ends[k + 1] - ends[k]
+        s = (t - ends[k]) / length
+        a, b = w @ values[k, rows], w @ values[(k + 1) % 3, rows]
+        u, l, u_t = flow.kernels["sample"](arrays, host, x, t)
+        mean = a + s * (b - a)
+        assert u == pytest.approx(mean[:3], rel=1e-9, abs=1e-10)
+        assert l == pytest.approx(mean[3:12], rel=1e-9, abs=1e-10)
+        assert u_t == pytest.approx((b - a)[:3] / length, rel=1e-9, abs=1e-10)
+        k_e, epsilon, slope, drift = flow.kernels["turbulence"](arrays, host, x, t)
+        assert (k_e, epsilon, *slope, *drift) == pytest.approx(mean[12:], rel=1e-9, abs=1e-10)
+        bends = []
+        for level in (k, (k + 1) % 3):
+            steady._arrays.nodes[:, 6:15] = values[level, :, 3:12]
+            bends.append(np.array(steady.kernels["curvature"](steady.arrays(), host, x, t)))
+        found = np.array(flow.kernels["curvature"](arrays, host, x, t))
+        np.testing.assert_allclose(found, bends[0] + s * (bends[1] - bends[0]), rtol=1e-9, atol=1e-10)
+    assert flow.turbulence_at_nodes() == pytest.approx(values[0, :, 12:])
+    name, u, l = flow.at_nodes()
+    assert name == "0"
+    assert np.array_equal(u, values[0, :, :3])
+    assert np.array_equal(l, values[0, :, 3:12])
+
+
+def test_without_turbulence_there_is_none(mesh):
+    values, flow = tables(mesh, (0.0, 1.0), turbulent=False)
+    flow.load(0.0, 1.0)
+    assert flow.kernels["turbulence"](flow.arrays(), 0, (0.1, 0.1, 0.1), 0.3) == (
+        0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0),
+    )  # fmt: skip
+    assert flow.turbulence_at_nodes().shape == (0, 8)
+    assert flow.arrays().fields.shape[1] == values.shape[2] - 8
+
+
+def test_what_the_mesh_does_is_the_same_as_in_a_steady_flow(mesh, random):
+    _, flow = tables(mesh, (0.0, 1.0))
+    n = mesh.n_points + mesh.n_cells
+    steady = MeshFlow(mesh, np.zeros((n, 3)), np.zeros((n, 3, 3)))
+    flow.load(0.0, 1.0)
+    walls = [k for k, patch in enumerate(mesh.patches) if patch.type == "wall"]
+    ours, theirs = flow.arrays(0.3, walls, 0.3, walls), steady.arrays(0.3, walls, 0.3, walls)
+    F, chosen = (1.1, 0.2, 0.0, 0.0, 0.9, 0.1, 0.0, 0.0, 1.0), np.ones(len(mesh.patches), dtype=np.int8)
+    for x0, x1 in random.uniform(0.01, 0.99, (10, 2, 3)):
+        a, b = tuple(x0), tuple(x1)
+        host = flow.kernels["recover"](ours, a)
+        assert host == steady.kernels["recover"](theirs, a) >= 0
+        for name, arguments in (
+            ("walk", (host, a, b)), ("walk", (host, a, (2.0 * b[0] - a[0], b[1], -1.0))),
+            ("gap", (host, a, F, 0.1)), ("walls", (host, a, 0.3, chosen)), ("cell_volume", (host,)),
+            ("normal", (int(random.integers(len(mesh.triangles))), a)),
+        ):  # fmt: skip
+            assert flow.kernels[name](ours, *arguments) == steady.kernels[name](theirs, *arguments)
+
+
+def test_intervals_begin_a_little_before_their_times():
+    """By twice the slack, so that a step that ends at a time by round-off begins the next there."""
+    times = np.array([0.0, 1.0, 3.0])
+    arrays = SeriesArrays(no_mesh(), times, np.zeros(3, dtype=np.int64), np.empty((0, 12)), 1e-3)
+    for t, k in ((0.0, 0), (0.9979, 0), (0.9981, 1), (2.9, 1), (3.0, 1), (9.0, 1), (-1.0, 0)):
+        assert _interval(arrays, t) == k
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_a_period_ends_where_the_first_time_comes_again(scale):
+    """Times from there on are left out, a millionth of the period before it as well."""
+    times = scale * np.array([0.5, 1.0, 1.5, 2.0])
+    assert _one_period((*times, 2.5 * scale, 3.0 * scale), 2.0 * scale) == tuple(times)
+    assert _one_period((*times, scale * (2.5 - 1e-6)), 2.0 * scale) == tuple(times)
+    assert _one_period((*times, scale * 2.499), 2.0 * scale) == (*times, scale * 2.499)
+    # The last interval may be twice as long as the longest of the others.
+    assert _one_period(tuple(times[:3]), 2.0 * scale) == tuple(times[:3])
+    for few, period in ((times[:3], 2.1), (times[:1], 0.5), (times, 0.4)):
+        end = scale * (0.5 + period)
+        last = max(t for t in few if t < end)
+        with pytest.raises(InputError, match=rf"up to nearly {end:g} s, but .* before that is {last:g} s"):
+            _one_period(tuple(few), period * scale)
+
+
+def test_levels_count_on_from_period_to_period(mesh):
+    _, flow = tables(mesh, (1.0, 1.5, 2.0), period=2.0)
+    assert [flow._time(level) for level in range(7)] == [1.0, 1.5, 2.0, 3.0, 3.5, 4.0, 5.0]
+    assert [flow._index(level) for level in range(7)] == [0, 1, 2, 0, 1, 2, 0]
+    for t, before, after in (
+        (1.0, 0, 0), (1.2, 0, 1), (1.5, 1, 1), (2.5, 2, 3), (3.0, 3, 3), (3.1, 3, 4), (4.9, 5, 6),
+        (5.0, 6, 6), (1.5 - 1e-8, 1, 1), (1.5 + 1e-8, 1, 1), (5.0 - 1e-8, 6, 6), (5.0 + 1e-8, 6, 6),
+    ):  # fmt: skip
+        assert (flow._level_before(t), flow._level_after(t)) == (before, after), t
+    assert flow._is_level(99)
+    assert not flow._is_level(-1)
+    _, once = tables(mesh, (1.0, 1.5, 2.0))
+    assert [once._is_level(k) for k in (-1, 0, 2, 3)] == [False, True, True, False]
+    assert once.span == (1.0, 2.0)
+    assert flow.span == (1.0, math.inf)
+    assert flow.load(1.2, 2.5) == 3.0
+    assert flow.load(3.0, 3.0) == 3.0
+    assert flow.arrays().times.tolist() == [2.0, 3.0]
+    assert flow.load(1.0, 1.0) == 1.5
+    assert flow.arrays().times.tolist() == [1.0, 1.5]
+    assert once.load(2.0, 2.0) == 2.0
+    assert once.arrays().times.tolist() == [1.5, 2.0]
+
+
+def test_times_in_memory_are_those_that_are_wanted_and_the_last_used(mesh):
+    """The longest unused gives its place; with room for all nothing is read twice."""
+    times = [0.0, 1.0, 2.0, 3.0, 4.0]
+    for keep, expected in ((0, [0, 1, 2, 3, 4, 0, 1]), (5, [0, 1, 2, 3, 4])):
+        log = []
+        flow = in_files(mesh, times, growth=1.0, log=log, keep=keep)
+        for start in (0.0, 1.0, 2.0, 3.0, 0.0):
+            flow.load(start, start + 1.0)
+            flow._reader.submit(int).result()
+            wanted = {int(start), int(start) + 1}
+            assert wanted <= set(flow._in_memory)
+            assert sorted(flow._in_memory.values()) == list(range(len(flow._in_memory)))
+        assert log[: len(expected)] == expected
+        assert len(log) <= len(expected) + 1
+        assert len(flow._fields) == (2 if keep == 0 else 5)
+
+
+def test_a_flow_is_known_between_its_times(mesh):
+    _, flow = tables(mesh, (1.0, 1.5, 2.0))
+    slack = 1e-6 * 0.5
+    assert flow.load(1.0 - 0.9 * slack, 2.0 + 0.9 * slack) == 2.0
+    for start, end in ((1.0 - 2.0 * slack, 1.5), (1.0, 2.0 + 2.0 * slack), (3.0, 3.0), (0.0, 1.0)):
+        with pytest.raises(InputError, match=r"the flow is known from 1 s to 2 s, not from"):
+            flow.load(start, end)
+    with pytest.raises(InputError, match=r"the times 1, 3, 2 do not rise"):
+        tables(mesh, (1.0, 3.0, 2.0))
+    with pytest.raises(InputError, match=r"the times 1, 1 do not rise"):
+        tables(mesh, (1.0, 1.0))
+
+
+def test_what_tells_a_series_from_another(mesh):
+    values, flow = tables(mesh, (1.0, 1.5, 2.0), period=2.0)
+    traits = flow.traits()
+    assert traits["times"] == (1.0, 1.5, 2.0)
+    assert traits["period"] == 2.0
+    assert np.array_equal(traits["fields"], values[0])
+    assert np.array_equal(traits["tets"], mesh.tets)
+    assert tables(mesh, (1.0, 1.5))[1].traits()["period"] == 0.0
+    faces, steady = flow.patch_faces("floor", 1.25), flow._steady.patch_faces("floor", 1.25)
+    mean = 0.5 * (values[0] + values[1])
+    at = np.flatnonzero(mesh.triangle_patch == 0)
+    np.testing.assert_allclose(faces.velocity, mean[mesh.triangles[at], :3], atol=1e-12)
+    assert np.array_equal(faces.vertices, steady.vertices)
+    hosts = np.array([0, 3], dtype=np.int32)
+    assert flow.cell_size(hosts) == pytest.approx(flow._steady.cell_size(hosts))
+    assert flow.cell_zone(None).volumes.sum() == pytest.approx(1.0)

@@ -4,16 +4,43 @@ from functools import cache
 
 import numpy as np
 import pytest
+import pyvista
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mesh_shapes import KINDS, block, box_patches, corners, grid, pipe, pipe_patches
+from mesh_shapes import (
+    KINDS,
+    block,
+    box_patches,
+    corners,
+    cyclic_row,
+    grid,
+    interfaces,
+    period,
+    pipe,
+    pipe_patches,
+    rings,
+)
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
+from foamprb.flow.mesh.arrays import frame, no_mesh
 from foamprb.flow.mesh.locator import build_tree, cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.walk import FAILED, REACHED, normal, recover, walk
+from foamprb.flow.walk import (
+    FAILED,
+    REACHED,
+    cell_volume,
+    cross,
+    curvature,
+    holds,
+    nearest_point,
+    normal,
+    recover,
+    sample,
+    turbulence,
+    walk,
+)
 from foamprb.flow.wall_lists import near_walls, wall_tree
 from foamprb.flow.walls import gap
 
@@ -47,6 +74,10 @@ def cleared(flow, x, F, R, reach):
         flow.arrays(reach), flow.locate(x), x, np.asarray(F, dtype=float).reshape(-1, 9), R, gaps, triangles
     )
     return gaps, triangles
+
+
+def at_rest(mesh):
+    return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
 
 
 def linear(mesh):
@@ -130,6 +161,42 @@ def test_walls_are_met_where_the_straight_line_crosses_them(kind, random):
     assert weights(flow, hosts[out], hits).min() > -1e-8
     names = np.array([patch.name for patch in flow.patches])[patches[out]]
     assert np.array_equal(names == "floor", hits[:, 2] < 1e-9)
+
+
+def crossed(flow, triangles, x, hosts, y):
+    for i in range(x.shape[0]):
+        hosts[i], place, _ = cross(flow, triangles[i], (x[i, 0], x[i, 1], x[i, 2]))
+        y[i, 0], y[i, 1], y[i, 2] = place[0], place[1], place[2]
+
+
+@pytest.mark.parametrize(
+    ("mesh", "apart"),
+    [(rings(), 1.0 - np.cos(np.pi / 24)), (interfaces(0.0)[0], 0.0), (interfaces(40.0, (4, 5))[0], 0.0)],
+    ids=["rings", "row", "bend"],
+)
+def test_across_an_interface_the_nearest_place_of_the_other_side_is_next(mesh, apart, random):
+    """The two sides may be cut differently, and lie apart by what is between their chords."""
+    flow = at_rest(mesh)
+    coupled = [c.patch for c in mesh.couplings]
+    triangles = np.repeat(np.flatnonzero(np.isin(mesh.triangle_patch, coupled)), 5).astype(np.int32)
+    share = random.dirichlet((1.0, 1.0, 1.0), len(triangles))
+    x = np.einsum("nk,nki->ni", share, mesh.points[mesh.triangles[triangles]])
+    hosts, y = np.empty(len(x), dtype=np.int32), np.empty((len(x), 3))
+    link(crossed)(flow.arrays(), triangles, x, hosts, y)
+    assert np.all(weights(flow, hosts, y) > -1e-9)
+    for c in mesh.couplings:
+        here = mesh.triangle_patch[triangles] == c.patch
+        there = mesh.triangles[mesh.triangle_patch == c.other]
+        surface = pyvista.PolyData.from_regular_faces(mesh.points, there)
+        images = x[here] @ c.turn.T + c.shift
+        _, nearest = surface.find_closest_cell(images, return_closest_point=True)
+        off, least = (np.linalg.norm(z - images, axis=1) for z in (y[here], nearest))
+        # An image that a tetrahedron over there holds stays where it is.
+        inside = weights(flow, hosts[here], images).min(axis=1) > -1e-9
+        assert off[inside] == pytest.approx(0.0, abs=1e-9)
+        assert off[~inside] == pytest.approx(least[~inside], abs=1e-9)
+        assert least.max() <= apart + 1e-9
+        assert inside.any()
 
 
 @pytest.mark.parametrize("perturbation", [0.0, 0.25])
@@ -316,3 +383,163 @@ def test_cells_and_patches_of_a_flow():
     assert weights(flow, lid.hosts, lid.vertices.mean(axis=1)).min() > -1e-12
     with pytest.raises(InputError, match="patch lidd is not in the mesh\\. Did you mean 'lid'"):
         flow.patch_faces("lidd", 0.0)
+
+
+@pytest.fixture
+def tetrahedra(random):
+    """Arrays of two tetrahedra among eight nodes with values of their own, and of turbulence."""
+    return no_mesh()._replace(
+        nodes=random.normal(size=(8, 16)),
+        turbulence=random.normal(size=(8, 8)),
+        tets=np.array([[0, 1, 2, 3], [6, 2, 7, 4]]),
+    )
+
+
+def shares(nodes, tet, x):
+    """Of the corners in the value at x."""
+    return np.linalg.solve(np.vstack([nodes[tet, :3].T, np.ones(4)]), [*x, 1.0])
+
+
+@pytest.mark.parametrize("host", [0, 1])
+def test_values_between_nodes_are_linear_in_each_component(tetrahedra, host, random):
+    arrays, x = tetrahedra, tuple(random.normal(size=3))
+    w, rows = shares(arrays.nodes, arrays.tets[host], x), arrays.tets[host]
+    u, l, u_t = sample(arrays, host, x, 0.3)
+    assert u == pytest.approx(w @ arrays.nodes[rows, 3:6], rel=1e-9)
+    assert l == pytest.approx(w @ arrays.nodes[rows, 6:15], rel=1e-9)
+    assert u_t == (0.0, 0.0, 0.0)
+    k, epsilon, slope, drift = turbulence(arrays, host, x, 0.3)
+    expected = w @ arrays.turbulence[rows]
+    assert (k, epsilon, *slope, *drift) == pytest.approx(expected, rel=1e-9)
+    nothing = arrays._replace(turbulence=np.empty((0, 8)))
+    assert turbulence(nothing, host, x, 0.3) == (0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("host", [0, 1])
+def test_second_derivatives_are_those_of_the_gradient_between_nodes(tetrahedra, host, random):
+    """∂²u_i/∂x_j∂x_k, the mean of both ways to take it."""
+    arrays, x = tetrahedra, random.normal(size=3)
+
+    def gradient(at):
+        return np.reshape(sample(arrays, host, tuple(at), 0.0)[1], (3, 3))
+
+    D = np.stack([gradient(x + e) - gradient(x) for e in np.eye(3)], axis=2)
+    found = curvature(arrays, host, tuple(x), 0.0)
+    for (j, k), second in zip(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)), found, strict=True):
+        assert second == pytest.approx(0.5 * (D[:, j, k] + D[:, k, j]), rel=1e-8, abs=1e-9)
+
+
+def test_a_tetrahedron_holds_what_is_in_it_to_round_off(tetrahedra, random):
+    arrays = tetrahedra
+    for host, rows in enumerate(arrays.tets):
+        arrays.tets[host, 1:3] = rows[[2, 1]] if frame(arrays, host)[4] < 0.0 else rows[[1, 2]]
+        corners = arrays.nodes[arrays.tets[host], :3]
+        for out in range(4):
+            w = np.insert(random.dirichlet(np.ones(3)), out, 0.0)
+            for off, inside in ((-1e-6, False), (-2e-9, False), (-5e-10, True), (1e-3, True)):
+                shifted = (1.0 - off) * w
+                shifted[out] = off
+                assert holds(arrays, host, tuple(shifted @ corners)) == inside
+
+
+def test_the_volume_of_a_cell_is_that_of_its_tetrahedra():
+    flow = flow_on("mixed", 3)
+    arrays = flow.arrays()
+    cells = [0, 5, flow.mesh.n_cells - 1]
+    for cell in cells:
+        a, b, c, d = (flow.mesh.nodes[flow.mesh.tets[:, k]] for k in range(4))
+        volumes = np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a)) / 6.0
+        own = slice(*flow.mesh.cell_start[cell : cell + 2])
+        for host in (own.start, own.stop - 1):
+            assert cell_volume(arrays, host) == pytest.approx(volumes[own].sum(), rel=1e-12)
+
+
+@pytest.mark.parametrize("angle", [0.0, 40.0])
+def test_who_meets_a_coupled_patch_goes_on_beyond_its_neighbour(angle, random):
+    """At the place that the motion gives, in the tetrahedron that holds it."""
+    mesh = cyclic_row(angle, 1)
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    arrays, (turn, shift) = flow.arrays(), period(angle)
+    names = [patch.name for patch in mesh.patches]
+    for name, q, s in (("left", turn, shift), ("right", turn.T, -turn.T @ shift)):
+        for triangle in np.flatnonzero(mesh.triangle_patch == names.index(name))[:12]:
+            x = random.dirichlet(np.ones(3)) @ mesh.points[mesh.triangles[triangle]]
+            host, y, rotation = cross(arrays, int(triangle), tuple(x))
+            assert np.reshape(rotation, (3, 3)) == pytest.approx(q, abs=1e-6)
+            assert y == pytest.approx(q @ x + s, abs=1e-6)
+            assert weights(flow, np.array([host]), np.array([y])).min() > -1e-6
+            patch = names.index("right" if name == "left" else "left")
+            assert host in mesh.triangle_tet[mesh.triangle_patch == patch]
+    lone = int(np.flatnonzero(mesh.triangle_patch == names.index("floor"))[0])
+    assert cross(arrays, lone, (0.1, 0.2, 0.3))[0] == -1
+
+
+def test_who_meets_a_patch_cut_differently_lands_on_the_nearest_triangle_across(random):
+    """Segments of two rings: chords of a circle, between which there is a gap or an overlap."""
+    mesh = rings()
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    arrays, names = flow.arrays(), [patch.name for patch in mesh.patches]
+    moved = 0
+    for name, other in (("in", "out"), ("out", "in")):
+        there = np.flatnonzero(mesh.triangle_patch == names.index(other))
+        for triangle in np.flatnonzero(mesh.triangle_patch == names.index(name))[:20]:
+            x = random.dirichlet(np.ones(3)) @ mesh.points[mesh.triangles[triangle]]
+            host, y, rotation = cross(arrays, int(triangle), tuple(x))
+            assert rotation == (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+            assert host in mesh.triangle_tet[there]
+            assert weights(flow, np.array([host]), np.array([y])).min() > -1e-9
+            apart = [
+                np.linalg.norm(nearest_point(*map(tuple, mesh.points[mesh.triangles[k]] - x))) for k in there
+            ]
+            inside = weights(flow, mesh.triangle_tet[there], np.tile(x, (len(there), 1))).min(axis=1).max()
+            assert np.linalg.norm(np.subtract(y, x)) == pytest.approx(
+                0.0 if inside > 0.0 else min(apart), abs=1e-6
+            )
+            moved += inside < -1e-6
+    assert moved > 5
+
+
+def test_a_way_in_the_plain_text_ends_at_the_first_wall(random):
+    """Or where it should, in the tetrahedron that holds the place."""
+    flow = flow_on("tetrahedra", 3, 0.3)
+    arrays = flow.arrays()
+    for _ in range(30):
+        x0, x1 = random.random(3), random.uniform(-1.0, 2.0, 3)
+        host = int(flow.locate(x0[None])[0])
+        found, fraction, patch, triangle = walk(arrays, host, tuple(x0), tuple(x1))
+        d = x1 - x0
+        with np.errstate(divide="ignore"):
+            exact = min(1.0, np.where(d > 0.0, (1.0 - x0) / d, -x0 / d).min())
+        assert fraction == pytest.approx(exact, abs=1e-12)
+        end = x0 + exact * d
+        assert weights(flow, np.array([found]), end[None]).min() > -1e-8
+        assert (patch == REACHED) == (exact == 1.0)
+        if patch != REACHED:
+            assert found == flow.mesh.triangle_tet[triangle]
+            assert patch == flow.mesh.triangle_patch[triangle]
+            a, b, c = flow.mesh.points[flow.mesh.triangles[triangle]]
+            assert abs((end - a) @ np.cross(b - a, c - a)) < 1e-12
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_a_way_that_no_face_lets_out_begins_anew_nearer_to_the_middle(axis, monkeypatch):
+    """Two tetrahedra; the start is beyond the side between them by more than round-off, the end less so."""
+
+    def no_thread(*_):
+        raise AssertionError("the way is found from a nudged start")
+
+    monkeypatch.setattr("foamprb.flow.walk.find_thread", no_thread)
+    nodes = np.zeros((5, 16))
+    side = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    nodes[:, :3] = np.roll([*side, [-1.0, 0.3, 0.3], [1.0, 0.3, 0.3]], axis, axis=1)
+    arrays = no_mesh()._replace(
+        nodes=nodes, n_points=3, tets=np.array([[3, 0, 1, 2], [4, 0, 2, 1]]),
+        neighbours=np.array([[1, -1, -2, -3], [0, -4, -5, -6]]), folds=np.zeros(2, dtype=np.uint8),
+        triangle_patch=np.arange(6),
+    )  # fmt: skip
+    assert min(frame(arrays, t)[4] for t in (0, 1)) > 0.0
+    x0, x1 = (tuple(np.roll(x, axis)) for x in ((1e-5, 0.3, 0.3), (5e-6, 0.3, 0.31)))
+    assert walk(arrays, 0, x0, x1) == (1, 1.0, REACHED, -1)
+    # From so far beyond no nudge helps.
+    with pytest.raises(AssertionError, match="nudged"):
+        walk(arrays, 0, tuple(np.roll((1e-3, 0.3, 0.3), axis)), tuple(np.roll((5e-4, 0.3, 0.31), axis)))

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches, pipe, pipe_patches
 from mesh_shapes import grid as make_grid
 
 from foamprb.compile.link import link
+from foamprb.flow import wall_lists
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among
-from foamprb.flow.wall_lists import EDGE, SURE, edges_out
+from foamprb.flow.walk import nearest_point
+from foamprb.flow.wall_lists import EDGE, SURE, WallTree, edges_out, wall_tree
 from foamprb.flow.walls import gap, nearest_wall
 
 
@@ -58,6 +62,30 @@ def places(flow, n=400):
 
 def solid(flow):
     return [index for index, patch in enumerate(flow.patches) if patch.type == "wall"]
+
+
+def test_every_branch_of_the_tree_knows_the_triangles_below_it(flow):
+    """Their boxes, the cone in which their normals are, and whether they have an edge that counts."""
+    mesh = flow.mesh
+    walls = np.flatnonzero(np.isin(mesh.triangle_patch, solid(flow)))
+    corners, normals = mesh.points[mesh.triangles[walls]], mesh.triangle_normals[walls]
+    tree = wall_tree(corners, normals, np.ones(len(walls), dtype=bool))
+    n = len(tree.leaves)
+    below = {n + k: leaf[leaf >= 0] for k, leaf in enumerate(tree.leaves)}
+    for node in range(n - 1, 0, -1):
+        below[node] = np.concatenate([below[2 * node], below[2 * node + 1]])
+    assert np.array_equal(np.sort(below[1]), np.arange(len(walls)))
+    for node, names in below.items():
+        if len(names):
+            points = corners[names].reshape(-1, 3)
+            ends = np.concatenate([points.min(axis=0), points.max(axis=0)])
+            np.testing.assert_array_equal(tree.boxes[node], ends)
+            axis, angle, edge = tree.cones[node, :3], tree.cones[node, 3], tree.cones[node, 4]
+            assert np.linalg.norm(axis) == pytest.approx(1.0, abs=1e-12)
+            widest = np.arccos(np.clip(normals[names] @ axis, -1.0, 1.0)).max()
+            # Of a leaf no wider than need be.
+            assert widest - 1e-7 <= angle <= (widest + 1e-7 if node >= n else np.pi)
+            assert edge == tree.edges[names].any()
 
 
 @pytest.mark.parametrize("cut", [0.1, 0.4])
@@ -156,3 +184,345 @@ def test_the_gap_from_a_tree_grows_with_the_unit_of_length(monkeypatch):
     assert np.isfinite(found[0]).sum() > 50
     for other in found[1:]:
         np.testing.assert_allclose(other, found[0], rtol=0, atol=1e-12)
+
+
+def boxes_of(random, n, most=6):
+    low = random.integers(0, most, (n, 3)).astype(float)
+    return np.concatenate([low, low + random.integers(1, 4, (n, 3))], axis=1)
+
+
+def test_boxes_are_as_far_apart_as_their_nearest_points(random):
+    """Along each axis, and in a straight line; as for a point, or the box of a triangle."""
+    a, b = boxes_of(random, 60), boxes_of(random, 60)
+    for k in range(60):
+        apart = np.maximum(np.maximum(a[k, :3] - b[k, 3:], b[k, :3] - a[k, 3:]), 0.0)
+        assert wall_lists._square_between(a, k, b, k) == np.sum(apart**2)
+        for reach in (0.0, 0.5, 1.0, 2.0):
+            assert wall_lists._meet(a, k, b, k, reach) == (apart.max() <= reach)
+            spread = np.array([[a[k, :3], a[k, 3:], 0.5 * (a[k, :3] + a[k, 3:])]])
+            spread = spread[:, random.permutation(3)]
+            assert wall_lists._triangle_meets(spread, 0, b, k, reach) == (apart.max() <= reach)
+        x = tuple(random.uniform(-1.0, 10.0, 3))
+        nearest = np.clip(x, a[k, :3], a[k, 3:])
+        assert wall_lists.square_to_box(a, k, x) == pytest.approx(np.sum((nearest - x) ** 2))
+        assert wall_lists._middle(a, k) == tuple(0.5 * (a[k, :3] + a[k, 3:]))
+
+
+def test_products_of_vectors(random):
+    p, q, half = random.normal(size=(3, 3))
+    half = np.abs(half)
+    assert wall_lists._inner(p, q) == pytest.approx(p @ q)
+    assert wall_lists._cross(p, q) == pytest.approx(np.cross(p, q))
+    ends = np.array(list(itertools.product((-1.0, 1.0), repeat=3))) * half
+    assert wall_lists._extent(p, half) == pytest.approx((ends @ p).max())
+
+
+def test_a_part_of_a_list_is_sorted():
+    numbers = np.array([9, 5, 3, 8, 3, 1, 0])
+    wall_lists._sort(numbers, 1, 6)
+    assert numbers.tolist() == [9, 1, 3, 3, 5, 8, 0]
+    wall_lists._sort(numbers, 0, 1)
+    assert numbers.tolist() == [9, 1, 3, 3, 5, 8, 0]
+
+
+def test_the_area_of_a_triangle_in_a_rectangle(random):
+    """By counting points; exact where it is cut by one side, by a corner, or lies around the rectangle."""
+    work = np.empty((2, 10, 2))
+
+    def area(corners, sides):
+        x, y = np.array(corners, dtype=float).T
+        return wall_lists._area_in_rectangle(tuple(x), tuple(y), sides, work)
+
+    assert area([(0, 0), (1, 0), (0, 1)], (2.0, 3.0)) == pytest.approx(0.5)
+    assert area([(0, 0), (2, 0), (0, 2)], (1.0, 3.0)) == pytest.approx(1.5)
+    assert area([(0, 0), (2, 0), (0, 2)], (3.0, 1.0)) == pytest.approx(1.5)
+    assert area([(-9, -9), (9, -9), (0, 18)], (1.0, 2.0)) == pytest.approx(8.0)
+    assert area([(3, 3), (4, 3), (3, 4)], (1.0, 2.0)) == 0.0
+    g = (np.arange(400) + 0.5) / 400 * 2.0 - 1.0
+    u, v = np.meshgrid(g, g)
+    for _ in range(20):
+        corners, sides = random.normal(size=(3, 2)), tuple(random.uniform(0.3, 1.2, 2))
+        a, b, c = corners
+        turns = [(q[0] - p[0]) * (v * sides[1] - p[1]) - (q[1] - p[1]) * (u * sides[0] - p[0])
+                 for p, q in ((a, b), (b, c), (c, a))]  # fmt: skip
+        inside = np.all(np.array(turns) >= 0.0, axis=0) | np.all(np.array(turns) <= 0.0, axis=0)
+        exact = inside.mean() * 4.0 * sides[0] * sides[1]
+        assert area(corners, sides) == pytest.approx(exact, abs=0.02)
+
+
+def soup(random, n=40, size=0.4):
+    corners = random.normal(size=(n, 1, 3)) + size * random.normal(size=(n, 3, 3))
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return corners, normals / np.linalg.norm(normals, axis=1)[:, None]
+
+
+def test_the_nearest_triangle_of_a_tree_is_the_nearest_of_all(random):
+    corners, normals = soup(random)
+    tree = wall_lists.wall_tree(corners, normals, np.ones(len(corners), dtype=bool))
+    for _ in range(40):
+        x = random.normal(size=3)
+        distances = [np.linalg.norm(nearest_point(*map(tuple, c - x))) for c in corners]
+        k = int(np.argmin(distances))
+        for seed in (0, k, 11):
+            found = wall_lists.nearest_triangle(tree, tuple(x), 9.0, seed)
+            assert found == (k, pytest.approx(distances[k]))
+            cut = 0.99 * distances[k]
+            assert wall_lists.nearest_triangle(tree, tuple(x), cut, seed) == (-1, pytest.approx(cut))
+
+
+def test_the_cone_of_a_node_holds_the_normals_below_it(random):
+    corners, normals = soup(random, 45)
+    normals[:, 2] = np.abs(normals[:, 2]) + 0.5
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    tree = wall_lists.wall_tree(corners, normals, np.ones(45, dtype=bool))
+    leaves = len(tree.leaves)
+    assert leaves > 4
+    cones = wall_lists._cones(normals, np.arange(45) == 13, tree.leaves)
+    for leaf, members in enumerate(tree.leaves):
+        own, node = members[members >= 0], leaves + leaf
+        axis = normals[own].sum(axis=0)
+        assert cones[node, :3] == pytest.approx(axis / np.linalg.norm(axis))
+        angle = np.arccos(normals[own] @ cones[node, :3]).max()
+        assert cones[node, 3] == pytest.approx(angle, abs=1e-7)
+        while node:
+            assert cones[node, 4] == 1.0 or 13 not in own
+            assert (
+                np.arccos(np.clip(normals[own] @ cones[node, :3], -1.0, 1.0)).max() <= cones[node, 3] + 1e-7
+            )
+            node //= 2
+    marked = int(np.flatnonzero((tree.leaves == 13).any(axis=1))[0]) + leaves
+    assert [n for n in range(1, 2 * leaves) if cones[n, 4]] == sorted(
+        marked >> k for k in range(marked.bit_length())
+    )
+    for node in range(1, leaves):
+        two = cones[2 * node : 2 * node + 2]
+        axis = two[:, :3].sum(axis=0)
+        assert cones[node, :3] == pytest.approx(axis / np.linalg.norm(axis))
+        angle = (np.arccos(two[:, :3] @ cones[node, :3]) + two[:, 3]).max()
+        assert cones[node, 3] == pytest.approx(min(angle, np.pi), abs=1e-7)
+
+
+def test_unit_vectors_of_rows():
+    found = wall_lists._unit(np.array([[0.0, 3.0, 4.0], [0.0, 0.0, 1e-13], [0.0, -2.0, 0.0]]))
+    assert found.tolist() == [[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
+
+
+def test_a_node_is_faced_from_where_a_perpendicular_may_end_on_it(random):
+    """One triangle: its cone is its normal. From far, only in a narrow cone about it."""
+    corners, normals = soup(random, 1, 0.05)
+    tree = wall_lists.wall_tree(corners, normals, np.ones(1, dtype=bool))
+    middle = 0.5 * (corners[0].min(axis=0) + corners[0].max(axis=0))
+    blur = 0.1 + 0.5 * np.linalg.norm(np.ptp(corners[0], axis=0))
+    across = np.cross(normals[0], [0.3, 0.5, 0.7])
+    across /= np.linalg.norm(across)
+    for length, width in ((2.0, 0.0), (5.0, 0.0), (5.0, 0.7)):
+        tree.cones[1, 3] = width
+        limit = width + np.arcsin(blur / length)
+        for angle, seen in ((0.0, True), (0.95 * limit, True), (1.05 * limit, False), (3.0, False)):
+            for turn in np.linspace(0.0, 2.0 * np.pi, 7):
+                side = np.cos(turn) * across + np.sin(turn) * np.cross(normals[0], across)
+                x = middle + length * (np.cos(angle) * normals[0] + np.sin(angle) * side)
+                assert wall_lists._faces(tree, 1, tuple(x), 0.1) == seen
+    # A cone of all directions.
+    tree.cones[1, 3] = 3.14
+    assert wall_lists._faces(tree, 1, tuple(middle - 5.0 * normals[0]), 0.1)
+    tree.cones[1, 3] = 0.0
+    # Near, from everywhere.
+    assert wall_lists._faces(tree, 1, tuple(middle - 0.99 * blur * normals[0]), 0.1)
+    assert not wall_lists._faces(tree, 1, tuple(middle - 1.01 * blur * normals[0]), 0.1)
+
+
+def test_triangles_of_a_plane_are_known_as_such(random):
+    for _ in range(10):
+        e = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        flat = random.normal(size=(2, 3, 2)) @ e[:2] + 3.0 * e[2]
+        corners = np.concatenate([flat, flat[1:] + 1e-6 * e[2], flat[1:] * [1.0, 1.0, 1.0]])
+        corners[3, random.integers(3)] += 1e-6 * e[2]
+        normals = np.tile(e[2], (4, 1))
+        tree = WallTree(corners, normals, None, None, None, None, None)
+        assert [wall_lists._in_plane(tree, 0, j) for j in range(4)] == [True, True, False, False]
+        # The other side of a thin wall is another plane.
+        assert not wall_lists._in_plane(tree._replace(normals=normals * [[1], [-1], [1], [1]]), 0, 1)
+
+
+def test_the_shadow_of_a_cell_on_a_plane_is_covered_by_the_triangles_in_it(random):
+    """A square of two triangles: all of the rectangle, then half of it, then without images."""
+    for _ in range(10):
+        e = np.linalg.qr(random.normal(size=(3, 3)))[0]
+        e[2] *= np.sign(np.linalg.det(e))
+        middle, half = tuple(random.normal(size=3)), tuple(random.uniform(0.1, 0.3, 3))
+        at = np.array(middle) - 2.0 * e[2]
+        square = at + 5.0 * np.array([-e[0] - e[1], e[0] - e[1], e[0] + e[1], -e[0] + e[1]])
+        corners = np.array([square[[0, 1, 2]], square[[0, 2, 3]], square[[0, 1, 2]] + e[2]])
+        normals = np.tile(e[2], (3, 1))
+        tree = WallTree(corners, normals, None, None, None, None, np.array([True, True, True]))
+        work, polygons = np.array([[0, 1, 2], [0, 0, 0]], dtype=np.int32), np.empty((2, 10, 2))
+
+        def covered(tree, work=work, middle=middle, half=half, polygons=polygons):
+            return wall_lists._covered(tree, work, 3, 0, middle, half, polygons)
+
+        found, whole = covered(tree)
+        assert found == pytest.approx(whole, rel=1e-12)
+        # The sides of the rectangle: as far as the cell reaches along two axes in the plane.
+        k = np.abs(e[2]).argmin()
+        t1 = np.eye(3)[k] - e[2, k] * e[2]
+        t1 /= np.linalg.norm(t1)
+        t2 = np.cross(e[2], t1)
+        assert whole == pytest.approx(4.0 * (np.abs(t1) @ half) * (np.abs(t2) @ half))
+        # The diagonal of the square goes through the foot of the middle.
+        assert covered(tree, np.array([[0, -1, 2], [0, 0, 0]]))[0] == pytest.approx(0.5 * whole, rel=1e-9)
+        single = np.array([True, False, True])
+        assert covered(tree._replace(single=single))[0] == pytest.approx(0.5 * whole, rel=1e-9)
+
+
+def test_a_triangle_is_a_wall_of_a_cell_from_which_a_perpendicular_ends_on_it(random):
+    """Against many places in the cell; an edge counts within the limit."""
+    kinds = set()
+    for k in range(300):
+        corners, normals = soup(random, 1, 1.0)
+        normals *= random.choice([-1.0, 1.0])
+        low = random.normal(size=3)
+        boxes = np.concatenate([low, low + random.uniform(0.05, 0.5, 3)])[None]
+        tree = WallTree(corners, normals, None, None, None, np.array([k % 2 == 0]), None)
+        middle = wall_lists._middle(boxes, 0)
+        half = tuple(0.5 * (boxes[0, 3:] - boxes[0, :3]))
+        sight, limit = 1.5, 0.7
+        kind = wall_lists._kind(tree, 0, boxes, 0, middle, half, sight, limit)
+        x = random.uniform(boxes[0, :3], boxes[0, 3:], (300, 3))
+        a, b, c = corners[0]
+        h = (x - a) @ normals[0]
+        foot = x - h[:, None] * normals[0] - a
+        w = np.linalg.lstsq(np.stack([b - a, c - a], axis=1), foot.T, rcond=None)[0]
+        ends = (h > 0.0) & (h < sight) & (w.min(axis=0) >= 0.0) & (w.sum(axis=0) <= 1.0)
+        if ends.any():
+            assert kind >= 0
+        apart = np.maximum(corners[0].min(axis=0) - boxes[0, 3:], boxes[0, :3] - corners[0].max(axis=0))
+        near = np.linalg.norm(np.maximum(apart, 0.0)) <= limit
+        if (kind == EDGE) and k % 2 == 0:
+            assert near
+        elif kind == EDGE:
+            raise AssertionError("a triangle without such an edge")
+        elif near and k % 2 == 0:
+            # Behind it, or out of sight.
+            ends = np.array(list(itertools.product(*boxes.reshape(2, 3).T)))
+            heights = (ends - a) @ normals[0]
+            assert heights.max() <= 0.0 or heights.min() >= sight
+        if kind == -1 and k % 2:
+            # Not by much more than the cell is wide.
+            assert not ends.any()
+        kinds.add(kind)
+    assert kinds == {-1, 0, EDGE}
+
+
+def boxed_soup(random, n=60):
+    """Small triangles all about, of which some count, and the boxes of some cells among them."""
+    corners, normals = soup(random, n, 0.15)
+    low = random.uniform(-1.5, 1.5, (25, 3))
+    boxes = np.concatenate([low, low + random.uniform(0.1, 0.5, (25, 3))], axis=1)
+    return wall_lists.wall_tree(corners, normals, np.ones(n, dtype=bool)), boxes, 3 * np.arange(n) + 5
+
+
+@pytest.mark.parametrize("most", [3, 5, 64])
+def test_lists_for_touching_hold_what_is_near_or_the_nearest_alone(most, random, monkeypatch):
+    """In the plain text; a list that would be longer than the most is the triangle nearest to the middle."""
+    monkeypatch.setattr(wall_lists, "link", lambda function: function)
+    monkeypatch.setattr(wall_lists, "MOST_LISTED", most)
+    tree, boxes, names = boxed_soup(random)
+    reach = 0.3
+    start, near = wall_lists.near_walls(tree, boxes, reach, names, 1.0)
+    low, high = tree.corners.min(axis=1) - reach, tree.corners.max(axis=1) + reach
+    lengths = []
+    for cell, box in enumerate(boxes):
+        found = near[start[cell] : start[cell + 1]].tolist()
+        meet = np.flatnonzero(np.all((low <= box[3:]) & (box[:3] <= high), axis=1))
+        if len(meet) <= most:
+            assert found == names[meet].tolist()
+        else:
+            middle = 0.5 * (box[:3] + box[3:])
+            distances = [np.linalg.norm(nearest_point(*map(tuple, c - middle))) for c in tree.corners]
+            assert found == [-1 - names[np.argmin(distances)]]
+        lengths.append(len(meet))
+    assert (max(lengths) > most) == (most < 64)
+    assert min(lengths) < 3
+    assert start[-1] == len(near)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_lists_for_seeing_hold_what_is_a_wall_of_its_own_kind(share, random, monkeypatch):
+    """All that :func:`_kind` accepts of all triangles, asked one by one; no plane here covers a cell."""
+    monkeypatch.setattr(wall_lists, "link", lambda function: function)
+    tree, boxes, names = boxed_soup(random)
+    edges = random.random(60) < share
+    tree = tree._replace(edges=edges, cones=wall_lists._cones(tree.normals, edges, tree.leaves))
+    sight, found_kinds = 0.6, set()
+    start, seen = wall_lists.seen_walls(tree, boxes, sight, names)
+    for cell, box in enumerate(boxes):
+        middle = wall_lists._middle(boxes, cell)
+        half = tuple(box[3:] - middle)
+        size = np.linalg.norm(half)
+        distances = [np.linalg.norm(nearest_point(*map(tuple, c - middle))) for c in tree.corners]
+        expected = []
+        if min(distances) < sight + size:
+            limit = min(min(distances) + size, sight)
+            for i in range(60):
+                kind = wall_lists._kind(tree, i, boxes, cell, middle, half, sight, limit)
+                low, high = tree.corners[i].min(axis=0), tree.corners[i].max(axis=0)
+                apart = np.maximum(low - box[3:], box[:3] - high)
+                if kind >= 0 and np.linalg.norm(np.maximum(apart, 0.0)) < sight:
+                    expected.append(4 * names[i] + kind)
+        found = seen[start[cell] : start[cell + 1]].tolist()
+        # A box of a leaf may be near where a triangle of it is not.
+        assert set(expected) <= set(found)
+        assert found == sorted(found)
+        for entry in set(found) - set(expected):
+            i = int(np.flatnonzero(names == entry >> 2)[0])
+            assert wall_lists._kind(tree, i, boxes, cell, middle, half, sight, limit) == entry & 3
+        found_kinds |= {entry & 3 for entry in found}
+    assert found_kinds == {0.0: {0}, 0.5: {0, EDGE}, 1.0: {EDGE}}[share]
+
+
+def test_a_plane_that_covers_the_shadow_of_a_cell_stands_for_all_in_it(random, monkeypatch):
+    """A floor of many triangles is one sure entry, the first; a step above it is listed beside it."""
+    monkeypatch.setattr(wall_lists, "link", lambda function: function)
+    t = np.linspace(0.0, 4.0, 5)
+    floor = []
+    for x, y in itertools.product(t[:-1], t[:-1]):
+        a, b, c, d = ([x, y, 0.0], [x + 1, y, 0.0], [x + 1, y + 1, 0.0], [x, y + 1, 0.0])
+        floor += [[a, b, c], [a, c, d]]
+    step = [[[1.0, 1.0, 0.3], [2.0, 1.0, 0.3], [1.0, 2.0, 0.3]]]
+    corners = np.array(floor + step)
+    normals = np.tile([0.0, 0.0, 1.0], (33, 1))
+    single = np.ones(33, dtype=bool)
+    tree = wall_lists.wall_tree(corners, normals, single)
+    names = np.arange(100, 133)
+    boxes = np.array([[1.9, 1.9, 0.5, 2.3, 2.3, 0.8], [-0.5, 1.0, 0.5, 0.5, 1.5, 0.8]])
+    start, seen = wall_lists.seen_walls(tree, boxes, 2.0, names)
+    first = seen[start[0] : start[1]]
+    assert (first & SURE).tolist() == [1] * 1 + [0] * (len(first) - 1)
+    assert 100 <= first[0] >> 2 < 132
+    assert [(e >> 2, e & 3) for e in first[1:]] == [(132, EDGE)]
+    # Beside the floor's end nothing is sure.
+    second = seen[start[1] : start[2]]
+    assert not (second & SURE).any()
+    assert len(second) > 4
+    # Images may lie on each other, so that none of them covers anything.
+    start, seen = wall_lists.seen_walls(tree._replace(single=~single), boxes, 2.0, names)
+    assert not (seen & SURE).any()
+
+
+@pytest.mark.parametrize("axis", range(3))
+def test_an_edge_is_seen_from_where_no_perpendicular_ends_on_its_triangle(axis, monkeypatch):
+    """A small triangle far beside a small cell, hardly below it: only as an edge, and not beyond sight."""
+    monkeypatch.setattr(wall_lists, "link", lambda function: function)
+    corners = np.array([[[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]]])
+    box = np.array([[1.0, 0.0, 0.1], [1.05, 0.05, 0.15]])
+    corners, box = np.roll(corners, axis, axis=2), np.roll(box, axis, axis=1)
+    normals = np.roll([[0.0, 0.0, 1.0]], axis, axis=1)
+    tree = wall_lists.wall_tree(corners, normals, np.ones(1, dtype=bool))
+    boxes, names = box.reshape(1, 6), np.array([7])
+    assert wall_lists.seen_walls(tree, boxes, 1.0, names)[1].tolist() == [4 * 7 + EDGE]
+    assert wall_lists.seen_walls(tree, boxes, 0.5, names)[1].tolist() == []
+    # From behind it is no wall, nor where no edge of it can be the nearest.
+    assert wall_lists.seen_walls(tree._replace(normals=-normals), boxes, 1.0, names)[1].tolist() == []
+    inner = tree._replace(edges=np.array([False]), cones=tree.cones * [1, 1, 1, 1, 0])
+    assert wall_lists.seen_walls(inner, boxes, 1.0, names)[1].tolist() == []

@@ -93,6 +93,12 @@ def test_each_kind_is_made_and_nothing_else(tool):
     assert made == {(kind, text.replace(old, new)) for kind, old, new in {*CHANGES, *others}}
 
 
+def test_what_changes_nothing_is_not_made(tool):
+    """Guards against a division by zero, and the order of the vectors of an inner product."""
+    source = b"length = max(_inner(a, b), 1e-300)\n"
+    assert [m.kind for m in tool.mutations("file", source)] == ["logic"]
+
+
 def test_bytes_before_a_change_may_be_of_any_letters(tool):
     source = "angle = 'µm θ', 1.5\n".encode()
     (mutation,) = tool.mutations("file", source)

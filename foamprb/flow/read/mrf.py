@@ -108,7 +108,7 @@ def _rotation(zone: Dictionary) -> Rotation:
     origin = _numbers(zone, "origin", _VECTOR, "a vector (x y z)")
     axis = np.array(_numbers(zone, "axis", _VECTOR, "a vector (x y z) that is not zero"))
     length = float(np.linalg.norm(axis))
-    if not (length > 0.0 and math.isfinite(speed)):
+    if not 0.0 < length < math.inf:
         raise zone.entries["axis"].mistake("is zero. Allowed: a vector (x y z) that is not zero.")
     x, y, z = (speed / length * axis).tolist()
     still = zone.entries.get("nonRotatingPatches")
@@ -128,9 +128,10 @@ def _numbers(zone: Dictionary, key: str, pattern: re.Pattern[str], allowed: str)
     if entry is None:
         raise zone.missing(key, f"Allowed: {allowed}.")
     match = pattern.fullmatch(entry.text) if isinstance(entry, Stream) else None
-    if match is None:
+    found = [] if match is None else [float(number) for number in match.groups()]
+    if not found or not all(map(math.isfinite, found)):
         raise entry.mistake(f"is {entry}. Allowed: {allowed}; or solution/rotatingZones absolute.")
-    return [float(number) for number in match.groups()]
+    return found
 
 
 def _word(zone: Dictionary, key: str, default: str) -> str:

@@ -125,7 +125,7 @@ def series_of(
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
-    a_time = 96 * (mesh.n_points + mesh.n_cells)
+    a_time = 8 * (20 if turbulent else 12) * (mesh.n_points + mesh.n_cells)
     keep = _MOST_IN_MEMORY // a_time if period is not None else 0
     times = [float(name) for name in names]
     try:

@@ -17,11 +17,12 @@ from mesh_shapes import (
     pipe_patches,
     polyhedra,
 )
+from scipy.spatial.transform import Rotation
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
-from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.coupling import couple
 from foamprb.flow.mesh.faces import choose_bases
 from foamprb.flow.mesh.mesh import build_mesh
@@ -275,6 +276,67 @@ def test_cyclic_patches_without_faces_are_coupled_all_the_same():
     assert list(named) == patches
     assert [(c.patch, c.other, len(c.faces)) for c in couplings] == [(0, 1, 0), (1, 0, 0)]
     assert all(np.array_equal(c.turn, np.eye(3)) and not c.shift.any() for c in couplings)
+
+
+AXIS, ARM = np.array([2.0, -1.0, 2.0]) / 3.0, np.array([2.0, 2.0, -1.0]) / 3.0
+CENTRE, THETA = np.array([0.3, -0.7, 1.1]), 1.0
+
+
+def rectangle(x, a, b):
+    """Centre, area vector and surface of the one with its middle at x and the sides a and b."""
+    points = np.array([x - a - b, x + a - b, x + a + b, x - a + b])
+    return x, 4.0 * np.cross(a, b), pyvista.PolyData(points, [4, 0, 1, 2, 3])
+
+
+def coupled(one, other, transform):
+    """The motion from one rectangle to another, and back."""
+    names = ("left", "right")
+    patches = [Patch(name, "cyclicAMI", names[1 - k]) for k, name in enumerate(names)]
+    centres, areas, shapes = zip(one, other, strict=True)
+    surfaces = [
+        PatchSurface(p.name, p.type, s, p.neighbour, transform) for p, s in zip(patches, shapes, strict=True)
+    ]
+    named, couplings = couple(patches, np.arange(3), np.array(centres), np.array(areas), surfaces, "mesh")
+    assert list(named) == patches
+    assert [(c.patch, c.other, *c.faces, *c.partners) for c in couplings] == [(0, 1, 0, 1), (1, 0, 1, 0)]
+    there, back = couplings
+    np.testing.assert_allclose(there.turn @ back.turn, np.eye(3), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(there.turn @ back.shift, -there.shift, rtol=0, atol=1e-15)
+    return there
+
+
+@pytest.mark.parametrize("length", [0.5, -2.0])
+@pytest.mark.parametrize("stated", [None, 1.001 * THETA, -1.001 * THETA])
+@pytest.mark.parametrize("side", ["of a sector", "that winds about the axis"])
+def test_interfaces_by_a_rotation_are_coupled_by_that_which_is_stated(side, stated, length):
+    """About an oblique axis beside the origin; the sense is that in which the faces lie."""
+    along = AXIS if side == "of a sector" else np.cross(AXIS, ARM)
+    x = CENTRE + 1.5 * ARM + 0.4 * AXIS
+    turn = Rotation.from_rotvec(THETA * AXIS).as_matrix()
+    one = rectangle(x, 0.5 * ARM, 0.5 * along)
+    other = rectangle(CENTRE + turn @ (x - CENTRE), turn @ (0.5 * along), turn @ (0.5 * ARM))
+    transform = Transform("rotational", None, tuple(length * AXIS), tuple(CENTRE), stated)
+    found = coupled(one, other, transform)
+    expected = Rotation.from_rotvec((THETA if stated is None else abs(stated)) * AXIS).as_matrix()
+    np.testing.assert_allclose(found.turn, expected, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(found.shift, CENTRE - expected @ CENTRE, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("stated", [None, 1.001, -1.001])
+def test_interfaces_by_a_translation_are_coupled_by_that_which_is_stated(stated):
+    way = np.array([0.2, -1.0, 3.0])
+    one = rectangle(CENTRE, 0.5 * ARM, 0.5 * AXIS)
+    other = rectangle(CENTRE + way, 0.5 * AXIS, 0.5 * ARM)
+    separation = None if stated is None else tuple(stated * way)
+    found = coupled(one, other, Transform("translational", separation))
+    assert np.array_equal(found.turn, np.eye(3))
+    np.testing.assert_allclose(found.shift, way * (1.0 if stated is None else 1.001), rtol=1e-14)
+
+
+def test_interfaces_of_which_nothing_is_stated_lie_in_the_same_place():
+    found = coupled(rectangle(CENTRE, 0.5 * ARM, 0.5 * AXIS), rectangle(CENTRE, AXIS, 0.5 * ARM), Transform())
+    assert np.array_equal(found.turn, np.eye(3))
+    assert not found.shift.any()
 
 
 @pytest.mark.parametrize("corners", [4, 5, 6])

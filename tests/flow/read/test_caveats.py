@@ -173,3 +173,54 @@ def test_fluid_that_is_lost_is_counted_by_the_velocity(case):
     # What a compressible fluid's mass does, its volume does not tell.
     put(case / "1e1/rho", rho(scalars(range(1, 9))), "volScalarField")
     assert [note for note in caveats(case) if "conserve" in note] == []
+
+
+def test_a_flux_that_is_not_there_for_a_patch_is_taken_from_the_velocity(case):
+    """As where phi has a value too few, or is broken; an empty patch needs none."""
+    fluxes(case, -2.0, 1.5)
+    path = case / "1e1/phi"
+    text = path.read_text()
+    assert "from phi" in caveats(case)[0]
+    for old, new in (
+        ("value uniform 0; }", "}"),
+        ("nonuniform List<scalar> 4(-0.5 -0.5 -0.5 -0.5)", "nonuniform List<scalar> 3(-0.5 -0.5 -0.5)"),
+        ("internalField", "internalFeld"),
+    ):
+        assert old in text
+        path.write_text(text.replace(old, new))
+        # The velocity is linear, and conserves volume.
+        assert [note for note in caveats(case) if "from phi" in note] == []
+
+
+def test_a_motion_that_cannot_be_read_is_one(case):
+    put(case / "constant/dynamicMeshDict", "dynamicFvMesh {")
+    (found,) = caveats(case)
+    assert "the mesh moves (dynamicMeshDict), but is read at one time" in found
+    put(case / "constant/dynamicMeshDict", "motion yes;")
+    (found,) = caveats(case)
+    assert "the mesh moves (dynamicMeshDict)" in found
+
+
+def test_a_density_that_cannot_be_read_is_none(case):
+    put(case / "1e1/rho", rho("uniform one"), "volScalarField")
+    assert caveats(case) == []
+    # A spread of round-off is none.
+    put(case / "1e1/rho", rho(scalars([1000.0] * 7 + [1000.0005])), "volScalarField")
+    assert caveats(case) == []
+    put(case / "1e1/rho", rho(scalars([1000.0] * 7 + [1000.002])), "volScalarField")
+    assert len(caveats(case)) == 1
+
+
+@pytest.mark.parametrize(("share", "warned"), [(0.9e-3, False), (1.1e-3, True)])
+def test_a_loss_counts_from_a_thousandth_of_the_flux(case, share, warned):
+    for inflow, outflow in ((2.0, 2.0 * (1.0 - share)), (2.0 * (1.0 - share), 2.0)):
+        fluxes(case, -inflow, outflow)
+        assert bool(caveats(case)) == warned
+
+
+@pytest.mark.parametrize("text", ["0", "0.0", "0.00", "1e-9"])
+def test_a_field_of_zeros_is_none(case, text):
+    put(case / "1e1/k", f"dimensions [0 2 -2 0 0 0 0]; internalField uniform {text}; boundaryField {{}}")
+    assert bool(caveats(case)) == (text == "1e-9")
+    put(case / "1e1/nut", NUT.replace("1e-5", "0"), "volScalarField")
+    assert caveats(case) == []

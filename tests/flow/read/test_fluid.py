@@ -181,3 +181,24 @@ def test_without_any_dictionary_the_message_says_which_entry_to_add(case):
         read_settings(case)
     change(case, "rho0 1000;", "rho0 1000; nu 1e-6;")
     assert read_settings(case).fluid.nu == 1e-6
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "message"),
+    [
+        ("muCoeffs<8> ( 1 two );", r"is '\(1 two\)'\. Allowed: a list of numbers"),
+        ("", r"gives a viscosity of nan Pa s at 300 K"),
+        ("muCoeffs<8> ( -1 0 );", r"gives a viscosity of -1 Pa s at 300 K"),
+    ],
+)
+def test_a_polynomial_must_give_a_viscosity(coefficients, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        viscosity(tmp_path, AIR % ("polynomial", "icoPolynomial", "", coefficients), 300.0)
+
+
+def test_a_mean_that_is_no_density_is_none(tmp_path):
+    write(tmp_path, "1/rho", RHO.replace("1.1 1.2 1.3 1.4", "0 0 0 0"))
+    assert mean_density(tmp_path, "", 1) is None
+    assert mean_density(tmp_path / "nothing", "", 1) is None
+    (tmp_path / "2").mkdir()
+    assert mean_density(tmp_path, "", 2) is None

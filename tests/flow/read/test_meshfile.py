@@ -19,6 +19,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read import vtk_guard
 from foamprb.flow.read.division import Division
 from foamprb.flow.read.meshfile import describe_file, read_mesh_file, read_mesh_series
+from foamprb.flow.reconstruct import Reconstruction
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
 
@@ -76,6 +77,29 @@ def test_a_series_of_foam_to_vtk(tmp_path):
         assert u == pytest.approx(factor * first, rel=1e-6)
     with pytest.raises(InputError, match=r"no time 3; the times are 0\.5, 10"):
         read_mesh_file(path, time=3)
+
+
+@pytest.mark.parametrize("names", [("floor", "lid", "sides"), ("lid",), ("floor", "sides"), ()])
+def test_velocities_on_the_patches_that_have_some_count_and_others_are_continued(names, tmp_path):
+    shape, patches = flowing(), {}
+    for patch in box_patches(shape):
+        patch.surface.clear_data()
+        if patch.name in names:
+            # Other than what the cells would be continued to.
+            patch.surface.cell_data["U"] = -2.0 * patch.surface.cell_centers().points @ GRADIENT.T
+        patches[patch.name] = patch.surface
+    path = tmp_path / "case.vtm"
+    pyvista.MultiBlock({"internal": shape, "boundary": pyvista.MultiBlock(patches)}).save(path)
+    flow = read_mesh_file(path)
+    mesh = flow.mesh
+    given = np.repeat([patch.name in names for patch in flow.patches], np.diff(mesh.patch_start))
+    expected, slopes = Reconstruction(mesh, given)(
+        mesh.centres @ GRADIENT.T, -2.0 * mesh.boundary_centres @ GRADIENT.T
+    )
+    _, u, l = flow.at_nodes()
+    assert u == pytest.approx(expected, abs=1e-5)
+    assert l == pytest.approx(slopes.reshape(-1, 9), abs=1e-4)
+    assert any("No velocities were given on the boundary" in note for note in flow.notes) == (not names)
 
 
 TIMES = (0.5, 1.0, 10.0)

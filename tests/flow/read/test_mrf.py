@@ -134,3 +134,77 @@ def test_without_an_active_zone_nothing_changes(case):
     path = folder / "constant/MRFProperties"
     path.write_text(path.read_text().replace("active yes", "active no"))
     assert type(read_flow(folder, source=RELATIVE)) is MeshFlow
+
+
+def zone_of(folder, text):
+    path = folder / "constant/MRFProperties"
+    path.write_text(header("dictionary", path.name) + text)
+    return read_rotations(folder, "")
+
+
+def test_an_axis_of_any_length_and_direction(case):
+    """Ω is ω along the axis; without cellZone the zone is that of the entry's name."""
+    folder, _, _ = case
+    (one,) = zone_of(
+        folder, 'upper { origin (1 2 3); axis (2 -4 4); omega -6; nonRotatingPatches 2(a "b.*"); }'
+    )
+    assert one.name == one.zone == "upper"
+    assert one.omega == pytest.approx((-2.0, 4.0, -4.0))
+    assert one.origin == (1.0, 2.0, 3.0)
+    assert one.still == ("a", "b.*")
+    assert one.source.endswith("constant/MRFProperties")
+    first = "origin (0 0 0); axis (0 0 1); omega 1e1;"
+    second = "origin origin [0 1 0 0 0 0 0] (.5 1. 1e-1); axis (1 0 0); omega 2; cellZone c;"
+    one, two = zone_of(folder, f"a {{ {first} }} b {{ {second} }}")
+    assert (one.omega, one.still) == ((0.0, 0.0, 10.0), ())
+    assert (two.origin, two.omega, two.zone) == ((0.5, 1.0, 0.1), (2.0, 0.0, 0.0), "c")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "axis (0 0 0); omega 1; origin (0 0 0);",
+            r"axis is zero\. Allowed: a vector",
+        ),
+        ("axis (0 0 1); omega 1;", r"origin is missing\. Allowed: a vector \(x y z\)\."),
+        ("axis (0 0 1); origin (0 0 0);", "omega is missing"),
+        ("omega 1; origin (0 0 0);", "axis is missing"),
+        ("axis (0 0 1 0); omega 1; origin (0 0 0);", "axis is '.*'. Allowed: a vector"),
+        ("axis (0 0 1); omega 1; origin { x 0; };", "origin is"),
+        (
+            "axis (0 0 1); omega 1e999; origin (0 0 0);",
+            r"omega is '1e999'\. Allowed: a constant",
+        ),
+        ("axis (0 0 1e999); omega 1; origin (0 0 0);", r"axis is '\(0 0 1e999\)'. Allowed: a vector"),
+        ("axis (0 0 1); omega 1; origin (0 1e999 0);", r"origin is '\(0 1e999 0\)'. Allowed: a vector"),
+    ],
+)
+def test_a_zone_needs_an_axis_a_place_and_a_speed(case, text, message):
+    with pytest.raises(InputError, match=message):
+        zone_of(case[0], f"rotor {{ {text} }}")
+
+
+def test_zones_of_a_region_go_before_those_of_the_case(case):
+    folder, _, _ = case
+    (folder / "constant/air").mkdir()
+    assert [r.name for r in read_rotations(folder, "air")] == ["rotor"]
+    own = folder / "constant/air/MRFProperties"
+    own.write_text(header("dictionary", own.name) + "fan { origin (0 0 0); axis (0 0 1); omega 1; }")
+    assert [r.name for r in read_rotations(folder, "air")] == ["fan"]
+    assert [r.name for r in read_rotations(folder, "")] == ["rotor"]
+    own.unlink()
+    (folder / "constant/MRFProperties").unlink()
+    assert read_rotations(folder, "air") == ()
+
+
+@pytest.mark.parametrize("cells", [[0, 8], [-1, 0]])
+def test_a_zone_of_cells_beyond_the_mesh_is_refused(case, cells):
+    rotations = read_rotations(case[0], "")
+    with pytest.raises(InputError, match=r"cellZone upper names cells beyond the mesh's 8\."):
+        rotating_zones(rotations, {"upper": np.array(cells)}, 8)
+    [zone] = rotating_zones(rotations, {"upper": np.array([0, 7])}, 8)
+    assert (zone.name, zone.omega, zone.origin) == ("rotor", (0.0, 0.0, 3.0), (0.5, 0.5, 0.0))
+    assert zone.cells.tolist() == [0, 7]
+    [empty] = rotating_zones(rotations, {"upper": np.array([], dtype=int)}, 8)
+    assert len(empty.cells) == 0

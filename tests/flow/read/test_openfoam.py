@@ -16,7 +16,9 @@ from paths import PIPE
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
+from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.case import available_times, select_time
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
@@ -266,6 +268,19 @@ def test_cyclic_patches_of_a_case(tmp_path):
     assert flow.patches[:2] == (Patch("floor", "cyclic", "lid"), Patch("lid", "cyclic", "floor"))
     assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
     assert np.array_equal(flow.mesh.couplings[0].turn, np.eye(3))
+
+
+def test_how_an_interface_lies_to_its_neighbour_is_what_the_file_says(tmp_path):
+    """The angle in degrees."""
+    write_case(tmp_path)
+    path = tmp_path / POLY / "boundary"
+    around = "rotationAxis (1 2 3); rotationCentre (4 5 6); rotationAngle -30;"
+    edit(path, "type wall;", f"type cyclicAMI; neighbourPatch lid; transform rotational; {around}")
+    edit(path, "type patch;", "type cyclicAMI; transform translational; separationVector (7 8 9);")
+    floor, lid, sides = (patch.transform for patch in read_boundary(path, tmp_path))
+    assert floor == ("rotational", None, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), pytest.approx(-np.pi / 6.0))
+    assert lid == ("translational", (7.0, 8.0, 9.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), None)
+    assert sides == Transform()
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,232 @@
+"""Loops over faces and cells, as plain functions."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from mesh_shapes import HEXAHEDRON_FACES, KINDS, block
+
+from foamprb.flow.mesh import faces
+from foamprb.flow.mesh.cells import list_half_faces
+from foamprb.flow.mesh.faces import OPEN, TWISTED, pair_faces, split_cells
+from foamprb.flow.mesh.geometry import inward_normals
+from foamprb.flow.mesh.mesh import build_mesh
+
+
+def lists_of(found):
+    """Start and points of faces."""
+    return np.cumsum([0, *map(len, found)]), np.array([p for face in found for p in face])
+
+
+def paired(found):
+    start, lists = lists_of(found)
+    n = len(found)
+    mate = np.zeros(n, dtype=int)
+    head = np.full(n, -1)
+    wrong = pair_faces(start, lists, head, np.zeros(n, dtype=int), mate)
+    # Few are compared: those alone whose points have the same sum.
+    if wrong < 0:
+        assert set(np.flatnonzero(head >= 0)) == {sum(face) % n for face in found}
+    return wrong, mate.tolist()
+
+
+def test_faces_of_the_same_points_are_pairs():
+    found = [(0, 1, 2), (3, 4, 5, 6), (2, 0, 1), (1, 2, 3), (6, 5, 4, 3), (0, 3, 2, 1), (0, 1, 5)]
+    assert paired(found) == (-1, [2, 4, 0, 3, 1, 5, 6])
+    # Others with the same sum of numbers are none, nor those with points as often in all.
+    assert paired([(0, 5, 1), (0, 4, 2), (3, 3, 0)]) == (-1, [0, 1, 2])
+    assert paired([(1, 1, 2, 2), (1, 2, 1, 2), (1, 1, 1, 3), (0, 2, 2, 2)]) == (-1, [1, 0, 2, 3])
+    # A third with the same points.
+    assert paired([(9, 8, 7), (0, 1, 2), (1, 2, 0), (2, 1, 0)])[0] == 3
+
+
+def test_the_faces_of_cells_are_listed_cell_after_cell():
+    """Tetrahedra, pyramids, prisms, hexahedra and polyhedra: each closed, with as many faces as it has."""
+    counts = {"hexahedra": 6, "tetrahedra": 4, "prisms": 5, "pyramids": 5, "polyhedra": 10}
+    for kind, count in counts.items():
+        half, *_ = list_half_faces(block(2, 0.0, kind), "mesh")
+        assert set(np.diff(half.first)) == {count}
+        for c in range(len(half.first) - 1):
+            edges = []
+            for f in range(half.first[c], half.first[c + 1]):
+                points = half.points[half.start[f] : half.start[f + 1]].tolist()
+                assert len(set(points)) == len(points)
+                edges += itertools.pairwise([*points, points[0]])
+            # Each edge once in each direction: the faces of a cell turn alike.
+            assert len(set(edges)) == len(edges)
+            assert {(b, a) for a, b in edges} == set(edges)
+
+
+def polygon(random, n):
+    """A flat polygon about a place, with its centroid and area vector by triangles from a corner."""
+    e = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    angle = np.sort(random.uniform(0.0, 2.0 * np.pi, n))
+    ring = random.normal(size=3) + (np.cos(angle)[:, None] * e[0] + np.sin(angle)[:, None] * e[1])
+    parts = [ring[[0, k, k + 1]] for k in range(1, n - 1)]
+    vectors = np.array([0.5 * np.cross(t[1] - t[0], t[2] - t[0]) for t in parts])
+    areas = np.linalg.norm(vectors, axis=1)
+    return ring, areas @ np.array([t.mean(axis=0) for t in parts]) / areas.sum(), vectors.sum(axis=0)
+
+
+def test_a_flat_face_has_its_centroid_and_its_area(random):
+    rings, centroids, vectors = zip(*(polygon(random, n) for n in (3, 4, 5, 8, 3, 6)), strict=True)
+    sizes = [len(r) for r in rings]
+    order = random.permutation(sum(sizes))
+    points = np.empty((sum(sizes), 3))
+    points[order] = np.concatenate(rings)
+    start = np.cumsum([0, *sizes])
+    centres, areas = np.full((2, len(rings), 3), np.nan)
+    faces.measure_faces(points, start, order, centres, areas)
+    np.testing.assert_allclose(centres, centroids, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(areas, vectors, rtol=0, atol=1e-12)
+
+
+def test_a_warped_face_is_weighed_by_triangles_about_its_mean(random):
+    """Weights are their areas along the whole."""
+    for n in (4, 5):
+        ring = polygon(random, n)[0] + 0.1 * random.normal(size=(n, 3))
+        mean = ring.mean(axis=0)
+        crosses = np.cross(ring - mean, np.roll(ring, -1, axis=0) - mean)
+        total = 0.5 * crosses.sum(axis=0)
+        w = crosses @ total
+        thirds = (mean + ring + np.roll(ring, -1, axis=0)) / 3.0
+        centres, areas = np.empty((2, 1, 3))
+        faces.measure_faces(ring, np.array([0, n]), np.arange(n), centres, areas)
+        np.testing.assert_allclose(areas[0], total, rtol=0, atol=1e-13)
+        np.testing.assert_allclose(centres[0], w @ thirds / w.sum(), rtol=0, atol=1e-13)
+
+
+def test_a_face_folded_onto_itself_has_its_mean_as_centre():
+    ring = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
+    centres, areas = np.empty((2, 1, 3))
+    faces.measure_faces(ring, np.array([0, 4]), np.arange(4), centres, areas)
+    np.testing.assert_allclose(centres[0], [0.5, 0.0, 0.0], atol=1e-15)
+    np.testing.assert_allclose(areas[0], 0.0, atol=1e-15)
+    # Nearly so: the weights lead beyond its corners.
+    bow = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0 + 1e-9, 0.0]])
+    faces.measure_faces(bow, np.array([0, 4]), np.arange(4), centres, areas)
+    assert np.abs(centres[0] - bow.mean(axis=0)).max() <= 0.51
+
+
+def test_the_sum_and_the_product_of_the_ways_to_two_points(random):
+    points, origins = random.normal(size=(4, 3)), random.normal(size=(2, 3))
+    a, b = points[1] - origins[1], points[3] - origins[1]
+    total, product = faces._edge(points, 1, 3, origins, 1)
+    assert total == pytest.approx(a + b)
+    assert product == pytest.approx(np.cross(a, b))
+
+
+def test_rows_are_added_and_bounded_by_cell(random):
+    cells, values = random.integers(0, 4, 12), random.normal(size=(12, 3))
+    sums, low, high = np.zeros((4, 3)), np.full((4, 3), np.inf), np.full((4, 3), -np.inf)
+    faces.add_at(cells, values, sums)
+    faces.bound(cells, values, low, high)
+    for c in range(4):
+        own = values[cells == c]
+        np.testing.assert_allclose(sums[c], own.sum(axis=0), atol=1e-14)
+        np.testing.assert_array_equal(low[c], own.min(axis=0))
+        np.testing.assert_array_equal(high[c], own.max(axis=0))
+
+
+def test_pyramids_make_the_volume_and_the_first_moment(random):
+    """A box, of which some faces turn inwards, about a place that is not its middle."""
+    size, corner, middle = np.array([1.0, 2.0, 3.0]), random.normal(size=3), random.normal(size=3)
+    centres, areas = [], []
+    for axis, side in itertools.product(range(3), (0.0, 1.0)):
+        at = corner + 0.5 * size
+        at[axis] = corner[axis] + side * size[axis]
+        centres.append(at)
+        areas.append((2.0 * side - 1.0) * size.prod() / size[axis] * np.eye(3)[axis])
+    centres, areas = np.array(centres), np.array(areas)
+    volumes, moments = np.zeros(3), np.zeros((3, 3))
+    middles = np.array([[9.0, 9.0, 9.0], [8.0, 8.0, 8.0], middle])
+    cells = np.full(3, 2)
+    faces.add_pyramids(cells, 1.0, centres[:3], areas[:3], middles, volumes, moments)
+    faces.add_pyramids(cells, -1.0, centres[3:], -areas[3:], middles, volumes, moments)
+    assert volumes == pytest.approx([0.0, 0.0, 6.0])
+    np.testing.assert_allclose(moments[2], 6.0 * (corner + 0.5 * size - middle), rtol=0, atol=1e-12)
+    assert not moments[:2].any()
+
+
+def test_the_quality_of_a_tetrahedron_is_its_volume_over_its_edges(random):
+    for _ in range(10):
+        points, centres = random.normal(size=(5, 3)), random.normal(size=(3, 3))
+        a, b, c = random.permutation(5)[:3]
+        nodes = np.array([centres[2], *points[[a, b, c]]])
+        six = np.linalg.det(nodes[1:] - nodes[0])
+        edges = sum(np.sum((p - q) ** 2) for p, q in itertools.combinations(nodes, 2))
+        assert faces._quality(points, centres, 2, a, b, c) == pytest.approx(six / edges**1.5)
+
+
+def split(cells):
+    """Cut cells of faces apart, each face with its own points, none shared; and what is wrong with them."""
+    found = [face for cell in cells for face in cell]
+    start, lists = lists_of(found)
+    first = np.cumsum([0, *map(len, cells)])
+    n = int(sum(len(f) - 2 for f in found))
+    tets, neighbours = np.full((2, n, 4), -99)
+    cell_start, triangle_tet = np.empty(len(cells) + 1, dtype=int), np.full(n, -99)
+    state = np.zeros(len(cells), dtype=np.uint8)
+    split_cells(100, first, np.arange(len(found)), start, lists, 0, np.full(len(found), -1),
+                np.full((5, 64), -1), cell_start, tets, neighbours, triangle_tet, state)  # fmt: skip
+    return cell_start, tets, neighbours, triangle_tet, state.tolist()
+
+
+def test_a_cell_that_is_open_or_twisted_is_known():
+    cube = [list(f) for f in HEXAHEDRON_FACES]
+    other = [[p + 8 for p in f] for f in cube]
+    cell_start, tets, neighbours, triangle_tet, state = split([cube, other])
+    assert state == [0, 0]
+    assert cell_start.tolist() == [0, 12, 24]
+    assert tets[:, 0].tolist() == [100] * 12 + [101] * 12
+    assert sorted(-1 - neighbours[:, 0]) == list(range(24))
+    assert triangle_tet[-1 - neighbours[:, 0]].tolist() == list(range(24))
+    for t in range(24):
+        for slot in (1, 2, 3):
+            back = neighbours[t, slot]
+            shared = sorted(tets[t, [k for k in range(4) if k != slot]])
+            [there] = [k for k in range(4) if neighbours[back, k] == t]
+            assert sorted(tets[back, [k for k in range(4) if k != there]]) == shared
+    assert split([cube[:5], other])[-1] == [OPEN, 0]
+    assert split([other, [*cube[:5], cube[5][::-1]]])[-1] == [0, TWISTED]
+    # An edge of three faces.
+    assert split([[*cube, [0, 1, 5, 4]]])[-1][0] & OPEN
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_centres_and_volumes_of_cells_and_faces_are_those_of_the_box(kind):
+    """Sums over all: ∫ dA = 0, ∫ x·dA/3 = V, and the centroid of the box."""
+    mesh = build_mesh(block(4, 0.3, kind))
+    assert mesh.boundary_areas.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-13)
+    flux = np.einsum("fi,fi->", mesh.boundary_centres, mesh.boundary_areas) / 3.0
+    assert flux == pytest.approx(1.0, rel=1e-12)
+    assert mesh.volumes @ mesh.centres == pytest.approx(np.full(3, 0.5), abs=2e-3)
+    sides = np.abs(mesh.boundary_areas).sum(axis=0)
+    assert sides == pytest.approx(np.full(3, 2.0), rel=1e-12)
+
+
+def test_normals_point_inwards_and_a_triangle_without_area_borrows_that_of_its_face(random):
+    points = random.normal(size=(5, 3))
+    points[4] = 0.5 * (points[0] + points[1])
+    triangles = np.array([[0, 1, 2], [3, 2, 1], [0, 1, 4], [2, 2, 2]])
+    areas = random.normal(size=(4, 3))
+    areas[3] = 0.0
+    found = inward_normals(points, triangles, areas)
+    for k in range(2):
+        a, b, c = points[triangles[k]]
+        n = -np.cross(b - a, c - a)
+        np.testing.assert_allclose(found[k], n / np.linalg.norm(n), atol=1e-13)
+    np.testing.assert_allclose(found[2], -areas[2] / np.linalg.norm(areas[2]), atol=1e-13)
+    assert not found[3].any()
+
+
+def test_between_fans_that_are_as_good_round_off_does_not_decide():
+    """A square whose corners lie a little off a plane: its first fan stays, unless another is better."""
+    for lift, base in ((0.0, 0), (1e-10, 0), (-1e-10, 0), (1e-3, 1), (-1e-3, 0)):
+        points = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, lift], [1.0, 1.0, 0.0], [0.0, 1.0, lift]])
+        lists, centre = np.arange(4), np.array([[0.5, 0.5, -0.6]])
+        nobody = np.zeros(0, dtype=int)
+        assert faces.choose_bases(points, centre, np.array([0, 4]), lists, np.array([0]), nobody) == 0
+        assert lists[0] == base

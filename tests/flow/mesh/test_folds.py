@@ -1,0 +1,342 @@
+"""Lines through tetrahedra, as plain functions: which face they leave by, and where."""
+
+from __future__ import annotations
+
+import itertools
+from contextlib import suppress
+
+import numpy as np
+import pytest
+from hard_meshes import FLUSH, HARD, flow_in, from_hosts, ray
+from mesh_shapes import block, box_patches, corners, grid
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh import folds
+from foamprb.flow.mesh.arrays import no_mesh
+from foamprb.flow.mesh.folds import FLAT, grade, is_flat, settle
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.walk import find_thread
+
+
+def one(nodes, tet=(0, 1, 2, 3), triangles=((1, 2, 3),)):
+    """The arrays of a tetrahedron, and of triangles among its nodes."""
+    nodes = np.asarray(nodes, dtype=float)
+    normals = np.array([np.cross(nodes[b] - nodes[a], nodes[c] - nodes[a]) for a, b, c in triangles])
+    return no_mesh()._replace(
+        nodes=nodes,
+        tets=np.array([tet]),
+        triangles=np.array(triangles),
+        triangle_normals=normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None],
+    )
+
+
+def volume(a, b, c, d):
+    return np.linalg.det([b - a, c - a, d - a])
+
+
+def test_volumes_are_compared_with_the_edges_from_the_first_node(random):
+    for tet in itertools.permutations(range(4)):
+        nodes = random.normal(size=(4, 3))
+        six, size = folds._volume(nodes, np.array([tet]), 0)
+        a, *others = nodes[list(tet)]
+        assert six == pytest.approx(volume(a, *others), rel=1e-12)
+        assert size == pytest.approx(np.prod([np.linalg.norm(b - a) for b in others]))
+        longest = max(np.sum((b - a) ** 2) for b in others)
+        assert folds._squared_edge(one(nodes, tet), 0) == pytest.approx(longest)
+
+
+@pytest.mark.parametrize(
+    ("height", "flat", "mark", "folded"),
+    [(1e-6, False, 0, 0), (1e-8, False, FLAT, 0), (1e-12, True, FLAT, 0), (0.0, True, FLAT, 0),
+     (-1e-12, True, FLAT, 0), (-1e-8, False, FLAT, 1), (-1.0, False, FLAT, 1)],
+)  # fmt: skip
+def test_tetrahedra_are_flat_or_folded_by_their_height(height, flat, mark, folded):
+    """In units of the edges from the first node."""
+    nodes = 7.0 * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]) + 1e-3
+    nodes[3] = nodes[0] + 7.0 * np.array([np.sqrt(1.0 - height**2), 0.0, height])
+    arrays = one(nodes, (0, 1, 2, 3))
+    assert is_flat(arrays, 0) == flat
+    marks, boxes = np.zeros(3, dtype=np.uint8), np.full((1, 6), np.nan)
+    # The first node is the centre of cell 2.
+    assert grade(nodes, np.array([[0, 1, 2, 3]]), -2, marks, boxes) == folded
+    assert marks.tolist() == [0, 0, mark]
+    if folded:
+        assert boxes[0].tolist() == [*nodes.min(axis=0), *nodes.max(axis=0)]
+        # Without room they are counted all the same.
+        assert grade(nodes, np.array([[0, 1, 2, 3]] * 2), -2, marks, boxes) == 2
+    else:
+        assert np.isnan(boxes).all()
+
+
+def way_through(nodes, tet, origin, d):
+    """The face of a tetrahedron by which a line leaves it, and t; both by weights, None if it misses."""
+    a = nodes[list(tet)]
+    w0 = np.linalg.solve(np.vstack([a.T, np.ones(4)]), [*origin, 1.0])
+    slope = np.linalg.solve(np.vstack([a.T, np.ones(4)]), [*d, 0.0])
+    t = -w0 / slope
+    enters, leaves = t[slope > 0.0].max(), t[slope < 0.0].min()
+    return None if enters > leaves else (int(np.flatnonzero(t == leaves)[0]), leaves)
+
+
+def test_a_line_leaves_a_tetrahedron_by_the_face_where_a_weight_ends(random):
+    """Along every axis and both ways; t counts from another place on the line."""
+    missed = 0
+    for _ in range(200):
+        nodes = random.normal(size=(5, 3))
+        tet = tuple(random.permutation(5)[:4])
+        if volume(*nodes[list(tet)]) < 0.0:
+            tet = (tet[0], tet[2], tet[1], tet[3])
+        origin, d = 0.3 * random.normal(size=3), random.normal(size=3)
+        k = int(np.abs(d).argmax())
+        x0 = origin - random.uniform(-1.0, 1.0) * d
+        face, t = folds._way_out(one(nodes, tet), 0, origin, d, k, tuple(x0))
+        expected = way_through(nodes, tet, x0, d)
+        if expected is None:
+            missed += 1
+            assert face == -1
+        else:
+            assert (face, t) == (expected[0], pytest.approx(expected[1], abs=1e-9))
+        # A tetrahedron turned inside out is passed the other way.
+        back = way_through(nodes, tet, x0, -d)
+        turned = (tet[0], tet[2], tet[1], tet[3])
+        face, t = folds._way_out(one(nodes, turned), 0, origin, d, k, tuple(x0))
+        if back is None:
+            assert face == -1
+        else:
+            swap = {0: 0, 1: 2, 2: 1, 3: 3}
+            assert (face, t) == (swap[back[0]], pytest.approx(-back[1], abs=1e-9))
+    assert 20 < missed < 180
+
+
+def test_a_line_crosses_a_triangle_outwards_or_inwards(random):
+    seen = set()
+    for _ in range(200):
+        nodes = random.normal(size=(6, 3))
+        triangle = tuple(random.permutation(6)[:3])
+        a, b, c = nodes[list(triangle)]
+        x0, d = random.normal(size=3), random.normal(size=3)
+        k = int(np.abs(d).argmax())
+        s, *w = np.linalg.solve(np.column_stack([-d, b - a, c - a]), x0 - a)
+        w = [1.0 - w[0] - w[1], *w]
+        way, t = folds._crossing(one(nodes, triangles=[triangle]), 0, x0, d, k, tuple(x0))
+        if min(w) < 0.0:
+            assert (way, t) == (0, 0.0)
+        else:
+            assert way == np.sign(np.cross(b - a, c - a) @ d)
+            assert t == pytest.approx(s, abs=1e-9)
+        seen.add(way)
+        height = abs((x0 - a) @ np.cross(b - a, c - a)) / np.linalg.norm(np.cross(b - a, c - a))
+        assert folds._height(one(nodes, triangles=[triangle]), 0, x0) == pytest.approx(height)
+    assert seen == {-1, 0, 1}
+
+
+def test_ties_are_decided_as_if_the_origin_were_moved_a_little():
+    """By (ε, ε²), and points in one place by their numbers; from q to p it is the other side."""
+    e = 1e-3
+    for p, q in itertools.product([(1.0, 0.0), (-1.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0),
+                                   (-2.0, -2.0), (0.5, 0.5)], repeat=2):  # fmt: skip
+        if p == q:
+            continue
+        moved = [(x - e, y - e * e) for x, y in (p, q)]
+        cross = moved[0][0] * moved[1][1] - moved[1][0] * moved[0][1]
+        for rising in (True, False):
+            assert folds._left(p, q, rising) == (cross > 0.0)
+    for p in ((1.0, 0.5), (-1.0, 0.5)):
+        for rising in (True, False):
+            assert folds._left(p, p, rising) == (rising == (p[0] > 0.0))
+            assert folds._left(p, p, rising) != folds._left(p, p, not rising)
+
+
+def test_the_picture_of_a_node_is_what_is_left_across_the_line(random):
+    """Two coordinates that turn as seen along the line, and t from x0."""
+    for k, sign in itertools.product(range(3), (1.0, -1.0)):
+        for _ in range(5):
+            d = random.uniform(-0.5, 0.5, 3)
+            d[k] = sign
+            nodes, origin, x0 = random.normal(size=(4, 3)), random.normal(size=3), random.normal(size=3)
+            found = [folds._picture(nodes, n, origin, d, k, x0) for n in range(3)]
+            for n in range(3):
+                assert found[n][1] == pytest.approx((nodes[n, k] - x0[k]) / d[k])
+            (a, _), (b, _), (c, _) = found
+            area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+            # Seen along d, whose longest component is 1: n·d.
+            p, q, r = nodes[:3]
+            assert area == pytest.approx(np.cross(q - p, r - p) @ d, abs=1e-12)
+            on_line = origin + 0.7 * d
+            assert folds._picture(on_line[None], 0, origin, d, k, x0)[0] == pytest.approx(
+                (0.0, 0.0), abs=1e-14
+            )
+
+
+def test_a_triangle_is_met_where_its_weights_say():
+    p, q, r = (2.0, 0.0), (-1.0, 1.0), (-1.0, -1.0)
+    assert folds._meeting(p, q, r, 1.0, 2.0, 4.0) == pytest.approx(1.0 / 3.0 + 2.0 / 3.0 + 4.0 / 3.0)
+    assert folds._meeting((0.0, 0.0), q, r, 1.5, 2.0, 4.0) == pytest.approx(1.5)
+    # From its edge, in its middle; never before it or behind.
+    assert folds._meeting((1.0, 0.0), (2.0, 0.0), (3.0, 0.0), 1.0, 2.0, 5.0) == 3.0
+    assert folds._meeting((1.0, 0.0), (1.0, 1.0), (3.0, 0.0), 2.0, 3.0, 5.0) <= 5.0
+
+
+def test_a_place_is_pulled_into_a_tetrahedron(random):
+    for _ in range(20):
+        nodes = random.normal(size=(4, 3))
+        least = 0.01
+        for low, moves in ((0.02, False), (0.005, True), (-0.1, True)):
+            out = random.integers(4)
+            w = np.insert((1.0 - low) * random.dirichlet(10.0 * np.ones(3)), out, low)
+            x = tuple(w @ nodes)
+            found = folds._pulled(one(nodes), 0, x, least)
+            if not moves and w.min() >= least:
+                assert found == x
+                continue
+            expected = np.maximum(w, least)
+            assert found == pytest.approx(expected / expected.sum() @ nodes, abs=1e-9)
+    flat = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]])
+    assert folds._pulled(one(flat), 0, (5.0, 5.0, 5.0), 0.01) == (5.0, 5.0, 5.0)
+
+
+def test_a_way_leaves_where_it_meets_the_plane_of_the_triangle(random):
+    """If that is within a thousand times the round-off of where it was found, and within the way."""
+    for _ in range(20):
+        nodes = random.normal(size=(4, 3))
+        if volume(*nodes) < 0.0:
+            nodes = nodes[[0, 2, 1, 3]]
+        arrays = one(nodes)._replace(triangle_tet=np.array([0]), triangle_patch=np.array([5]))
+        x0, middle = nodes.mean(axis=0), nodes[1:].mean(axis=0)
+        for reach in (0.5, 0.9):
+            d = (middle - x0) / reach
+            left = folds._left_by(arrays, 0, tuple(x0), tuple(d), reach + 1e-9, 1e-11)
+            assert left == (0, pytest.approx(reach, abs=1e-11), 5, 0)
+            far = folds._left_by(arrays, 0, tuple(x0), tuple(d), reach + 2e-8, 1e-11)
+            assert far == (0, reach + 2e-8, 5, 0)
+        d = np.cross(nodes[2] - nodes[1], nodes[3] - nodes[1])
+        along = nodes[2] - nodes[1]
+        assert folds._left_by(arrays, 0, tuple(middle), tuple(d), -1e-3, 1e-11)[1] == 0.0
+        assert folds._left_by(arrays, 0, tuple(middle), tuple(d), 1.5, 1e-11)[1] == 1.0
+        assert folds._left_by(arrays, 0, tuple(middle), tuple(along), 0.3, 1e-11)[1] == pytest.approx(0.3)
+
+
+def pressed(layers, thickness):
+    """A box of 3 × 3 × layers cells of which the middle layer is so thin."""
+    points, hexes = corners(3, 0.0)
+    z = np.array([0.0, 0.5, 0.5 + thickness, 1.0])
+    points[:, 2] = z[np.round(3.0 * points[:, 2]).astype(int)]
+    mesh = build_mesh(grid(points, [(12, hexes)]))
+    return MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+
+
+def test_who_is_in_a_flat_tetrahedron_is_in_the_one_beside_that_holds_the_place(random):
+    """Of the cell, of its neighbours, or of their neighbours; a sound one is kept."""
+    flow = pressed(3, 0.0)
+    arrays = flow.arrays()
+    flat = [t for t in range(len(arrays.tets)) if is_flat(arrays, t)]
+    assert len(flat) == 9 * 12
+    for tet in random.choice(flat, 20):
+        cell = arrays.tets[tet, 0] - arrays.n_points
+        x, y, _ = flow.mesh.centres[cell]
+        for shift in (0.2, 0.4):
+            place = (x + random.uniform(-0.1, 0.1), y, 0.5 + random.choice([-1, 1]) * 0.05)
+            if shift == 0.4:
+                # In a neighbour of a neighbour.
+                place = (place[0] + (1.0 / 3.0 if x < 0.5 else -1.0 / 3.0), *place[1:])
+            found = settle(arrays, int(tet), place)
+            assert not is_flat(arrays, found)
+            assert folds._depth(arrays, found, place) >= -1e-9
+    sound = next(t for t in range(len(arrays.tets)) if not is_flat(arrays, t))
+    assert settle(arrays, sound, (9.0, 9.0, 9.0)) == sound
+
+
+def test_the_depth_of_a_place_is_its_smallest_weight(random):
+    nodes = random.normal(size=(4, 3))
+    nodes = nodes if volume(*nodes) > 0.0 else nodes[[0, 2, 1, 3]]
+    x = random.normal(size=3)
+    w = np.linalg.solve(np.vstack([nodes.T, np.ones(4)]), [*x, 1.0])
+    assert folds._depth(one(nodes), 0, x) == pytest.approx(w.min(), rel=1e-9)
+    assert folds._depth(one(nodes, (0, 2, 1, 3)), 0, x) == -np.inf
+    mesh = build_mesh(block(2, 0.2))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    arrays, x = flow.arrays(), (0.3, 0.2, 0.1)
+    depths = [folds._depth(arrays, t, x) for t in range(*mesh.cell_start[:2])]
+    assert folds._deepest(arrays, 0, x, -7, -np.inf) == (int(np.argmax(depths)), max(depths))
+    assert folds._deepest(arrays, 0, x, -7, 2.0) == (-7, 2.0)
+
+
+def along(flow, n, random, inside=0.7):
+    """Places in a mesh, their hosts, and ends of which some lie outside."""
+    low, high = flow.bounds
+    x0 = random.uniform(low, high, (4 * n, 3))
+    hosts = flow.locate(x0)
+    x0, hosts = x0[hosts >= 0][:n], hosts[hosts >= 0][:n]
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    return zip(x0, hosts, random.uniform(middle - half / inside, middle + half / inside, (n, 3)), strict=True)
+
+
+@pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra", "mixed"])
+def test_a_thread_through_a_sound_mesh_ends_where_the_line_does(kind, random):
+    """In the plain text: at the place, or at the side of the box that the line meets first."""
+    shape = block(2, 0.3, kind)
+    mesh = build_mesh(shape, box_patches(shape))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    arrays, seen = flow.arrays(), set()
+    for x0, host, x1 in along(flow, 40, random):
+        d = x1 - x0
+        exact = min(1.0, np.where(d > 0.0, (1.0 - x0) / d, -x0 / d).min())
+        found, fraction, patch, triangle = folds.trace(arrays, int(host), tuple(x0), tuple(x1))
+        assert fraction == pytest.approx(exact, abs=1e-12)
+        assert folds._depth(arrays, found, tuple(x0 + exact * d)) > -1e-9
+        if exact == 1.0:
+            assert (patch, triangle) == (-1, -1)
+        else:
+            assert patch == mesh.triangle_patch[triangle]
+            assert found == mesh.triangle_tet[triangle]
+            names = [p.name for p in mesh.patches]
+            z = (x0 + exact * d)[2]
+            assert names[patch] == ("floor" if z < 1e-9 else "lid" if z > 1.0 - 1e-9 else "sides")
+        seen.add(patch)
+        # Who stays where they are has arrived.
+        assert folds.trace(arrays, int(host), tuple(x0), tuple(x0)) == (host, 1.0, -1, -1)
+    assert seen == {-1, 0, 1, 2}
+
+
+def hard(kind):
+    """The flow in the first mesh of a kind that is not refused."""
+    for seed in range(20):
+        with suppress(InputError):
+            return flow_in(HARD[kind](seed))
+    raise AssertionError(kind)
+
+
+@pytest.mark.filterwarnings("ignore:divide by zero")
+@pytest.mark.filterwarnings("ignore:invalid value")
+@pytest.mark.parametrize("kind", ["folded", "concave", "aspect 1e4", "slivers", "a layer without volume"])
+def test_a_thread_through_a_hard_mesh_ends_where_the_line_meets_the_boundary(kind, random):
+    """In the plain text, against all triangles of the boundary."""
+    flow = hard(kind)
+    arrays, extent = flow.arrays(), np.ptp(flow.mesh.points, axis=0)
+    triangles = flow.mesh.points[flow.mesh.triangles] / extent
+    reached = left = 0
+    for x0, host, x1 in along(flow, 25, random):
+        d = (x1 - x0) / extent
+        room = FLUSH / np.linalg.norm(d)
+        # From another tetrahedron that holds the place, if from this the line does not lead away.
+        found, fraction, patch, _ = find_thread(arrays, int(host), tuple(x0), tuple(x1))
+        assert patch != folds._FAILED
+        met, first = ray(triangles, tuple(x0 / extent), tuple(d), room, fraction)
+        assert first >= fraction - room
+        if patch == -1:
+            assert from_hosts(flow, np.array([found]), x1[None]) < FLUSH
+            reached += 1
+        else:
+            assert met <= room
+            left += 1
+    assert min(reached, left) > 3
+
+
+def test_from_outside_there_is_no_thread():
+    """A place beyond a wall that is no round-off away, on a line that does not come in."""
+    flow = hard("folded")
+    arrays = flow.arrays()
+    hosts = flow.locate(np.array([[0.01, 0.5, 0.5]]))
+    found = folds.trace(arrays, int(hosts[0]), (-0.1, 0.5, 0.5), (-0.5, 0.5, 0.5))
+    assert found[1:3] == (0.0, folds._FAILED)

@@ -1,0 +1,181 @@
+"""What processor folders say of their parts, and what they make together."""
+
+from __future__ import annotations
+
+import re
+import shutil
+
+import numpy as np
+import pytest
+from foam_writer import decompose, header, write_case
+
+from foamprb.errors import InputError
+from foamprb.flow.mesh.boundary import Transform
+from foamprb.flow.read import reconstructpar
+from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.field import VELOCITY_FIELD, PatchField, read_field
+from foamprb.flow.read.foamfile import read_cell_zones
+from foamprb.flow.read.processors import common_times, processors, read_part, whole_patches
+from foamprb.flow.read.reconstructpar import checked, write_zones
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    case = tmp_path_factory.mktemp("parts") / "case"
+    mesh = write_case(case, "mixed")
+    decompose(case, mesh, np.random.default_rng(5).integers(0, 3, mesh.n_cells), ("0", "0.5", "1e1"))
+    return case
+
+
+@pytest.fixture
+def case(written, tmp_path):
+    shutil.copytree(written, tmp_path / "case")
+    return tmp_path / "case"
+
+
+def test_folders_in_the_order_of_their_numbers(tmp_path):
+    with pytest.raises(InputError, match="no processor folders"):
+        processors(tmp_path)
+    for number in range(12):
+        (tmp_path / f"processor{number}").mkdir()
+    (tmp_path / "processorx").mkdir()
+    assert [path.name for path in processors(tmp_path)] == [f"processor{k}" for k in range(12)]
+    (tmp_path / "processor3").rmdir()
+    with pytest.raises(InputError, match="processor3: no such folder, but there is processor11"):
+        processors(tmp_path)
+    for path in tmp_path.glob("processor*"):
+        path.rmdir()
+    (tmp_path / "processors4").mkdir()
+    with pytest.raises(InputError, match="processors4: the collated format is not read"):
+        processors(tmp_path)
+
+
+def test_times_are_those_of_all_folders(written):
+    folders = processors(written)
+    assert common_times(folders, "") == ("0", "0.5", "1e1")
+
+
+def part_of(case, number=1):
+    return read_part(case, case / f"processor{number}", "")
+
+
+def change(path, pattern, text):
+    old = path.read_text()
+    new = re.sub(pattern, text, old, count=1)
+    assert new != old
+    path.write_text(new)
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "text", "message"),
+    [
+        ("faceProcAddressing", r"\n(-?\d+)\n\)", r"\n)", "a list of"),
+        ("faceProcAddressing", r"\(\n-?\d+", "(\n0", "there is no face 0"),
+        ("neighbour", r"\(\n\d+", "(\n-1", "neighbour: an index outside 0 to"),
+        ("faces", r"\n(\d)\(\d+", r"\n\1(777", "faces: an index outside 0 to"),
+    ],
+)
+def test_a_part_that_does_not_fit_is_named(name, pattern, text, message, case):
+    change(case / "processor1/constant/polyMesh" / name, pattern, text)
+    with pytest.raises(InputError, match=f"{name}: .*{message}|{name}: {message}|{message}"):
+        part_of(case)
+
+
+@pytest.mark.parametrize("name", ["pointProcAddressing", "faceProcAddressing", "boundaryProcAddressing"])
+def test_lists_of_another_length_are_refused(name, case):
+    path = case / "processor1/constant/polyMesh" / name
+    path.write_text(header("labelList", name) + "2 ( 1 2 )\n")
+    with pytest.raises(InputError, match=rf"{name}: 2 entries, but the other files say \d+\."):
+        part_of(case)
+
+
+def test_each_part_says_where_its_pieces_are(written):
+    parts = [part_of(written, k) for k in range(3)]
+    cells = np.concatenate([part.cell_at for part in parts])
+    assert sorted(cells.tolist()) == list(range(len(cells)))
+    signed = {}
+    for part in parts:
+        assert len(part.turned) == len(part.face_at) == len(part.owner)
+        for face, turned in zip(part.face_at.tolist(), part.turned.tolist(), strict=True):
+            signed.setdefault(face, []).append(turned)
+    assert min(signed) == 0
+    # A face between two parts turns on one side.
+    assert all(sorted(sides) in ([False], [False, True]) for sides in signed.values())
+    assert any(len(sides) == 2 for sides in signed.values())
+
+
+def patch(name, faces, start=0, **entries):
+    return PatchInfo(name, entries.pop("type", "wall"), faces, start, "", Transform(), entries)
+
+
+def parts_with(part, *lists):
+    return [
+        part._replace(patches=tuple(p for p, _ in own), patch_at=np.array([at for _, at in own]))
+        for own in lists
+    ]
+
+
+def test_patches_of_the_whole_are_those_of_the_parts_together(written):
+    part = part_of(written)
+    parts = parts_with(
+        part,
+        [(patch("a", 3), 0), (patch("b", 0), 1), (patch("p", 9, type="processor"), -1)],
+        [(patch("a", 2), 0), (patch("b", 4), 1), (patch("q", 5, type="processor", referPatch="b"), -1),
+         (patch("r", 7, type="processor", referPatch="nothing"), -1)],
+    )  # fmt: skip
+    patches, ranges = whole_patches(written, parts)
+    assert [(p.name, p.faces) for p in patches] == [("a", 5), ("b", 9)]
+    assert ranges.tolist() == [0, 5, 14]
+    with pytest.raises(InputError, match="the processor folders do not name all patches of the mesh"):
+        whole_patches(written, parts_with(part, [(patch("a", 3), 0), (patch("c", 4), 2)]))
+
+
+def test_pieces_of_a_whole_have_all_numbers_once_or_more():
+    number = reconstructpar._whole_number
+    assert number([np.array([2, 0]), np.array([1, 0])]) == 3
+    assert number([np.array([2, 0]), np.array([3])]) == -1
+    assert number([np.array([1, 0]), np.array([-1])]) == -1
+    assert number([np.array([0, 9])]) == -1
+    assert number([np.array([], dtype=int)]) == 0
+
+
+def test_zones_of_parts_are_one_zone_in_the_order_of_the_cells(case, tmp_path):
+    parts = [part_of(case, k) for k in range(3)]
+    path = tmp_path / "cellZones"
+    write_zones(path, parts)
+    assert not path.exists()
+    for k, zones in enumerate(({"a": [1, 0], "b": []}, {}, {"a": [0], "c": [1]})):
+        text = "".join(f"{n} {{ type cellZone; cellLabels List<label> {len(c)}({' '.join(map(str, c))}); }}\n"
+                       for n, c in zones.items())  # fmt: skip
+        if zones:
+            text = f"{len(zones)}\n(\n{text})\n"
+            (parts[k].mesh / "cellZones").write_text(header("regIOobject", "cellZones") + text)
+    write_zones(path, parts)
+    found = read_cell_zones(path)
+    expected = np.sort([parts[0].cell_at[1], parts[0].cell_at[0], parts[2].cell_at[0]])
+    assert {name: cells.tolist() for name, cells in found.items()} == {
+        "a": expected.tolist(), "b": [], "c": [parts[2].cell_at[1]],
+    }  # fmt: skip
+    change(parts[0].mesh / "cellZones", r"2\(1 0\)", "2(1 99)")
+    with pytest.raises(InputError, match=r"processor0.*cellZones: zone a names a cell that is not there"):
+        write_zones(path, parts)
+
+
+def test_the_field_of_a_part_must_fit_it(written):
+    part = part_of(written)
+    field = read_field(part.mesh.parents[1] / "0/U", VELOCITY_FIELD, written)
+    assert checked(field, part) is field
+    n = len(part.cell_at)
+    with pytest.raises(InputError, match=f"U: {n - 1} cells, but the mesh there has {n}"):
+        checked(field._replace(cells=field.cells[1:]), part)
+    uniform = field._replace(cells=field.cells[:1])
+    assert checked(uniform, part) is uniform
+    first = next(p for p, at in zip(part.patches, part.patch_at, strict=True) if at >= 0 and p.faces > 2)
+    entry = PatchField("fixedValue", False, {"value": np.zeros((2, 3))}, {"type": "fixedValue"})
+    with pytest.raises(
+        InputError, match=f"2 values of value on patch {first.name}, which has {first.faces} f"
+    ):
+        checked(field._replace(patches={**field.patches, first.name: entry}), part)
+    lacking = {name: entry for name, entry in field.patches.items() if name != first.name}
+    with pytest.raises(InputError, match=f"no boundaryField for the patch {first.name}"):
+        checked(field._replace(patches=lacking), part)

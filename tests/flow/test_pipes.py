@@ -1,0 +1,157 @@
+"""Flows in pipes: the functions that the particle loop calls, as plain functions."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.special import jv
+
+from foamprb import analytic
+from foamprb.flow.base import NO_PLANES
+
+RADIUS, LENGTH, MEAN = 0.5, 2.0, 1.5
+PIPE = analytic.pipe(RADIUS, MEAN, LENGTH)
+PULSE = analytic.womersley(RADIUS, 0.05, 0.7, 3.0, MEAN, 0.4, LENGTH)
+PLACES = ((0.3, 0.11, -0.23), (1.7, -0.4, 0.05), (0.9, 0.0, 0.0), (0.2, 0.2, 0.3))
+
+
+def kernels(flow):
+    return flow.kernels, flow.arrays(0.0, ())
+
+
+@pytest.mark.parametrize("flow", [PIPE, PULSE], ids=["steady", "pulsating"])
+@pytest.mark.parametrize("x", PLACES)
+def test_the_derivatives_are_those_of_the_velocity(flow, x):
+    """By central differences, in each direction and in time."""
+    functions, arrays = kernels(flow)
+    t, h = 0.31, 1e-4
+
+    def sample(dx=(0.0, 0.0, 0.0), dt=0.0):
+        u, l, u_t = functions["sample"](arrays, 3, tuple(np.add(x, dx)), t + dt)
+        return np.array(u), np.reshape(l, (3, 3)), np.array(u_t)
+
+    steps = h * np.eye(3)
+    slopes = np.stack([(sample(d)[0] - sample(-d)[0]) / (2 * h) for d in steps], axis=1)
+    bends = np.stack([(sample(d)[1] - sample(-d)[1]) / (2 * h) for d in steps], axis=2)
+    assert sample()[1] == pytest.approx(slopes, abs=1e-5)
+    assert sample()[2] == pytest.approx((sample(dt=h)[0] - sample(dt=-h)[0]) / (2 * h), abs=1e-5)
+    found = functions["curvature"](arrays, 3, x, t)
+    for (j, k), second in zip(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)), found, strict=True):
+        assert second == pytest.approx(tuple(bends[:, j, k]), abs=1e-4)
+
+
+def test_the_velocity_is_that_of_poiseuille_and_of_womersley():
+    for x in PLACES:
+        r, t = math.hypot(x[1], x[2]), 0.31
+        steady = 2.0 * MEAN * (1.0 - (r / RADIUS) ** 2)
+        functions, arrays = kernels(PIPE)
+        assert functions["sample"](arrays, 0, x, t)[0] == pytest.approx((steady, 0.0, 0.0), rel=1e-14)
+        omega = 2.0 * np.pi / 0.7
+        k = 1j**1.5 * np.sqrt(omega / 0.05)
+        swing = 3.0 / (1j * omega) * np.exp(1j * (omega * t + 0.4)) * (1 - jv(0, k * r) / jv(0, k * RADIUS))
+        functions, arrays = kernels(PULSE)
+        u = functions["sample"](arrays, 0, x, t)[0]
+        assert u == pytest.approx((steady + swing.real, 0.0, 0.0), rel=1e-12)
+
+
+def left_after(x0, x1):
+    """Fraction of the way from x0 to x1 after which it leaves the pipe, by the roots of polynomials."""
+    x0, x1 = np.array(x0), np.array(x1)
+    d = x1 - x0
+    found = [(1.0, -1)]
+    for at, patch in ((0.0, 1), (LENGTH, 2)):
+        if d[0] != 0.0 and (x1[0] < 0.0 if patch == 1 else x1[0] > LENGTH):
+            found.append(((at - x0[0]) / d[0], patch))
+    roots = np.roots([d[1:] @ d[1:], 2.0 * x0[1:] @ d[1:], x0[1:] @ x0[1:] - RADIUS**2])
+    found += [(float(f.real), 0) for f in roots if 0.0 < f.real < 1.0]
+    return min(found)
+
+
+def test_a_way_leaves_the_pipe_at_the_first_of_its_ends_and_its_wall(random):
+    functions, arrays = kernels(PIPE)
+    seen = set()
+    for _ in range(300):
+        r, phi = RADIUS * np.sqrt(random.random()), 2 * np.pi * random.random()
+        x0 = (LENGTH * random.random(), r * np.cos(phi), r * np.sin(phi))
+        x1 = tuple(np.add(x0, random.normal(scale=(1.0, 0.3, 0.3))))
+        host, fraction, patch, triangle = functions["walk"](arrays, 7, x0, x1)
+        expected = left_after(x0, x1)
+        assert (host, patch, triangle) == (7, expected[1], expected[1])
+        assert fraction == pytest.approx(expected[0], abs=1e-12)
+        seen.add(patch)
+    assert seen == {-1, 0, 1, 2}
+
+
+def test_what_lies_in_an_end_or_in_the_wall_is_inside():
+    functions, arrays = kernels(PIPE)
+    for end in ((0.0, 0.1, 0.2), (LENGTH, 0.1, 0.2), (1.0, RADIUS, 0.0), (1.0, 0.0, -RADIUS)):
+        assert functions["walk"](arrays, 7, (1.0, 0.1, 0.0), end) == (7, 1.0, -1, -1)
+
+
+def test_a_start_outside_by_round_off_leaves_at_once():
+    functions, arrays = kernels(PIPE)
+    for x0, x1, patch in (
+        ((-1e-12, 0.1, 0.0), (-0.1, 0.1, 0.0), 1),
+        ((LENGTH + 1e-12, 0.1, 0.0), (LENGTH + 0.1, 0.1, 0.0), 2),
+        ((1.0, RADIUS + 1e-12, 0.0), (1.0, RADIUS + 0.1, 0.02), 0),
+        ((1.0, 0.0, -RADIUS - 1e-12), (1.2, 0.1, -RADIUS - 0.2), 0),
+    ):
+        assert functions["walk"](arrays, 7, x0, x1) == (7, 0.0, patch, patch)
+    # In the rim of an end the wall counts.
+    assert functions["walk"](arrays, 7, (1.75, 0.25, 0.0), (2.25, 0.75, 0.0)) == (7, 0.5, 0, 0)
+
+
+def test_the_gap_is_that_to_the_tangent_plane(random):
+    functions, arrays = kernels(PIPE)
+    for x in PLACES[:2]:
+        F = np.eye(3) + 0.4 * random.uniform(-1.0, 1.0, (3, 3))
+        outward = np.array([0.0, x[1], x[2]]) / np.hypot(x[1], x[2])
+        ball = random.normal(size=(200_000, 3))
+        ball /= np.linalg.norm(ball, axis=1)[:, None]
+        reach = (0.02 * ball @ F.T @ outward).max()
+        found = functions["gap"](arrays, 5, x, tuple(F.ravel()), 0.02)
+        assert found[1:] == (0, 0)
+        assert found[0] == pytest.approx(RADIUS - np.hypot(x[1], x[2]) - reach, abs=1e-5)
+
+
+def test_normals_point_into_the_fluid():
+    functions, arrays = kernels(PIPE)
+    x = (0.3, 0.3, -0.4)
+    assert functions["normal"](arrays, 0, x) == pytest.approx((0.0, -0.6, 0.8), abs=1e-15)
+    assert functions["normal"](arrays, 1, x) == (1.0, 0.0, 0.0)
+    assert functions["normal"](arrays, 2, x) == (-1.0, 0.0, 0.0)
+    assert functions["normal"](arrays, 0, (0.3, 0.0, 0.0)) == (0.0, 0.0, 0.0)
+
+
+def test_the_wall_is_seen_where_it_is_nearest_and_opposite():
+    functions, arrays = kernels(PIPE)
+    x, chosen = (0.3, 0.12, -0.16), np.array([1, 0, 0], dtype=np.int8)
+    near, far = (0.0, -0.6, 0.8), (0.0, 0.6, -0.8)
+    for cut, h1, h2 in ((0.2, np.inf, np.inf), (0.4, 0.3, np.inf), (0.9, 0.3, 0.7)):
+        planes = functions["walls"](arrays, 5, x, cut, chosen)
+        assert planes.h1 == pytest.approx(h1)
+        assert planes.h2 == pytest.approx(h2)
+        assert planes.h3 == np.inf
+        assert planes.n1 == pytest.approx(near, abs=1e-14)
+        assert planes.n2 == pytest.approx(far, abs=1e-14)
+        assert planes.n3 == (0.0, 0.0, 0.0)
+    at = (0.3, 0.25, 0.0)
+    assert functions["walls"](arrays, 5, at, 0.25, chosen).h1 == np.inf
+    assert functions["walls"](arrays, 5, at, 0.75, chosen)[0:3:2] == (0.25, np.inf)
+    assert functions["walls"](arrays, 5, x, 0.9, np.array([0, 1, 1], dtype=np.int8)) == NO_PLANES
+
+
+def test_places_in_a_pipe():
+    """Its ends and its wall belong to it."""
+    x = [(0.0, 0.0, RADIUS), (LENGTH, -RADIUS, 0.0), (-1e-9, 0.0, 0.0), (LENGTH + 1e-9, 0.0, 0.0),
+         (1.0, 0.4, 0.31), (1.0, 0.31, -0.4), (1.0, 0.3, -0.4), (1.0, 0.3, 0.3)]  # fmt: skip
+    for flow in (PIPE, PULSE):
+        hosts = flow.locate(np.array(x))
+        assert hosts.dtype == np.int32
+        assert hosts.tolist() == [0, 0, -1, -1, -1, -1, 0, 0]
+        assert flow.width == 2.0 * RADIUS
+        assert [tuple(patch)[:2] for patch in flow.patches] == [
+            ("wall", "wall"), ("inlet", "patch"), ("outlet", "patch"),
+        ]  # fmt: skip
