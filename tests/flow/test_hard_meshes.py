@@ -87,15 +87,22 @@ def test_what_leaves_through_a_pile_of_flat_cells_has_its_host_behind_all_of_the
         assert from_hosts(flow, np.array([host]), np.array([rim])) < FLUSH
 
 
-def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_goal():
-    """In the fused products of a processor it met a face, which it lies in, beyond its goal."""
-    flow = flow_in(HARD["slivers"](582))
-    goal = np.array([[0.6875, 0.625, 0.3125]])
+@pytest.mark.parametrize(
+    ("seed", "start", "goal"),
+    [
+        (582, (0.125, 0.4375, 0.5), (0.6875, 0.625, 0.3125)),
+        (513, (0.25, 0.6875, 0.3125), (0.12499999999999997, 0.25, 0.625)),
+    ],
+    ids=["met beyond the goal", "a product rounded to a tie"],
+)
+def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_goal(seed, start, goal):
+    """With the fused products of a processor such a line met a face too far on, or was lost at another."""
+    flow = flow_in(HARD["slivers"](seed))
     found = np.empty((1, 2), dtype=np.int32)
-    start = np.array([[0.125, 0.4375, 0.5]])
-    link(arrive)(flow.arrays(), flow.locate(start).astype(np.int32), start, goal, found)
+    x0, x1 = np.array([start]), np.array([goal])
+    link(arrive)(flow.arrays(), flow.locate(x0).astype(np.int32), x0, x1, found)
     assert found[0, 1] == REACHED
-    assert from_hosts(flow, found[:, 0], goal) < FLUSH
+    assert from_hosts(flow, found[:, 0], x1) < FLUSH
 
 
 def arrive(flow, hosts, start, end, found):

@@ -204,8 +204,8 @@ def is_there(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Follow the thread of the line from x0, in the tetrahedron ``host``, to x1, in whatever mesh.
 
-    Where x0 lies on a face, or outside by round-off, the line is shifted into the host by 1e-12 of its size,
-    then by more.
+    Where the thread is lost, as from a place on a face, the line is shifted into the host by 1e-12 of its
+    size, then by more.
 
     Returns
     -------
@@ -315,16 +315,19 @@ def _squared_edge(flow: MeshArrays, tet: int) -> float:
 
 
 def _pulled(flow: MeshArrays, tet: int, x: Vector, least: float) -> Vector:
-    """The place in a tetrahedron where no weight is below ``least``, near x; x itself if that is one."""
+    """The place in a tetrahedron where no weight is below ``least``, near x; at none, x itself if it holds x.
+
+    Products that round to a tie can lose a thread anywhere: so places inside are shifted, too.
+    """
     origin, c1, c2, c3, volume = frame(flow, tet)
     if volume == 0.0:
         return x
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
     w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
-    if min(w0, w1, w2, w3) >= least:
+    if least == 0.0 and min(w0, w1, w2, w3) >= 0.0:
         return x
-    w0, w1, w2, w3 = max(w0, least), max(w1, least), max(w2, least), max(w3, least)
+    w0, w1, w2, w3 = max(w0, least), max(w1, least) + least, max(w2, least) + 2.0 * least, max(w3, least)
     s = 1.0 / (w0 + w1 + w2 + w3)
     w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
     n, tets = flow.nodes, flow.tets
