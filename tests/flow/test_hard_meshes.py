@@ -6,9 +6,10 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from hard_meshes import FLUSH, HARD, N, flow_in, from_hosts, seen, shaken, try_walks
+from hard_meshes import FLUSH, HARD, N, cut, flow_in, from_hosts, seen, shaken, try_walks
 from mesh_shapes import block, grid
 
+from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.folds import FLAT, FOLDED, SOUND
 from foamprb.flow.walk import REACHED, walk
@@ -67,6 +68,49 @@ def test_a_tetrahedron_of_coincident_points_holds_nothing(random):
         assert from_hosts(flow, np.array([host]), x1[None]) < FLUSH
         _, _, patch, _ = walk(flow.arrays(), int(tet), tuple(map(float, x0)), (5.0, 0.1, 0.2))
         assert patch >= 0
+
+
+@pytest.mark.parametrize("kind", [0, 1], ids=["hexahedra", "tetrahedra"])
+def test_what_leaves_through_a_pile_of_flat_cells_has_its_host_behind_all_of_them(kind, random):
+    """Three layers lie flat on the boundary: a cell there may have none with a volume within two steps."""
+    points, hexes = shaken(0.0)
+    layer = (N + 1) ** 2
+    for k in (2, 3, 4):
+        points[k * layer : (k + 1) * layer] = points[layer : 2 * layer]
+    flow = flow_in(cut(points, hexes, kind))
+    arrays, top = flow.arrays(), float(points[layer, 2])
+    for x, y in random.uniform(0.05, 0.95, (20, 2)).tolist():
+        inside, rim, outside = (x, y, 0.5 * top), (x, y, top), (x, y, 1.5 * top)
+        host, fraction, patch, _ = walk(arrays, int(flow.locate(np.array([inside]))[0]), inside, outside)
+        assert patch >= 0
+        assert fraction == pytest.approx(0.5, abs=1e-12)
+        assert from_hosts(flow, np.array([host]), np.array([rim])) < FLUSH
+
+
+@pytest.mark.parametrize(
+    ("seed", "start", "goal"),
+    [
+        (582, (0.125, 0.4375, 0.5), (0.6875, 0.625, 0.3125)),
+        (513, (0.25, 0.6875, 0.3125), (0.12499999999999997, 0.25, 0.625)),
+    ],
+    ids=["met beyond the goal", "a product rounded to a tie"],
+)
+def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_goal(seed, start, goal):
+    """With the fused products of a processor such a line met a face too far on, or was lost at another."""
+    flow = flow_in(HARD["slivers"](seed))
+    found = np.empty((1, 2), dtype=np.int32)
+    x0, x1 = np.array([start]), np.array([goal])
+    link(arrive)(flow.arrays(), flow.locate(x0).astype(np.int32), x0, x1, found)
+    assert found[0, 1] == REACHED
+    assert from_hosts(flow, found[:, 0], x1) < FLUSH
+
+
+def arrive(flow, hosts, start, end, found):
+    for i in range(start.shape[0]):
+        host, _, patch, _ = walk(
+            flow, hosts[i], (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
+        )
+        found[i, 0], found[i, 1] = host, patch
 
 
 def test_the_tree_finds_no_place_outside_in_a_fold(random):

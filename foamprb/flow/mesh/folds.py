@@ -45,6 +45,8 @@ _PULLS = 5
 _HEALED = 1e3
 # How near to a plane a place is in it, in the same units.
 _FLUSH = 1e-4
+# Smaller weights than this, negative, are no round-off.
+_ASTRAY = 1e-6
 _MOST_CROSSINGS = 1_000_000
 _REACHED, _FAILED, _NONE = -1, -2, -1
 
@@ -104,11 +106,27 @@ def is_flat(flow: MeshArrays, tet: int) -> bool:
 def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
     """The tetrahedron itself or, if it is flat, the one nearby that comes nearest to holding x.
 
-    A place in a flat tetrahedron is as near to one beside it as that is thin. It is sought in the cell, in
-    those that share faces with it, and in those that share faces with these.
+    A place in a flat tetrahedron is as near to one beside it as that is thin.
     """
-    if not is_flat(flow, tet):
-        return tet
+    return _nearby(flow, tet, x) if is_flat(flow, tet) else tet
+
+
+def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
+    """As :func:`settle`, of where a thread passes x.
+
+    A line in the plane of a face meets it somewhere in it, so that the thread may seem to pass x a face too
+    early; then the tetrahedron does not hold it.
+    """
+    host = settle(flow, tet, x)
+    return host if _depth(flow, host, x) >= -_ASTRAY else _nearby(flow, host, x)
+
+
+def _nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
+    """The tetrahedron that comes nearest to holding x, flat ones excepted.
+
+    It is sought in the cell, in those that share faces with it, and in those that share faces with these;
+    behind a pile of flat cells, by the tree.
+    """
     cell, start, neighbours = _cell(flow, tet), flow.cell_start, flow.neighbours
     best, depth = _deepest(flow, cell, x, tet, -np.inf)
     for own in range(start[cell], start[cell + 1]):
@@ -120,6 +138,34 @@ def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
             for other in range(start[beside], start[beside + 1]):
                 if neighbours[other, 0] >= 0:
                     best, depth = _deepest(flow, _cell(flow, neighbours[other, 0]), x, best, depth)
+    if depth < -TOLERANCE:
+        best = _deepest_of_all(flow, x, best, depth)
+    return best
+
+
+def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int:
+    """As :func:`_deepest`, of all cells that may hold x; only the tetrahedron."""
+    boxes, cells = flow.tree_boxes, flow.tree_cells
+    leaves = cells.shape[0]
+    node = 1
+    while node > 0:
+        inside = (
+            boxes[node, 0] <= x[0] <= boxes[node, 3]
+            and boxes[node, 1] <= x[1] <= boxes[node, 4]
+            and boxes[node, 2] <= x[2] <= boxes[node, 5]
+        )
+        if inside and node < leaves:
+            node = 2 * node
+            continue
+        if inside:
+            for k in range(cells.shape[1]):
+                if cells[node - leaves, k] >= 0:
+                    best, depth = _deepest(flow, cells[node - leaves, k], x, best, depth)
+        # As in foamprb.flow.mesh.locator.seek.
+        while node & 1:
+            node >>= 1
+        if node > 0:
+            node += 1
     return best
 
 
@@ -158,8 +204,8 @@ def is_there(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Follow the thread of the line from x0, in the tetrahedron ``host``, to x1, in whatever mesh.
 
-    Where x0 lies on a face, or outside by round-off, the line is shifted into the host by 1e-12 of its size,
-    then by more.
+    Where the thread is lost, as from a place on a face, the line is shifted into the host by 1e-12 of its
+    size, then by more.
 
     Returns
     -------
@@ -203,11 +249,11 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
                 candidate = tet
             # Nothing comes back from a place that is covered once; and before the boundary all is inside.
             if candidate >= 0 and (not folded or t >= leaving):
-                return settle(flow, candidate, x1), 1.0, _REACHED, _NONE
+                return _arrived(flow, candidate, x1), 1.0, _REACHED, _NONE
             other = flow.neighbours[tet, face]
             if other < 0:
                 if t >= 1.0 - 1e-12:
-                    return settle(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
+                    return _arrived(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
                 if t < -room and _height(flow, -1 - other, x0) > flush:
                     return host, 0.0, _FAILED, _NONE
                 return _left_by(flow, -1 - other, x0, d, t, room)
@@ -269,16 +315,19 @@ def _squared_edge(flow: MeshArrays, tet: int) -> float:
 
 
 def _pulled(flow: MeshArrays, tet: int, x: Vector, least: float) -> Vector:
-    """The place in a tetrahedron where no weight is below ``least``, near x; x itself if that is one."""
+    """The place in a tetrahedron where no weight is below ``least``, near x; at none, x itself if it holds x.
+
+    Products that round to a tie can lose a thread anywhere: so places inside are shifted, too.
+    """
     origin, c1, c2, c3, volume = frame(flow, tet)
     if volume == 0.0:
         return x
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
     w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
-    if min(w0, w1, w2, w3) >= least:
+    if least == 0.0 and min(w0, w1, w2, w3) >= 0.0:
         return x
-    w0, w1, w2, w3 = max(w0, least), max(w1, least), max(w2, least), max(w3, least)
+    w0, w1, w2, w3 = max(w0, least), max(w1, least) + least, max(w2, least) + 2.0 * least, max(w3, least)
     s = 1.0 / (w0 + w1 + w2 + w3)
     w0, w1, w2, w3 = s * w0, s * w1, s * w2, s * w3
     n, tets = flow.nodes, flow.tets
