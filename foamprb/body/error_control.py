@@ -98,11 +98,6 @@ def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
     return SECOND_SHARE * np.minimum(1.0, h * (rho + largest(l_f)))
 
 
-def whole_slope(h: Scalar, _rho: Scalar, _l_f: Tensor) -> Scalar:
-    """1: θ where something else changes N, at rates that nobody knows."""
-    return 0.0 * h + 1.0
-
-
 def longest_step(l_f: Tensor) -> Scalar:
     """The step, s, that no estimate may exceed, for a velocity gradient of the fluid at its start, 1/s."""
     most = abs(l_f[0])

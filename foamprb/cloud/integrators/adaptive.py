@@ -19,8 +19,8 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.error_control import longest_step, path_error, step_factor
-from foamprb.body.tensor import Vector, dot_vector
+from foamprb.body.error_control import largest, longest_step, path_error, share_of_slope, step_factor
+from foamprb.body.tensor import Vector, add, dot_vector, scale, select
 from foamprb.cloud.block import (
     ROWS,
     Medium,
@@ -75,6 +75,7 @@ class StepRows(NamedTuple):
     end_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the end")]
     end_ut: Annotated[int, Row(3, "m/s2", "∂u/∂t at the end")]
     third: Annotated[int, Row(1, "", "1 where the step goes to order 3, else 0")]
+    disturbed: Annotated[int, Row(1, "", "1 where the gradient that is felt is not the flow's, else 0")]
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
 
@@ -137,6 +138,22 @@ def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> N
     square = difference * difference
     error = square * square * (1.0 / (tolerance * tolerance + 1e-300))
     block[at.error * LANES + i] = np.maximum(block[during.path * LANES + i], error)
+
+
+def note_disturbance(block: Any, i: int) -> None:
+    """Store whether models of the surroundings change the gradient that the body feels at the start."""
+    l, felt = load9(block, during.start_l, i), load9(block, at.l, i)
+    off = largest(add(felt, scale(-1.0, l)))
+    block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
+
+
+def judged_share(block: Any, i: int, rho: Any) -> Any:
+    """θ of :mod:`foamprb.body.error_control`, and 1 where the surroundings change what the body feels.
+
+    They may do so faster than elasticity and the flow: near walls as fast as inertia gives way.
+    """
+    theta = share_of_slope(block[at.dt * LANES + i], rho, load9(block, during.start_l, i))
+    return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:

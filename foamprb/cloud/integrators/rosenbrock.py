@@ -13,7 +13,7 @@ import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, share_of_slope, strain_scale
+from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
 from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
@@ -61,7 +61,9 @@ from foamprb.cloud.integrators.adaptive import (
     end_acceleration,
     fluid_acceleration,
     judge_difference,
+    judged_share,
     keep_frame,
+    note_disturbance,
     track_adaptive,
 )
 from foamprb.cloud.integrators.base import Integrator
@@ -147,6 +149,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
+        note_disturbance(block, i)
         G = dot(Q, F)
         # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
@@ -214,7 +217,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
         rates = _rates(block, i, medium, Q0, start[0])
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
-        share = share_of_slope(h, relaxation_rate(n), load9(block, during.start_l, i))
+        share = judged_share(block, i, relaxation_rate(n))
         two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
         size = _size(judged, h, b_e, strain_scale(b_e, two[0]))
         store9(block, own.slope_Omega, i, k[0])

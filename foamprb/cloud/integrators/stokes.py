@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Annotated, Any, NamedTuple
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.error_control import FLUID_SHARE, relative_size, share_of_slope, strain_scale
+from foamprb.body.error_control import FLUID_SHARE, relative_size, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
 from foamprb.body.exponential_runge_kutta import first_argument as quarter_argument
 from foamprb.body.exponential_runge_kutta import last_argument as end_argument
@@ -47,7 +47,9 @@ from foamprb.cloud.integrators.adaptive import (
     finish_path,
     fluid_acceleration,
     judge_difference,
+    judged_share,
     keep_frame,
+    note_disturbance,
     track_adaptive,
 )
 from foamprb.cloud.integrators.base import Integrator
@@ -105,6 +107,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         Q, stretches, F = load9(block, at.Q, i), load3(block, at.stretch, i), load9(block, at.F, i)
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
+        note_disturbance(block, i)
         G = dot(Q, F)
         b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
@@ -157,7 +160,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
         two, by_fluid, by_slope = of_second_order(n, whole, h, l_s, change, k)
         strain = strain_scale(b_e, two)
-        share = share_of_slope(h, fastest(n), load9(block, during.start_l, i))
+        share = judged_share(block, i, fastest(n))
         size = share * relative_size(by_slope, b_e, strain)
         size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
         third = select(size <= tolerance, 0.0, 1.0)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from foamprb.body.error_control import whole_slope
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces.total import bound
 from foamprb.cloud.layout import Layout, end, layout, offsets
@@ -82,8 +81,6 @@ def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> 
         disturb = bound(_disturb_and, others=disturb, model=type(model).disturb)
         prepare = bound(_disturb_and, others=prepare, model=type(model).prepare or no_disturbance)
         found |= model.bindings(inertia)
-    # What they do may change faster than elasticity and the flow, near walls as fast as inertia gives way.
-    found["share_of_slope"] = whole_slope
     return {**found, "looks": look, "prepares": prepare, "disturbs": disturb}
 
 
