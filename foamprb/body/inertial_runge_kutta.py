@@ -281,7 +281,17 @@ def second_order(
     slope: Pair,
     shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2, and what shares of the slope and of the fluid's change have in them."""
+    """Ω and change of l_s of order 2, and what shares of the slope and of the fluid's change have in them.
+
+    Parameters
+    ----------
+    n, whole, h, rate, change
+        As of :func:`last_argument`.
+    slope
+        :func:`slope` of the second evaluation.
+    shares
+        Of the slope, and of the change.
+    """
     two = respond(n, whole, h, rate, (slope[0], add(slope[1], change)), NOTHING)
     p, q = shares
     judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))

@@ -175,7 +175,7 @@ def _rates(n: Relaxation) -> tuple[Vector, Scalar, Scalar]:
 
 
 def fastest(n: Relaxation) -> Scalar:
-    """The fastest rate of J, 1/s, or up to twice as much."""
+    """The fastest rate of J, 1/s, or up to twice as much: the two normal rates count with their sum."""
     x, y, z = n.squares
     u, l = n.upper, n.lower
     first, second = abs(u[0] * z + l[0] * y), abs(u[1] * z + l[1] * x)

@@ -251,7 +251,16 @@ def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
 
 
 def relaxation_rate(n: Stiffness) -> Scalar:
-    """The fastest rate at which drag lets shear stresses relax where it outweighs inertia, 1/s."""
+    """The fastest rate at which drag lets shear stresses relax where it outweighs inertia, 1/s.
+
+    Without inertia the shear components of dl_s/dt = T Y − E X vanish, Y = dX/dt, so that X decays by the
+    eigenvalues of −T⁻¹E, one for each of the pairs 23, 13 and 12 (the other is 0, a rotation).
+
+    Parameters
+    ----------
+    n
+        :func:`inertial_stiffness`, with T its ``traction_pairs`` and E its ``elastic_pairs``.
+    """
     (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
     first = _pair_rate(p[0], p[1], p[2], p[3], f[0], f[1])
     second = _pair_rate(p[4], p[5], p[6], p[7], f[4], f[5])

@@ -35,6 +35,7 @@ _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
 _DIGEST_BYTES = hashlib.sha256().digest_size
 # Bytes copied at a time.
 _CHUNK = 1 << 20
+# Rows that are compared before all are.
 _FIRST = 1000
 
 
@@ -127,8 +128,8 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
     OSError
         If the file cannot be written.
     """
-    arrays = {name: np.ascontiguousarray(array) for name, array in checkpoint.arrays.items()}
-    rows = {name: len(array) for name, array in arrays.items() if is_one_row(array)}
+    arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
+    rows = {name: len(array) for name, array in arrays.items() if _is_one_row(array)}
     header = {"time": checkpoint.time, "arrays": list(arrays), "rows": rows, **checkpoint.header}
     with atomic_write(path) as temporary, temporary.open("wb") as file:
         digest = _Digest(file)
@@ -164,11 +165,11 @@ def read_checkpoint(path: Path) -> Checkpoint:
     return Checkpoint(header.pop("time"), header, arrays)
 
 
-def is_one_row(array: NDArray[Any]) -> bool:
+def _is_one_row(array: NDArray[Any]) -> bool:
     """Whether a contiguous array has more than one row, and all are alike to the last bit."""
-    if array.ndim == 0 or len(array) < 2 or not array.size:
+    if array.ndim == 0 or len(array) < 2 or not array.size or array.itemsize not in (1, 2, 4, 8):
         return False
-    bits = array.view(f"u{array.itemsize}") if array.itemsize in (1, 2, 4, 8) else array
+    bits = array.view(f"u{array.itemsize}")
     # Most that differ do so soon, or at the end.
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
 

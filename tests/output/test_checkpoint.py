@@ -22,6 +22,8 @@ def checkpoint(time: float = 0.1) -> Checkpoint:
         "x": random.random((5, 3)),
         "status": np.arange(5, dtype=np.int8),
         "none": np.zeros((0, 9)),
+        "number": np.array(3.5),
+        "complex": np.array([0.0, complex(0.0, -0.0)]),
         "special": np.array([np.nan, -0.0, np.inf, 5e-324]),
     }
     return Checkpoint(time, {"step": 7, "series": [[0.1 + 0.2, "a b.vtp"]]}, arrays)

@@ -150,7 +150,8 @@ def note_disturbance(block: Any, i: int) -> None:
 def judged_share(block: Any, i: int, rho: Any) -> Any:
     """θ of :mod:`foamprb.body.error_control`, and 1 where the surroundings change what the body feels.
 
-    They may do so faster than elasticity and the flow: near walls as fast as inertia gives way.
+    They may do so faster than elasticity and the flow: near walls as fast as inertia gives way. ``rho`` is
+    the rate at which the elastic stress relaxes, 1/s.
     """
     theta = share_of_slope(block[at.dt * LANES + i], rho, load9(block, during.start_l, i))
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.tensor import Vector
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, next_leaf, weights
 
 __all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_there", "settle", "trace"]
 
@@ -145,27 +145,14 @@ def _nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
 
 def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int:
     """As :func:`_deepest`, of all cells that may hold x; only the tetrahedron."""
-    boxes, cells = flow.tree_boxes, flow.tree_cells
-    leaves = cells.shape[0]
-    node = 1
-    while node > 0:
-        inside = (
-            boxes[node, 0] <= x[0] <= boxes[node, 3]
-            and boxes[node, 1] <= x[1] <= boxes[node, 4]
-            and boxes[node, 2] <= x[2] <= boxes[node, 5]
-        )
-        if inside and node < leaves:
-            node = 2 * node
-            continue
-        if inside:
-            for k in range(cells.shape[1]):
-                if cells[node - leaves, k] >= 0:
-                    best, depth = _deepest(flow, cells[node - leaves, k], x, best, depth)
-        # As in foamprb.flow.mesh.locator.seek.
-        while node & 1:
-            node >>= 1
-        if node > 0:
-            node += 1
+    cells = flow.tree_cells
+    leaf = next_leaf(flow, 0, x)
+    while leaf > 0:
+        for k in range(cells.shape[1]):
+            cell = cells[leaf - cells.shape[0], k]
+            if cell >= 0:
+                best, depth = _deepest(flow, cell, x, best, depth)
+        leaf = next_leaf(flow, leaf, x)
     return best
 
 

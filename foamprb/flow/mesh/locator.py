@@ -7,7 +7,7 @@ import numpy as np
 from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, next_leaf, weights
 from foamprb.flow.mesh.folds import SOUND, is_there
 from foamprb.flow.mesh.mesh import Mesh
 
@@ -133,35 +133,21 @@ def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
     Of several (x on a shared face) it is the one whose smallest barycentric weight is largest, then the first
     in the order of the tree. A tetrahedron in a fold counts only if x is a place of the mesh in it.
     """
-    boxes, cells, first_tet = flow.tree_boxes, flow.tree_cells, flow.cell_start
-    leaves = cells.shape[0]
+    cells, first_tet = flow.tree_cells, flow.cell_start
     best, depth = -1, -TOLERANCE
-    node = 1
-    while node > 0:
-        inside = (
-            boxes[node, 0] <= x[0] <= boxes[node, 3]
-            and boxes[node, 1] <= x[1] <= boxes[node, 4]
-            and boxes[node, 2] <= x[2] <= boxes[node, 5]
-        )
-        if inside and node < leaves:
-            node = 2 * node
-            continue
-        if inside:
-            for k in range(cells.shape[1]):
-                cell = cells[node - leaves, k]
-                if cell < 0:
+    leaf = next_leaf(flow, 0, x)
+    while leaf > 0:
+        for k in range(cells.shape[1]):
+            cell = cells[leaf - cells.shape[0], k]
+            if cell < 0:
+                continue
+            for tet in range(first_tet[cell], first_tet[cell + 1]):
+                origin, c1, c2, c3, volume = frame(flow, int(tet))
+                w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
+                if volume == 0.0:
                     continue
-                for tet in range(first_tet[cell], first_tet[cell + 1]):
-                    origin, c1, c2, c3, volume = frame(flow, int(tet))
-                    w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
-                    if volume == 0.0:
-                        continue
-                    smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
-                    if smallest > depth and (flow.folds[cell] == SOUND or is_there(flow, tet, x, way)):
-                        best, depth = tet, smallest
-        # To the right sibling of the nearest ancestor (itself included) that is a left child.
-        while node & 1:
-            node >>= 1
-        if node > 0:
-            node += 1
+                smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
+                if smallest > depth and (flow.folds[cell] == SOUND or is_there(flow, tet, x, way)):
+                    best, depth = tet, smallest
+        leaf = next_leaf(flow, leaf, x)
     return best

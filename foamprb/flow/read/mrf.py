@@ -107,10 +107,12 @@ def _rotation(zone: Dictionary) -> Rotation:
     speed = _numbers(zone, "omega", _SCALAR, "a constant angular velocity in rad/s")[0]
     origin = _numbers(zone, "origin", _VECTOR, "a vector (x y z)")
     axis = np.array(_numbers(zone, "axis", _VECTOR, "a vector (x y z) that is not zero"))
-    length = float(np.linalg.norm(axis))
-    if not 0.0 < length < math.inf:
+    most = np.abs(axis).max()
+    if most == 0.0:
         raise zone.entries["axis"].mistake("is zero. Allowed: a vector (x y z) that is not zero.")
-    x, y, z = (speed / length * axis).tolist()
+    # The squares of very large and very small components are beyond what a number holds.
+    axis /= most
+    x, y, z = (speed / np.linalg.norm(axis) * axis).tolist()
     still = zone.entries.get("nonRotatingPatches")
     words = still.tokens if isinstance(still, Stream) else ()
     return Rotation(

@@ -7,7 +7,7 @@ import pytest
 from mesh_shapes import block
 
 from foamprb.flow.mesh import locator
-from foamprb.flow.mesh.arrays import TOLERANCE
+from foamprb.flow.mesh.arrays import TOLERANCE, next_leaf
 from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -60,6 +60,21 @@ def test_leaves_are_as_full_as_they_can_be(n, random):
             continue
         np.testing.assert_array_equal(tree[node, :3], boxes[own, :3].min(axis=0))
         np.testing.assert_array_equal(tree[node, 3:], boxes[own, 3:].max(axis=0))
+
+
+def test_all_leaves_that_hold_a_place_are_found_in_turn(flow, random):
+    """Those whose boxes, and of course whose ancestors' boxes, hold it; none twice, and none outside."""
+    arrays = flow.arrays()
+    boxes, leaves = arrays.tree_boxes, len(arrays.tree_cells)
+    for x in random.uniform(-0.2, 1.2, (200, 3)):
+        expected = leaves + np.flatnonzero(
+            np.all((boxes[leaves:, :3] <= x) & (x <= boxes[leaves:, 3:]), axis=1)
+        )
+        found, leaf = [], next_leaf(arrays, 0, x)
+        while leaf:
+            found.append(leaf)
+            leaf = next_leaf(arrays, leaf, x)
+        assert found == expected.tolist()
 
 
 def test_a_group_is_halved_along_its_longest_axis(random):
