@@ -23,6 +23,8 @@ N = 4
 PATHS = ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))
 FLUSH = 1e-9
 """Distance within which two places count as the same, in units of the box in each direction."""
+ROUND = 1e-15
+"""Distance from a plane, in the same units, that is round-off of a place in it."""
 
 
 def shaken(share, n=N, seed=0, rim=True):
@@ -269,7 +271,10 @@ def wander(flow, triangles, extent, x, hosts, steps, counts):
 
 
 def ray(triangles, o, d, room, at):
-    """How far from ``at`` the nearest meeting of a line with triangles is, and the first behind ``room``."""
+    """How far from ``at`` the nearest meeting of a line with triangles is, and the first behind ``room``.
+
+    A line that grazes a triangle meets it wherever it is in the plane to round-off; that counts as ``room``.
+    """
     nearest, first = np.inf, np.inf
     for k in range(triangles.shape[0]):
         ax, ay, az = triangles[k, 0, 0], triangles[k, 0, 1], triangles[k, 0, 2]
@@ -283,7 +288,12 @@ def ray(triangles, o, d, room, at):
         g = outer(r, p)
         u, v, t = inner(r, h) / det, inner(d, g) / det, inner(q, g) / det
         if u >= -FLUSH and v >= -FLUSH and u + v <= 1.0 + FLUSH:
-            nearest = min(nearest, abs(t - at))
+            off = abs(t - at)
+            n = outer(p, q)
+            # det is how fast the line comes nearer to the plane, times the length of n.
+            if off > room and off * abs(det) < ROUND * np.sqrt(inner(n, n)):
+                off = room
+            nearest = min(nearest, off)
             if u >= FLUSH and v >= FLUSH and u + v <= 1.0 - FLUSH and t > room:
                 first = min(first, t)
     return nearest, first

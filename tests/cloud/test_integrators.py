@@ -16,10 +16,14 @@ from foamprb.body.ellipsoid import integrals
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
-from foamprb.cloud.block import Medium
+from foamprb.cloud.block import Medium, at, idle_lanes, new_frames, new_integrals, new_scratch
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces.gravity import Gravity
 from foamprb.cloud.forces.pressure_gradient import PressureGradient
+from foamprb.cloud.forces.total import DEFAULT, coefficients
+from foamprb.cloud.integrators.adaptive import during
+from foamprb.cloud.integrators.rosenbrock import ROSENBROCK, predict_inertial
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.tracker import Models
@@ -394,3 +398,25 @@ def test_stokes_refuses_jefferys_traction():
             1.0,
             Models("jeffery", integrator="stokes"),
         )
+
+
+def test_the_place_predicted_with_inertia_is_that_of_drag_in_a_fluid_that_is_accelerated():
+    """A sphere at rest, of relaxation rate r, in u + a t: at first v' = r (u + a t), and x is its integral."""
+    layout, h, R = ROSENBROCK.layout, 1e-4, 1.0
+    medium = Medium(1.0, 1e-12, (0.0, 0.0, 0.0), coefficients(DEFAULT))
+    block = new_scratch(layout.rows).block
+    idle_lanes(block, h)
+    new_frames(block)
+    new_integrals(block)
+    u, a = np.array([1.0, -2.0, 3.0]), np.array([4e4, 2e4, -6e4])
+    rows = block.reshape(-1, LANES)
+    rows[at.R], rows[at.rho] = R, 4.5
+    rows[during.start_l : during.start_l + 9] = rows[at.l : at.l + 9] = 0.0
+    for c in range(3):
+        rows[at.u + c] = rows[during.start_u + c] = u[c]
+        rows[at.DuDt + c] = a[c]
+        rows[at.v + c] = rows[at.x + c] = 0.0
+    predict_inertial(block, medium)
+    r = 4.5 / (4.5 * R**2)
+    x = r * (u * h**2 / 2.0 + a * h**3 / 6.0)
+    assert rows[at.new_x : at.new_x + 3] == pytest.approx(x[:, None] * np.ones(LANES), rel=r * h)

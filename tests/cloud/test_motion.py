@@ -155,3 +155,19 @@ def test_the_body_behind_a_mirror_is_the_mirror_image(turn):
     near = 1e-12 if turn[0, 0] == 1.0 else 1e-7
     assert there @ there.T == pytest.approx(mirror @ free @ free.T @ mirror, abs=near)
     assert abs((turn.T @ free @ free.T @ turn)[0, 2]) > 0.1
+
+
+@pytest.mark.parametrize("height", [0.3, 0.5])
+def test_a_body_that_appears_in_touch_with_a_wall_sticks_to_no_other_than_a_sticky_one(height):
+    """A sphere of radius 0.4 comes to nothing but at a sticky floor that it touches."""
+    shape = block(3, 0.2)
+    flow = at_rest(build_mesh(shape, box_patches(shape)))
+    found = {}
+    for wall in (Stick(), Rebound()):
+        p = spheres([(0.5, 0.5, height)], d=0.8, rho=1.0, mu=1e3)
+        patches = [wall if patch.name == "floor" else Escape() for patch in flow.patches]
+        cloud = Cloud(p, flow, NOTHING, patches, 1e-9, Models(integrator="paper"), threads=1)
+        cloud.advance(1)
+        found[type(wall)] = p.status[0]
+    assert found[Stick] == (Status.STUCK if height < 0.4 else Status.ACTIVE)
+    assert found[Rebound] == Status.ACTIVE
