@@ -23,8 +23,15 @@ A step goes as follows; tensors are components in the particle frame of its star
 
 from __future__ import annotations
 
-from foamprb.body.relaxation import Relaxation, Response, relaxing, respond
-from foamprb.body.tensor import ZERO, Scalar, Tensor, add, add_identity, dot, inverse, scale
+from foamprb.body.relaxation import (
+    Relaxation,
+    Response,
+    relaxing,
+    respond,
+    respond_to_constant,
+    respond_to_slope,
+)
+from foamprb.body.tensor import Scalar, Tensor, add, add_identity, dot, inverse, scale
 from foamprb.body.turning import commutator
 
 NODE = 0.25
@@ -77,7 +84,8 @@ def first_argument(
     turning
         :func:`foamprb.body.turning.turning_gradient`, 1/s².
     """
-    return respond(n, quarter, NODE * h, l_s, scale(NODE, _plus(change, h, turning)), ZERO)
+    by_change = respond_to_slope(n, quarter, NODE * h, scale(NODE, _plus(change, h, turning)))
+    return add(respond_to_constant(n, quarter, NODE * h, l_s), by_change)
 
 
 def slope(n: Relaxation, Omega: Tensor, g: Tensor, l_s: Tensor, change: Tensor, per_step: Scalar) -> Tensor:
@@ -99,10 +107,8 @@ def second_order(
     n: Relaxation, whole: Response, h: Scalar, l_s: Tensor, change: Tensor, slope: Tensor
 ) -> tuple[Tensor, Tensor, Tensor]:
     """Ω of order 2 at the end of the step, and the parts of it that the fluid's gradient and N' have."""
-    first = respond(n, whole, h, l_s, ZERO, ZERO)
-    fluid = respond(n, whole, h, ZERO, change, ZERO)
-    own = respond(n, whole, h, ZERO, slope, ZERO)
-    return add(first, add(fluid, own)), fluid, own
+    fluid, own = respond_to_slope(n, whole, h, change), respond_to_slope(n, whole, h, slope)
+    return add(respond_to_constant(n, whole, h, l_s), add(fluid, own)), fluid, own
 
 
 def last_argument(

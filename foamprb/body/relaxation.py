@@ -46,36 +46,35 @@ def phi_functions(z: Scalar) -> Phi:
     eᶻ = (e^(z/64))⁶⁴ by φ_{k+1} = (φ_k − 1/k!)/z.
     """
     w = np.maximum(np.minimum(z, _LARGEST), -_LARGEST) * (1.0 / 64.0)
-    s = 1.0 + w * (1.0 / 13.0)
-    s = 1.0 + w * (1.0 / 12.0) * s
-    s = 1.0 + w * (1.0 / 11.0) * s
-    s = 1.0 + w * (1.0 / 10.0) * s
-    s = 1.0 + w * (1.0 / 9.0) * s
-    s = 1.0 + w * (1.0 / 8.0) * s
-    s = 1.0 + w * (1.0 / 7.0) * s
-    s = 1.0 + w * (1.0 / 6.0) * s
-    s = 1.0 + w * (1.0 / 5.0) * s
-    s = 1.0 + w * (1.0 / 4.0) * s
-    s = 1.0 + w * (1.0 / 3.0) * s
-    s = 1.0 + w * (1.0 / 2.0) * s
+    s = 1.0 / 479001600.0 + w * (1.0 / 6227020800.0)
+    s = 1.0 / 39916800.0 + w * s
+    s = 1.0 / 3628800.0 + w * s
+    s = 1.0 / 362880.0 + w * s
+    s = 1.0 / 40320.0 + w * s
+    s = 1.0 / 5040.0 + w * s
+    s = 1.0 / 720.0 + w * s
+    s = 1.0 / 120.0 + w * s
+    s = 1.0 / 24.0 + w * s
+    s = 1.0 / 6.0 + w * s
+    s = 1.0 / 2.0 + w * s
+    s = 1.0 + w * s
     e = _power_64(1.0 + w * s)
 
     small = abs(z) < 1.0
     y = select(small, z, 0.0)
-    q = 1.0 + y * (1.0 / 17.0)
-    q = 1.0 + y * (1.0 / 16.0) * q
-    q = 1.0 + y * (1.0 / 15.0) * q
-    q = 1.0 + y * (1.0 / 14.0) * q
-    q = 1.0 + y * (1.0 / 13.0) * q
-    q = 1.0 + y * (1.0 / 12.0) * q
-    q = 1.0 + y * (1.0 / 11.0) * q
-    q = 1.0 + y * (1.0 / 10.0) * q
-    q = 1.0 + y * (1.0 / 9.0) * q
-    q = 1.0 + y * (1.0 / 8.0) * q
-    q = 1.0 + y * (1.0 / 7.0) * q
-    q = 1.0 + y * (1.0 / 6.0) * q
-    q = 1.0 + y * (1.0 / 5.0) * q
-    near4 = q * (1.0 / 24.0)
+    near4 = 1.0 / 20922789888000.0 + y * (1.0 / 355687428096000.0)
+    near4 = 1.0 / 1307674368000.0 + y * near4
+    near4 = 1.0 / 87178291200.0 + y * near4
+    near4 = 1.0 / 6227020800.0 + y * near4
+    near4 = 1.0 / 479001600.0 + y * near4
+    near4 = 1.0 / 39916800.0 + y * near4
+    near4 = 1.0 / 3628800.0 + y * near4
+    near4 = 1.0 / 362880.0 + y * near4
+    near4 = 1.0 / 40320.0 + y * near4
+    near4 = 1.0 / 5040.0 + y * near4
+    near4 = 1.0 / 720.0 + y * near4
+    near4 = 1.0 / 120.0 + y * near4
+    near4 = 1.0 / 24.0 + y * near4
     near3 = 1.0 / 6.0 + y * near4
     near2 = 0.5 + y * near3
     near1 = 1.0 + y * near2
@@ -184,26 +183,34 @@ def fastest(n: Relaxation) -> Scalar:
 
 
 class Response(NamedTuple):
-    """φ₂, φ₃ and φ₄ of h J on its range, for one h."""
+    """h² φ₂, h² φ₃ and h² φ₄ of h J on its range, for one h, s²."""
 
     pairs: Tensor
     """Of the pairs 23, 13, 12, in a row each."""
-    mean: Vector
-    """Means of those of the two normal rates."""
-    slope: Vector
-    """Their differences over that of the rates times h."""
-    centre: Scalar
-    """Mean of the two normal rates, times h."""
+    along: Vector
+    """Of the normal components: what J is multiplied by, s²,"""
+    bent: Vector
+    """and J², s³. On the range both together are those of the two normal rates."""
 
 
-def _response(p: Phi, q: Phi, r: Phi, s: Phi, t: Phi, z1: Scalar, z2: Scalar) -> Response:
-    d = 1.0 / (z2 - z1 + _TINY)
+def _response(p: Phi, q: Phi, r: Phi, s: Phi, t: Phi, h: Scalar, a: Scalar, b: Scalar) -> Response:
+    """From the functions of the rates of the pairs, and of the two normal rates a and b."""
+    z1, z2 = h * a, h * b
+    d, centre, h2 = 1.0 / (z2 - z1 + _TINY), 0.5 * (z1 + z2), h * h
+    x, y, z = (t[2] - s[2]) * d, (t[3] - s[3]) * d, (t[4] - s[4]) * d
     return Response(
-        (p[2], p[3], p[4], q[2], q[3], q[4], r[2], r[3], r[4]),
-        (0.5 * (s[2] + t[2]), 0.5 * (s[3] + t[3]), 0.5 * (s[4] + t[4])),
-        ((t[2] - s[2]) * d, (t[3] - s[3]) * d, (t[4] - s[4]) * d),
-        0.5 * (z1 + z2),
-    )
+        (
+            h2 * p[2], h2 * p[3], h2 * p[4],
+            h2 * q[2], h2 * q[3], h2 * q[4],
+            h2 * r[2], h2 * r[3], h2 * r[4],
+        ),
+        (
+            h2 * (0.5 * (s[2] + t[2]) - centre * x),
+            h2 * (0.5 * (s[3] + t[3]) - centre * y),
+            h2 * (0.5 * (s[4] + t[4]) - centre * z),
+        ),
+        (h2 * (h * x), h2 * (h * y), h2 * (h * z)),
+    )  # fmt: skip
 
 
 def responses(n: Relaxation, h: Scalar) -> tuple[Response, Response]:
@@ -212,10 +219,10 @@ def responses(n: Relaxation, h: Scalar) -> tuple[Response, Response]:
     f = 0.25 * h
     p, q, r = phi_functions(f * a), phi_functions(f * b), phi_functions(f * c)
     s, t = phi_functions(f * d), phi_functions(f * e)
-    quarter = _response(p, q, r, s, t, f * d, f * e)
+    quarter = _response(p, q, r, s, t, f, d, e)
     p, q, r = phi_of_twice(phi_of_twice(p)), phi_of_twice(phi_of_twice(q)), phi_of_twice(phi_of_twice(r))
     s, t = phi_of_twice(phi_of_twice(s)), phi_of_twice(phi_of_twice(t))
-    return quarter, _response(p, q, r, s, t, h * d, h * e)
+    return quarter, _response(p, q, r, s, t, h, d, e)
 
 
 def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: Tensor) -> Tensor:
@@ -229,24 +236,40 @@ def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: T
         Rates, 1/s.
     """
     p1, p2, p3 = _stretchings(n, Y1), _stretchings(n, Y2), _stretchings(n, Y3)
-    f, h2 = r.pairs, h * h
+    f = r.pairs
     s = (
-        h2 * (f[0] * p1[0] + f[1] * p2[0] + f[2] * p3[0]),
-        h2 * (f[3] * p1[1] + f[4] * p2[1] + f[5] * p3[1]),
-        h2 * (f[6] * p1[2] + f[7] * p2[2] + f[8] * p3[2]),
+        f[0] * p1[0] + f[1] * p2[0] + f[2] * p3[0],
+        f[3] * p1[1] + f[4] * p2[1] + f[5] * p3[1],
+        f[6] * p1[2] + f[7] * p2[2] + f[8] * p3[2],
     )
     d1, d2, d3 = (Y1[0], Y1[4], Y1[8]), (Y2[0], Y2[4], Y2[8]), (Y3[0], Y3[4], Y3[8])
-    a, b = r.mean, r.slope
-    mean = dot_vector(n.normal, _sum(a, d1, d2, d3))
-    bend = dot_vector(n.normal, _sum(b, d1, d2, d3))
-    more = dot_vector(n.normal, bend)
-    d = (
-        h2 * (mean[0] + h * more[0] - r.centre * bend[0]),
-        h2 * (mean[1] + h * more[1] - r.centre * bend[1]),
-        h2 * (mean[2] + h * more[2] - r.centre * bend[2]),
-    )
+    d = _along(n, _sum(r.along, d1, d2, d3), _sum(r.bent, d1, d2, d3))
     free = add(add(Y1, scale(0.5, Y2)), scale(1.0 / 6.0, Y3))
     return add(scale(h, free), _tensor(n, d, s))
+
+
+def respond_to_constant(n: Relaxation, r: Response, h: Scalar, Y: Tensor) -> Tensor:
+    """H φ₁(hJ) Y: :func:`respond` to a rate Y."""
+    f = r.pairs
+    return _respond_to(n, (f[0], f[3], f[6]), r.along[0], r.bent[0], h, Y)
+
+
+def respond_to_slope(n: Relaxation, r: Response, h: Scalar, Y: Tensor) -> Tensor:
+    """H φ₂(hJ) Y: :func:`respond` to a rate Y t/h."""
+    f = r.pairs
+    return _respond_to(n, (f[1], f[4], f[7]), r.along[1], r.bent[1], 0.5 * h, Y)
+
+
+def _respond_to(n: Relaxation, f: Vector, along: Scalar, bent: Scalar, free: Scalar, Y: Tensor) -> Tensor:
+    p = _stretchings(n, Y)
+    a, b = (along * Y[0], along * Y[4], along * Y[8]), (bent * Y[0], bent * Y[4], bent * Y[8])
+    return add(scale(free, Y), _tensor(n, _along(n, a, b), (f[0] * p[0], f[1] * p[1], f[2] * p[2])))
+
+
+def _along(n: Relaxation, a: Vector, b: Vector) -> Vector:
+    """J a + J² b of the normal components."""
+    c = dot_vector(n.normal, b)
+    return dot_vector(n.normal, (a[0] + c[0], a[1] + c[1], a[2] + c[2]))
 
 
 def _sum(w: Vector, a: Vector, b: Vector, c: Vector) -> Vector:

@@ -33,6 +33,25 @@ class Elasticity(NamedTuple):
     """s₂₃, s₁₃, s₁₂, Pa: the change of stress τ_ij along H = X F is s_ij (X_ij e_j² + X_ji e_i²)."""
 
 
+def extra_stress(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """Kirchhoff stress but for a pressure, 2(w₁ + I₁w₂) b − 2w₂ b², Pa, in any frame.
+
+    Parameters
+    ----------
+    b, J, mu, lame, k
+        As :func:`kirchhoff`.
+    """
+    I1, I2 = invariants(b)
+    square = dot(b, b)
+    w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
+    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
+    return (
+        p * b[0] - q * square[0], p * b[1] - q * square[1], p * b[2] - q * square[2],
+        p * b[3] - q * square[3], p * b[4] - q * square[4], p * b[5] - q * square[5],
+        p * b[6] - q * square[6], p * b[7] - q * square[7], p * b[8] - q * square[8],
+    )  # fmt: skip
+
+
 def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
     """Kirchhoff stress τ = P Fᵀ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I, Pa, in any frame.
 
@@ -44,36 +63,64 @@ def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tens
         Lamé parameters of the solid, Pa, and its third parameter.
     """
     I1, I2 = invariants(b)
-    square = dot(b, b)
-    w1, w2, wJ = derivatives(I1, I2, J, mu, lame, k)
-    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
-    T = (
-        p * b[0] - q * square[0], p * b[1] - q * square[1], p * b[2] - q * square[2],
-        p * b[3] - q * square[3], p * b[4] - q * square[4], p * b[5] - q * square[5],
-        p * b[6] - q * square[6], p * b[7] - q * square[7], p * b[8] - q * square[8],
-    )  # fmt: skip
-    return add_identity(T, J * wJ)
+    return add_identity(extra_stress(b, J, mu, lame, k), _pressure(I1, I2, J, mu, lame, k))
+
+
+def extra_stress_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
+    """:func:`extra_stress` for a diagonal b: of a body that is a sphere at rest, in its particle frame."""
+    x, y, z = _principal_extra_stress((b[0], b[4], b[8]), J, mu, lame, k)
+    return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
 
 
 def kirchhoff_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
-    """The same for a diagonal b: that of a body that is a sphere at rest, in its particle frame."""
-    x, y, z = _principal_kirchhoff((b[0], b[4], b[8]), J, mu, lame, k)
-    return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
+    """:func:`kirchhoff` for the same."""
+    I1, I2 = _principal_invariants((b[0], b[4], b[8]))
+    return add_identity(extra_stress_in_frame(b, J, mu, lame, k), _pressure(I1, I2, J, mu, lame, k))
 
 
 def _principal_invariants(e: Vector) -> tuple[Scalar, Scalar]:
     return e[0] + e[1] + e[2], e[0] * e[1] + e[1] * e[2] + e[2] * e[0]
 
 
-def _principal_kirchhoff(e: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Vector:
+def _pressure(I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Scalar:
+    _, _, wJ = derivatives(I1, I2, J, mu, lame, k)
+    return J * wJ
+
+
+def _principal_extra_stress(e: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Vector:
     I1, I2 = _principal_invariants(e)
-    w1, w2, wJ = derivatives(I1, I2, J, mu, lame, k)
-    p, q, r = 2.0 * (w1 + I1 * w2), 2.0 * w2, J * wJ
-    return (
-        p * e[0] - q * e[0] * e[0] + r,
-        p * e[1] - q * e[1] * e[1] + r,
-        p * e[2] - q * e[2] * e[2] + r,
-    )
+    w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
+    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
+    return p * e[0] - q * e[0] * e[0], p * e[1] - q * e[1] * e[1], p * e[2] - q * e[2] * e[2]
+
+
+def _strained(J: Scalar) -> tuple[Scalar, Scalar]:
+    """By how much a small extension multiplies e_a², and the J that it leads to."""
+    h = _DIFFERENCE
+    return 1.0 + 2.0 * h + 2.0 * h * h, J * (1.0 + h + 0.5 * h * h)
+
+
+def extra_elasticity(
+    squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
+) -> Elasticity:
+    """:func:`elasticity` of :func:`extra_stress`: the columns of the slopes are those but for a pressure."""
+    x, y, z = squares
+    tau = _principal_extra_stress((x, y, z), J, mu, lame, k)
+    per = _PER_DIFFERENCE
+    g, Jh = _strained(J)
+    tx = _principal_extra_stress((x * g, y, z), Jh, mu, lame, k)
+    ty = _principal_extra_stress((x, y * g, z), Jh, mu, lame, k)
+    tz = _principal_extra_stress((x, y, z * g), Jh, mu, lame, k)
+    normal, cross = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
+    slopes = (
+        (tx[0] - tau[0]) * per + normal, (ty[0] - tau[0]) * per + cross, (tz[0] - tau[0]) * per + cross,
+        (tx[1] - tau[1]) * per + cross, (ty[1] - tau[1]) * per + normal, (tz[1] - tau[1]) * per + cross,
+        (tx[2] - tau[2]) * per + cross, (ty[2] - tau[2]) * per + cross, (tz[2] - tau[2]) * per + normal,
+    )  # fmt: skip
+    I1, I2 = _principal_invariants((x, y, z))
+    w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
+    p, q = 2.0 * (w1 + I1 * w2) + 0.8 * tension, 2.0 * w2
+    return Elasticity(squares, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
 
 
 def elasticity(
@@ -91,23 +138,19 @@ def elasticity(
         γ/R, Pa. What it adds is 4/5 γ/R to the shear modulus: where it is stiff the body is nearly a sphere.
     """
     x, y, z = squares
-    tau = _principal_kirchhoff((x, y, z), J, mu, lame, k)
-    h, per = _DIFFERENCE, _PER_DIFFERENCE
-    g = 1.0 + 2.0 * h + 2.0 * h * h
-    Jh = J * (1.0 + h + 0.5 * h * h)
-    tx = _principal_kirchhoff((x * g, y, z), Jh, mu, lame, k)
-    ty = _principal_kirchhoff((x, y * g, z), Jh, mu, lame, k)
-    tz = _principal_kirchhoff((x, y, z * g), Jh, mu, lame, k)
-    normal, cross = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension
+    e = extra_elasticity(squares, J, mu, lame, k, tension)
+    g, Jh = _strained(J)
+    p = _pressure(*_principal_invariants((x, y, z)), J, mu, lame, k)
+    px = (_pressure(*_principal_invariants((x * g, y, z)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
+    py = (_pressure(*_principal_invariants((x, y * g, z)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
+    pz = (_pressure(*_principal_invariants((x, y, z * g)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
+    s = e.slopes
     slopes = (
-        (tx[0] - tau[0]) * per + normal, (ty[0] - tau[0]) * per + cross, (tz[0] - tau[0]) * per + cross,
-        (tx[1] - tau[1]) * per + cross, (ty[1] - tau[1]) * per + normal, (tz[1] - tau[1]) * per + cross,
-        (tx[2] - tau[2]) * per + cross, (ty[2] - tau[2]) * per + cross, (tz[2] - tau[2]) * per + normal,
+        s[0] + px, s[1] + py, s[2] + pz,
+        s[3] + px, s[4] + py, s[5] + pz,
+        s[6] + px, s[7] + py, s[8] + pz,
     )  # fmt: skip
-    I1, I2 = _principal_invariants((x, y, z))
-    w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
-    p, q = 2.0 * (w1 + I1 * w2) + 0.8 * tension, 2.0 * w2
-    return Elasticity(squares, slopes, (p - q * (y + z), p - q * (x + z), p - q * (x + y)))
+    return Elasticity(squares, slopes, e.shear)
 
 
 def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:

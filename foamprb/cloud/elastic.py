@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from foamprb.body.rosenbrock import Elasticity, elasticity
+from foamprb.body.rosenbrock import Elasticity, elasticity, extra_elasticity
+from foamprb.body.rosenbrock import extra_stress_in_frame as extra_stress
 from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector
@@ -19,7 +20,15 @@ def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
 
 def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: Any) -> Tensor:
     """Kirchhoff stress of the solid and of its surface tension, Pa, in the particle frame."""
-    tau = kirchhoff(b_e, J, *solid(block, i))
+    return _with_interface(block, i, stretches, kirchhoff(b_e, J, *solid(block, i)))
+
+
+def incompressible_stress(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Tensor:
+    """The same of an incompressible body, whose pressure is found elsewhere."""
+    return _with_interface(block, i, stretches, extra_stress(b_e, 1.0, *solid(block, i)))
+
+
+def _with_interface(block: Any, i: int, stretches: Vector, tau: Tensor) -> Tensor:
     s = interface(stretches, block[at.tension * LANES + i])
     return (
         tau[0] + s[0], tau[1], tau[2],
@@ -28,9 +37,15 @@ def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: A
     )  # fmt: skip
 
 
-def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor, dilation: float) -> Elasticity:
-    """The solid's elasticity, its resistance to dilation taken ``dilation`` times."""
-    mu, lame, k = solid(block, i)
+def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Elasticity:
+    """The solid's elasticity."""
     J = stretches[0] * stretches[1] * stretches[2]
     squares = (b_e[0], b_e[4], b_e[8])
-    return elasticity(squares, J, mu, dilation * lame, k, block[at.tension * LANES + i])
+    return elasticity(squares, J, *solid(block, i), block[at.tension * LANES + i])
+
+
+def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
+    """The same without resistance to dilation, but for a pressure."""
+    mu, _, k = solid(block, i)
+    squares = (b_e[0], b_e[4], b_e[8])
+    return extra_elasticity(squares, 1.0, mu, 0.0, k, block[at.tension * LANES + i])

@@ -14,7 +14,7 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.ellipsoid import COMPACT
 from foamprb.body.error_control import strain_in_frame
 from foamprb.body.material import MATERIALS, finger, finger_in_frame
-from foamprb.body.rosenbrock import kirchhoff
+from foamprb.body.rosenbrock import extra_stress, kirchhoff
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
@@ -131,7 +131,8 @@ class Tracker:
             bindings["dilation"] = material.dilation
         # In its particle frame the elastic strain of a sphere is diagonal.
         if shaped:
-            bindings |= {"finger": finger, "finger_in_frame": finger_in_frame, "kirchhoff": kirchhoff}
+            bindings |= {"finger": finger, "finger_in_frame": finger_in_frame}
+            bindings |= {"kirchhoff": kirchhoff, "extra_stress": extra_stress}
         else:
             bindings["strain_by"] = strain_in_frame
         if tense:

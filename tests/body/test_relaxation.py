@@ -17,6 +17,8 @@ from foamprb.body.relaxation import (
     relaxation,
     relaxing,
     respond,
+    respond_to_constant,
+    respond_to_slope,
     responses,
 )
 
@@ -81,6 +83,14 @@ def test_respond_is_the_sum_of_the_matrix_functions(stretch, Y1, Y2, Y3, h, tens
         expected = part * sum(phi[:, 9 * k : 9 * k + 9] @ Y for k, Y in ((1, Y1), (2, Y2), (3, Y3)))
         found = respond(n, response, part, Y1, Y2, Y3)
         np.testing.assert_allclose(found, expected, atol=1e-9 * max(part, 1.0))
+
+
+@given(mild_stretches, tensors, tensors, st.floats(1e-4, 1e4))
+def test_responses_to_a_constant_and_to_a_slope_add_up(stretch, Y1, Y2, h):
+    *_, n = assemble(stretch)
+    _, whole = responses(n, h)
+    found = np.add(respond_to_constant(n, whole, h, Y1), respond_to_slope(n, whole, h, Y2))
+    np.testing.assert_allclose(found, respond(n, whole, h, Y1, Y2, AT_REST), atol=1e-12 * max(h, 1.0))
 
 
 def test_a_body_with_two_equal_rates_is_no_exception():

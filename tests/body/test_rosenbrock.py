@@ -50,6 +50,34 @@ def test_stress_of_every_material_is_that_of_its_piola_stress(name, stretch, mon
     np.testing.assert_allclose(found, Q @ tau @ Q.T, atol=1e-12)
 
 
+@pytest.mark.parametrize("name", [name for name in MATERIALS if MATERIALS[name].isochoric])
+@pytest.mark.parametrize("tension", [0.0, 3.0])
+def test_the_extra_stress_of_an_incompressible_body_lacks_a_pressure_only(name, tension, monkeypatch):
+    """So do the columns of its slopes; the shear is that of the whole stress."""
+    material, k = MATERIALS[name], {"mooneyRivlin": 0.4, "gent": 5.0}.get(name, 0.0)
+    monkeypatch.setattr(rosenbrock, "derivatives", material.derivatives)
+    stretch = np.array([1.3, 0.9, 1.0 / 1.17])
+    b, squares = flat(np.diag(stretch**2)), tuple(stretch**2)
+    for stress, extra in (
+        (rosenbrock.kirchhoff, rosenbrock.extra_stress),
+        (rosenbrock.kirchhoff_in_frame, rosenbrock.extra_stress_in_frame),
+    ):
+        off = np.subtract(stress(b, 1.0, MU, LAME, k), extra(b, 1.0, MU, LAME, k))
+        pressure = material.derivatives(b[0] + b[4] + b[8], 3.0, 1.0, MU, LAME, k)[2]
+        np.testing.assert_allclose(square(off), pressure * np.eye(3), atol=1e-13)
+    whole = rosenbrock.elasticity(squares, 1.0, MU, LAME, k, tension)
+    extra = rosenbrock.extra_elasticity(squares, 1.0, MU, LAME, k, tension)
+    columns = square(np.subtract(whole.slopes, extra.slopes))
+    np.testing.assert_allclose(columns, np.tile(columns[0], (3, 1)), atol=1e-8)
+    assert columns[0] == pytest.approx(np.full(3, LAME - _bulk_of_shear(name, k)), rel=1e-5)
+    assert whole.shear == extra.shear
+
+
+def _bulk_of_shear(name, k):
+    """By how much λ' is less than λ in the solid's volume energy."""
+    return {"mooneyRivlin": 2.0 * MU * k, "gent": 2.0 * MU / (k or 1.0)}.get(name, 0.0)
+
+
 def elasticity(stretch, tension=0.0):
     squares = tuple(x * x for x in stretch)
     return rosenbrock.elasticity(squares, np.prod(stretch), MU, LAME, 0.0, tension)

@@ -401,7 +401,7 @@ def test_stokes_refuses_jefferys_traction():
 
 
 def test_the_place_predicted_with_inertia_is_that_of_drag_in_a_fluid_that_is_accelerated():
-    """A sphere at rest, of relaxation rate r, in u + a t: at first v' = r (u + a t), and x is its integral."""
+    """A sphere at rest, of relaxation rate r, in u + a t: at first its acceleration is r (u + a t)."""
     layout, h, R = ROSENBROCK.layout, 1e-4, 1.0
     medium = Medium(1.0, 1e-12, (0.0, 0.0, 0.0), coefficients(DEFAULT))
     block = new_scratch(layout.rows).block

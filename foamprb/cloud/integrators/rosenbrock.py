@@ -155,7 +155,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
         b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
         l_t, tau = _shape_rate(block, i, medium.mu, L, b_e)
-        e = solid_elasticity(block, i, stretches, b_e, 1.0)
+        e = solid_elasticity(block, i, stretches, b_e)
         n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
         dl = add(l_end, scale(-1.0, l))
         change = fluid_change(stretches, g, c, medium.mu, to_frame(Q, dl))

@@ -37,7 +37,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.elastic import conservative_stress, solid_elasticity
+from foamprb.cloud.elastic import incompressible_elasticity, incompressible_stress
 from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.integrators.adaptive import (
     STEP_ROWS,
@@ -70,10 +70,9 @@ class RelaxationRows(NamedTuple):
     upper: Annotated[int, Row(3, "1/s", "relaxation of the components 23, 13 and 12")]
     lower: Annotated[int, Row(3, "1/s", "the same of 32, 31 and 21")]
     relaxation: Annotated[int, Row(9, "1/s", "relaxation of the normal components")]
-    pairs: Annotated[int, Row(9, "1", "φ₂, φ₃ and φ₄ of the pairs, for the whole step")]
-    mean: Annotated[int, Row(3, "1", "their means of the two normal rates")]
-    bend: Annotated[int, Row(3, "1", "their differences over that of the rates times h")]
-    centre: Annotated[int, Row(1, "1", "mean of the two normal rates, times h")]
+    pairs: Annotated[int, Row(9, "s2", "h² φ₂, φ₃ and φ₄ of the pairs, for the whole step")]
+    along: Annotated[int, Row(3, "s2", "those of the normal rates: weights of J")]
+    bent: Annotated[int, Row(3, "s3", "and weights of J²")]
     change: Annotated[int, Row(9, "1/s", "change of l_s by that of the fluid's gradient over the step")]
     turning: Annotated[int, Row(9, "1/s2", "rate of change of l_s by turning")]
     quarter: Annotated[int, Row(9, "1", "Ω at a quarter of the step")]
@@ -113,8 +112,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         m, sigma = _response(block, i, medium, stretches, b_e)
         l_f = to_frame(Q, felt)
         l_s = velocity_gradient(m, sigma, l_f)
-        # The pressure takes over the solid's resistance to dilation.
-        e = solid_elasticity(block, i, stretches, b_e, 0.0)
+        e = incompressible_elasticity(block, i, b_e)
         n = relaxation(m, e, medium.mu)
         quarter, whole = responses(n, h)
         dl = add(l_end, scale(-1.0, l))
@@ -141,9 +139,8 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         store3(block, own.lower, i, n.lower)
         store9(block, own.relaxation, i, n.normal)
         store9(block, own.pairs, i, whole.pairs)
-        store3(block, own.mean, i, whole.mean)
-        store3(block, own.bend, i, whole.slope)
-        block[own.centre * LANES + i] = whole.centre
+        store3(block, own.along, i, whole.along)
+        store3(block, own.bent, i, whole.bent)
         store9(block, own.change, i, change)
         store9(block, own.turning, i, turning)
         store9(block, own.quarter, i, Omega)
@@ -156,7 +153,8 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
         l_s, b_e, change = load9(block, own.l_s, i), load9(block, own.b_e, i), load9(block, own.change, i)
         n, whole = _load_relaxation(block, i)
-        g = algebra_rate(Omega, to_frame(Q0, _gradient(block, i, medium)))
+        turn = dot(Q0, transpose(load9(block, at.Q, i)))
+        g = algebra_rate(Omega, to_frame(turn, _gradient_in_frame(block, i, medium)))
         k = slope_of(n, Omega, g, l_s, scale(NODE, change), 1.0 / NODE)
         two, by_fluid, by_slope = of_second_order(n, whole, h, l_s, change, k)
         strain = strain_scale(b_e, two)
@@ -259,16 +257,21 @@ def end_inertialess(block: Any, medium: Medium) -> None:
 def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
     """Mobility, and elastic stress over μ_f, 1/s, in the particle frame."""
     m = mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
-    tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
+    tau = incompressible_stress(block, i, stretches, b_e)
     return m, scale(1.0 / medium.mu, tau)
 
 
 def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
     """l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
+    return from_frame(load9(block, at.Q, i), _gradient_in_frame(block, i, medium))
+
+
+def _gradient_in_frame(block: Any, i: int, medium: Medium) -> Tensor:
+    """The same in that frame."""
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
     b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     m, sigma = _response(block, i, medium, stretches, b_e)
-    return from_frame(Q, velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i))))
+    return velocity_gradient(m, sigma, to_frame(Q, load9(block, at.l, i)))
 
 
 def _fluid_at_node(block: Any, i: int) -> Vector:
@@ -323,8 +326,7 @@ def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
         load3(block, own.lower, i),
         load9(block, own.relaxation, i),
     )
-    mean, bend = load3(block, own.mean, i), load3(block, own.bend, i)
-    return n, Response(load9(block, own.pairs, i), mean, bend, block[own.centre * LANES + i])
+    return n, Response(load9(block, own.pairs, i), load3(block, own.along, i), load3(block, own.bent, i))
 
 
 def _refuses(traction: str, material: str, _tense: bool) -> str:

@@ -46,7 +46,7 @@ from foamprb.body.wall import (
     stresslet_velocity,
 )
 from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.elastic import conservative_stress
+from foamprb.cloud.elastic import incompressible_stress
 from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
@@ -315,7 +315,7 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     store3(block, near.gives_shear, i, m.compliance)
     store3(block, near.gives_slip, i, m.slip)
     b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
-    tau = conservative_stress(block, i, stretches, b_e, 0.0 * b_e[0] + 1.0)
+    tau = incompressible_stress(block, i, stretches, b_e)
     l = add(load9(block, at.l, i), load9(block, near.by_load, i))
     return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
 
