@@ -33,8 +33,6 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
         hint = f"maxSubSteps is {limits.max_sub_steps:g}"
     elif reason == Reason.VOLUME_RATIO and models.material == "saintVenantKirchhoff":
         hint = "a Saint Venant-Kirchhoff solid gives way when it is compressed"
-        if not scheme.adaptive:
-            hint += ", or Δt beyond stability"
     elif reason == Reason.VOLUME_RATIO and scheme.adaptive:
         hint = "the solid is too soft to keep its volume"
     elif not scheme.adaptive and reason in (

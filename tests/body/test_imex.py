@@ -54,6 +54,16 @@ def test_newtons_equation_is_the_residual_and_its_derivative(Q1, stretch, Q2, st
         np.testing.assert_allclose(square(imex.tangent(n, X)), derivative @ G.T, atol=3e-6 * size)
 
 
+@given(mild_stretches, tensors, tensors, tensors)
+def test_an_equation_without_off_diagonal_components_is_solved_in_closed_form(squares, S, D, r):
+    """X of X B + κ S Xᵀ − κ tr(X) D = r by the dense matrix of it, each of the three axes another."""
+    B, S, D = (np.diag(np.diag(square(T))) for T in (flat(np.diag(squares)), S, D))
+    n = imex.Newton(0.07, flat(B), flat(S), flat(D), r)
+    X = np.linalg.solve(dense_matrix(n), np.array(r))
+    np.testing.assert_allclose(imex.solve_diagonal(n, r), X, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(imex.solve(n), X, rtol=1e-9, atol=1e-12)
+
+
 def test_newton_with_the_full_tangent_converges_quadratically():
     stress = (0.9, 0.4, -0.2, 0.5, -0.3, 0.1, 0.0, 0.3, -0.8)
     predictor = flat(np.array([[1.5, 0.8, 0.0], [-0.5, 0.9, 0.4], [0.0, 0.3, 0.8]]))

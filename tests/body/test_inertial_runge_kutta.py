@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.linalg import expm
 from strategies import flat, mild_stretches, square, tensors
 
 from foamprb.body import inertial_path as path
@@ -96,13 +97,69 @@ def test_response_is_that_function_of_the_stiffness(stretch, X, Y, h):
     np.testing.assert_allclose(found, expected, atol=1e-7 * (1.0 + np.abs(expected).max()))
 
 
-@given(positive, st.floats(1e-3, 10.0))
-def test_the_barycentre_is_advanced_by_the_same_functions(rate, h):
-    J = np.array([[0.0, 1.0], [0.0, -rate]])
-    P = np.linalg.inv(np.eye(2) - own.GAMMA * h * J)
-    u, v, w = np.array([1.0, -2.0]), np.array([0.5, 3.0]), np.array([-1.0, 0.7])
-    expected = np.zeros(2)
-    for weights, pair in zip((own.R1, own.R2, own.R3), (u, v, w), strict=True):
-        expected += h * sum(a * np.linalg.matrix_power(P, i + 1) for i, a in enumerate(weights)) @ pair
-    x, y = path.respond((rate,) * 3, h, *(((p[0],) * 3, (p[1],) * 3) for p in (u, v, w)))
-    np.testing.assert_allclose((x[0], y[0]), expected, rtol=1e-8, atol=1e-10)
+@given(st.tuples(positive, positive, positive), st.floats(1e-3, 10.0))
+def test_the_barycentre_is_advanced_by_the_same_functions(rates, h):
+    """Along each axis by its own rate."""
+    random = np.random.default_rng(7)
+    vectors = random.normal(size=(3, 2, 3))
+    expected = np.zeros((2, 3))
+    for axis, rate in enumerate(rates):
+        J = np.array([[0.0, 1.0], [0.0, -rate]])
+        P = np.linalg.inv(np.eye(2) - own.GAMMA * h * J)
+        for weights, pair in zip((own.R1, own.R2, own.R3), vectors[:, :, axis], strict=True):
+            f = sum(a * np.linalg.matrix_power(P, i + 1) for i, a in enumerate(weights))
+            expected[:, axis] += h * f @ pair
+    found = path.respond(rates, h, *((tuple(x), tuple(v)) for x, v in vectors))
+    np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-9 * abs(expected).max())
+
+
+RATES = np.array([0.7, 2.0, 5.0])
+SPRING, FRICTION, WEIGHT = np.array([1.5, -0.8, 3.0]), np.array([0.3, 0.9, -0.5]), np.array([0.2, -1.0, 0.4])
+FLUID = np.array([[0.5, -1.2, 2.0], [1.0, 0.6, -0.9], [-0.4, 0.8, 1.1]])
+"""u₀, its rate and half its second derivative."""
+START = np.array([[0.3, -0.6, 0.9], [-1.0, 0.4, 0.2]])
+
+
+def exact_path(t):
+    """Of dv/dt = g − w x − c v + k (u₀ + t u₁ + t² u₂ − v), by the exponential of a matrix for each axis."""
+    found = np.empty((2, 3))
+    for i in range(3):
+        k = RATES[i]
+        A = np.zeros((5, 5))
+        # For x, v, 1, t and t².
+        A[0, 1] = A[3, 2] = 1.0
+        A[4, 3] = 2.0
+        A[1] = [-SPRING[i], -FRICTION[i] - k, WEIGHT[i] + k * FLUID[0, i], k * FLUID[1, i], k * FLUID[2, i]]
+        found[:, i] = (expm(t * A) @ [*START[:, i], 1.0, 0.0, 0.0])[:2]
+    return found
+
+
+def path_by_a_step(h):
+    """The changes of x and v of order 2 and of order 3."""
+    rate = tuple(RATES)
+
+    def at(t, moved):
+        x, v = START + np.asarray(moved)
+        u = FLUID[0] + t * FLUID[1] + t * t * FLUID[2]
+        return v, WEIGHT - SPRING * x - FRICTION * v + RATES * (u - v)
+
+    start = at(0.0, np.zeros((2, 3)))
+    changes = path.fluid_changes(rate, h, h * FLUID[1] + h * h * FLUID[2], FLUID[1])
+    first, t = path.first_motion(rate, h, start, *changes), path.NODE * h
+    seen = RATES * (t * FLUID[1] + t * t * FLUID[2])
+    slope = path.slope(rate, first, at(t, first), start, seen, 1.0 / path.NODE)
+    last = path.last_motion(rate, h, start, *changes, slope)
+    end = path.slope(rate, last, at(h, last), start, changes[0], 1.0)
+    args = (rate, h, start, *changes, slope)
+    return np.array([path.second_order(*args), path.third_order(*args, end)])
+
+
+def test_each_axis_of_the_path_is_of_its_order():
+    """With drag, another along each axis, a fluid that speeds up, and forces by place and velocity."""
+    steps = (0.02, 0.01)
+    errors = np.array([abs(path_by_a_step(h) + START - exact_path(h)) for h in steps])
+    # A step of order 2 misses v by h³, and x by one power more.
+    orders = np.log2(errors[0] / errors[1])
+    assert orders[0, 1] == pytest.approx([3.0] * 3, abs=0.2)
+    assert orders[1] == pytest.approx(np.full((2, 3), 4.0), abs=0.3)
+    assert errors[0, 1].max() < 1e-5

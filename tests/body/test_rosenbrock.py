@@ -152,6 +152,26 @@ def test_elasticity_is_the_derivative_of_the_kirchhoff_stress(stretch, X):
         np.testing.assert_allclose(change[i, j], expected, atol=1e-7)
 
 
+@pytest.mark.parametrize("name", MATERIALS)
+@given(mild_stretches, tensors)
+def test_elasticity_is_that_derivative_for_every_material(name, stretch, X):
+    """Where the energy depends on I₂ as well a shear stress depends on the third stretch."""
+    material, k = MATERIALS[name], {"mooneyRivlin": 0.4, "gent": 20.0}.get(name, 0.0)
+    F, X, h = np.diag(stretch), square(X), 1e-5
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rosenbrock, "derivatives", material.derivatives)
+        e = rosenbrock.elasticity(tuple(x * x for x in stretch), np.prod(stretch), MU, LAME, k, 0.0)
+    G = [F + s * h * X @ F for s in (1, -1)]
+    tau = [square(piola(material, flat(g), MU, LAME, k)) @ g.T for g in G]
+    change = (tau[0] - tau[1]) / (2 * h)
+    size = 1.0 + abs(square(e.slopes)).max()
+    np.testing.assert_allclose(square(e.slopes) @ np.diag(X), np.diag(change), atol=1e-4 * size)
+    for i, j, other in PAIRS:
+        expected = e.shear[other] * (X[i, j] * stretch[j] ** 2 + X[j, i] * stretch[i] ** 2)
+        np.testing.assert_allclose(change[i, j], expected, atol=1e-6 * size)
+        np.testing.assert_allclose(change[j, i], expected, atol=1e-6 * size)
+
+
 @given(mild_stretches, tensors, st.floats(0.0, 20.0))
 def test_traction_coefficients_are_those_of_roscoes_traction(axes, Y, eta):
     g, Y = integrals(axes), square(Y)

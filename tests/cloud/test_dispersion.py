@@ -12,7 +12,15 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Mirror, Rebound
 from foamprb.cloud.state import spheres
-from foamprb.cloud.surroundings.dispersion import GradientDispersion, StochasticDispersion
+from foamprb.cloud.surroundings.dispersion import (
+    DOWN,
+    DOWN_OR_UP,
+    NORMAL,
+    OPENFOAM,
+    GradientDispersion,
+    StochasticDispersion,
+    of_eddy,
+)
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -85,6 +93,16 @@ def test_openfoams_fluctuations_have_a_third_of_it():
     moments = p.eddy.T @ p.eddy / n / SIGMA**2
     np.testing.assert_allclose(moments, np.eye(3) / 3.0, atol=4.0 * np.sqrt(2.0 / n))
     assert kstest(np.linalg.norm(p.eddy, axis=1) / SIGMA, "halfnorm").pvalue > 1e-3
+
+
+@pytest.mark.parametrize("last", [1.5, -1.5])
+def test_an_eddys_velocity_is_of_three_deviates_or_of_a_length_and_a_direction(last):
+    """The fourth is the length, negative only where eddies go along ∇k as often as against it."""
+    xi, slope = (2.0, -1.0, 2.0, last), (0.0, 3.0, -4.0)
+    assert of_eddy(xi, NORMAL, slope) == xi[:3]
+    assert of_eddy(xi, OPENFOAM, slope) == pytest.approx(np.array(xi[:3]) * last * np.sign(last) / 3.0)
+    assert of_eddy(xi, DOWN, slope) == pytest.approx((0.0, -0.9, 1.2))
+    assert of_eddy(xi, DOWN_OR_UP, slope) == pytest.approx(np.sign(last) * np.array([0.0, -0.9, 1.2]))
 
 
 def test_tracers_disperse_as_taylor_says():

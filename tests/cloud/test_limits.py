@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 import threading
@@ -15,6 +16,7 @@ import pytest
 from device_cases import box_cloud, pipe_cloud
 
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
+from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import ROWS, Medium, accept_stage, at, load9, store9
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -198,13 +200,20 @@ class TestReasons:
     def test_each_has_words_and_only_steps_of_fixed_size_blame_the_step(self):
         assert set(REASONS) == set(Reason)
         for reason in Reason:
-            for integrator in INTEGRATORS:
-                text = explain(reason, Models(integrator=integrator), Limits())
+            for integrator, material in itertools.product(INTEGRATORS, MATERIALS):
+                if INTEGRATORS[integrator].refuses("roscoe", material, False):
+                    continue
+                text = explain(reason, Models(integrator=integrator, material=material), Limits())
                 assert ("Δt beyond stability" in text) == (
                     integrator == "paper"
                     and reason in (Reason.NOT_FINITE, Reason.VOLUME_RATIO, Reason.NOT_CONVERGED)
                 )
                 assert "Newton" not in text or reason == Reason.NOT_CONVERGED
+                assert ("too soft to keep its volume" in text) == (
+                    integrator != "paper"
+                    and material != "saintVenantKirchhoff"
+                    and reason == Reason.VOLUME_RATIO
+                )
 
     def test_a_solid_that_gives_way_is_no_fault_of_the_step(self):
         """Saint Venant-Kirchhoff's has no resistance left at a stretch of 1/√3."""

@@ -12,6 +12,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import concatenate, spheres
+from foamprb.cloud.surroundings import wall_lift
 from foamprb.cloud.surroundings.wall_lift import WallLift, nearest_walls
 from foamprb.cloud.tracker import Models
 from foamprb.compile.link import link
@@ -280,6 +281,24 @@ def test_distances_are_told_in_radii():
     near = nearest_walls(p, flow.arrays(1.0, [0]), flow, 10.0, np.array([1], dtype=np.int8))
     assert near.tolist() == pytest.approx([3.0, np.inf])
     assert WallLift().notes(p, flow.arrays(1.0, [0]), flow)[-1].split() == ["beyond", "cutOff", "1"]
+
+
+def test_the_nearest_of_all_walls_is_told(monkeypatch):
+    """Of a box, whose floor, lid and sides are walls: where each of the six is the nearest."""
+    grid = block(4, perturbation=0.0)
+    flow = still(build_mesh(grid, box_patches(grid)))
+    x = np.array([[a, 0.45, 0.6] for a in (0.03, 0.96)])
+    x = np.concatenate([np.roll(x, shift, axis=1) for shift in range(3)] + [[[0.5, 0.4, 0.6]]])
+    radius = 0.01
+    p = spheres(x, d=2.0 * radius, rho=1000.0, mu=1.0)
+    p.host[:] = flow.locate(x)
+    every, near = np.ones(len(flow.patches), dtype=np.int8), np.empty(len(x))
+    monkeypatch.setattr(wall_lift, "walls", flow.kernels["walls"])
+    wall_lift._nearest_walls(flow.arrays(0.0, (), 0.3, range(len(every))), p, 30.0, every, near)
+    expected = np.minimum(x, 1.0 - x).min(axis=1) / radius
+    expected[expected > 30.0] = np.inf
+    assert near == pytest.approx(expected, rel=1e-9)
+    assert expected[:6].max() < 5.0
 
 
 def test_walls_are_seen_from_a_mesh_as_from_a_half_space():

@@ -302,6 +302,26 @@ class TestGiven:
         np.testing.assert_array_equal(released.particles.x, x[[0, 2]])
         np.testing.assert_array_equal(released.given["d"], [1.0, 3.0])
 
+    @pytest.mark.parametrize(
+        ("outside", "told"),
+        [
+            (1, "(0.1 2 -1). "),
+            (3, "(0.1 2 -1), (0.1 3 -1), (0.1 4 -1). "),
+            (4, "(0.1 2 -1), (0.1 3 -1), (0.1 4 -1), .... "),
+        ],
+    )
+    def test_of_places_outside_three_are_told(self, outside, told):
+        x = [(0.1, 0.5, 0.0), *((0.1, 2.0 + k, -1.0) for k in range(outside))]
+
+        def read(path, columns):
+            return np.array(x), {}
+
+        with pytest.raises(InputError) as caught:
+            models.release(ManualInjection(Path("file")), analytic.pipe(1.0, 1.0), rng(), read)
+        assert str(caught.value).startswith(
+            f"file: {outside} of {outside + 1} positions lie outside the mesh: {told}Move them inside"
+        )
+
     def test_stiffness_in_each_of_its_forms(self):
         column = np.array([2.0, 4.0])
         assert given_shear_modulus({"d": column}, 0.25, 3.0, None) is None
@@ -332,6 +352,16 @@ def lid_flow():
 
 
 class TestPatch:
+    @pytest.mark.parametrize(("speed", "still"), [(0.0, True), (1.0, False), (1e-300, False)])
+    def test_no_fluid_may_enter_as_it_is_at_rest_or_leaves(self, lid_flow, speed, still):
+        u = np.tile([0.0, 0.0, speed], (len(lid_flow.mesh.nodes), 1))
+        flow = MeshFlow(lid_flow.mesh, u, np.zeros((len(u), 3, 3)))
+        with pytest.raises(
+            InputError, match=r"on lid: no fluid enters through this patch at SOI, 0\.5 s"
+        ) as caught:
+            release(PatchInjection("lid", 10.0, 1.0, SOI=0.5), flow, rng(), no_file)
+        assert ("it is at rest there" in str(caught.value)) == still
+
     def test_as_many_appear_per_area_as_fluid_enters_there(self, lid_flow):
         """Not as many on each face, nor as the speed at one point of it: within faces too."""
         p = release(PatchInjection("lid", 20_000.0, 1.0), lid_flow, rng(), no_file)

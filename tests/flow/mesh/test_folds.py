@@ -300,6 +300,43 @@ def test_a_thread_through_a_sound_mesh_ends_where_the_line_does(kind, random):
     assert seen == {-1, 0, 1, 2}
 
 
+@pytest.mark.parametrize("axis", range(3))
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_thread_along_an_axis_goes_as_far_as_the_mesh(axis, sign):
+    mesh = build_mesh(block(2, 0.0))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    x0 = np.array([0.31, 0.42, 0.23])
+    (host,) = flow.locate(x0[None])
+    room = 1.0 - x0[axis] if sign > 0.0 else x0[axis]
+    for length in (0.9 * room, 2.0 * room):
+        x1 = x0 + sign * length * np.eye(3)[axis]
+        found, fraction, patch, _ = folds.trace(flow.arrays(), int(host), tuple(x0), tuple(x1))
+        exact = min(1.0, room / length)
+        assert fraction == pytest.approx(exact, abs=1e-12)
+        assert (patch == -1) == (exact == 1.0)
+        assert folds._depth(flow.arrays(), found, tuple(x0 + exact * (x1 - x0))) > -1e-9
+
+
+def test_a_place_outside_is_nearest_to_a_cell_within_two_faces(random):
+    """Where no cell holds it: the cell itself, its neighbours, and their neighbours are asked."""
+    mesh = build_mesh(block(3, 0.0))
+    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+    arrays, steps = flow.arrays(), set()
+    cell_of = arrays.tets[:, 0] - arrays.n_points
+    index = np.floor(3.0 * mesh.centres)
+    for _ in range(30):
+        x = random.uniform(0.0, 1.0, 3)
+        x[random.integers(3)] = random.choice([-0.05, 1.05])
+        tet = int(random.integers(len(cell_of)))
+        # Steps over faces from one cell to another, in a row of cubes along each axis.
+        away = np.abs(index - index[cell_of[tet]]).sum(axis=1)[cell_of]
+        depth = np.array([folds._depth(arrays, t, tuple(x)) for t in range(len(cell_of))])
+        expected = depth[away <= 2.0].max()
+        assert depth[folds._nearby(arrays, tet, tuple(x))] == pytest.approx(expected, rel=1e-12)
+        steps.add(away[np.where(away <= 2.0, depth, -np.inf).argmax()])
+    assert steps >= {1.0, 2.0}
+
+
 def hard(kind):
     """The flow in the first mesh of a kind that is not refused."""
     for seed in range(20):

@@ -98,6 +98,13 @@ def test_faces_name_no_number_beyond_all_points(tmp_path):
                 require_labels(folder, noted)
         else:
             require_labels(folder, noted)
+    # Its line is counted from the first, be that empty.
+    for empty in (0, 1, 3):
+        changed = empty * "\n" + text.replace("\n4(", f"\n4({number} ", 1)
+        (folder / "faces").write_text(changed)
+        line = next(n for n, words in enumerate(changed.split("\n"), 1) if number in words)
+        with pytest.raises(InputError, match=f"faces: line {line}: {number} is neither"):
+            require_labels(folder, noted)
     binary = tmp_path / "binary"
     write_case(binary, form=Format(binary=True))
     require_labels(binary / "constant/polyMesh", {"nCells": 8})

@@ -1,0 +1,48 @@
+"""What a loop is made of by default, and what of it is compiled beforehand."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from pathlib import Path
+
+import numba
+import pytest
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.tracker import Models, Tracker
+from foamprb.flow.meshflow import MeshFlow
+
+
+def test_the_tolerance_is_the_one_that_the_manual_tells():
+    page = Path(__file__).parents[2] / "docs/settings.md"
+    told = re.search(
+        r"^\| `integrationSchemes/tolerance` \| 1 \| ([\d.e-]+) \|", page.read_text(), re.MULTILINE
+    )
+    assert Models().tolerance == float(told[1])
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator, monkeypatch):
+    """Numbers are double, and a lane is counted as the loop counts it: else it would be compiled again."""
+    found = {}
+
+    def note(function, arguments, *_):
+        names = inspect.signature(function).parameters
+        found[function.__name__] = {name: numba.typeof(arguments[name]) for name in names}
+
+    monkeypatch.setattr("foamprb.cloud.tracker.compile_part", note)
+    medium = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+    tracker = Tracker(
+        Models(integrator=integrator), MeshFlow.kernels, medium, [], 1e-3, 0.0, shaped=False, tense=False
+    )
+    tracker.compile_moves(MeshFlow.nothing())
+    assert list(found) == ["release", "reach_end"]
+    tracker.compile_stages()
+    assert len(found) > 5
+    expected = {"i": numba.int64, "goal": numba.types.UniTuple(numba.float64, 3)}
+    expected |= dict.fromkeys(("t_end", "h", "tolerance", "allowed"), numba.float64)
+    for types in found.values():
+        for name in types.keys() & expected:
+            assert types[name] == expected[name], name
