@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import COMPACT, Integrals, integrals, integrals_of_compact
 from foamprb.body.material import metric_at_rest
@@ -92,6 +93,8 @@ idle, load_rows, save_rows = layout(at)[1:4]
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
 _MOST_REPEATS = 10
 _MIN_J, _MAX_J = 0.125, 8.0
+_LINE = 8
+"""Numbers on a line of memory, and in the widest register."""
 
 
 class Medium(NamedTuple):
@@ -163,10 +166,17 @@ def new_scratch(
     a, b, c, d, e, f = np.empty((6, LANES), dtype=np.int64)
     nothing = np.zeros((2, 1), dtype=np.int64)
     return Scratch(
-        np.empty(rows * LANES), a, b, c, d, e, np.empty((9, 10)),
+        new_block(rows), a, b, c, d, e, np.empty((9, 10)),
         nothing[0] if stop is None else stop, f, nothing[1],
         np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
     )  # fmt: skip
+
+
+def new_block(rows: int) -> NDArray[np.float64]:
+    """Rows × LANES numbers, flat, of which no register full lies on two lines of memory."""
+    room = np.empty(rows * LANES + _LINE)
+    first = -room.ctypes.data // room.itemsize % _LINE
+    return room[first : first + rows * LANES]
 
 
 def load3(block: Any, row: int, i: int) -> Vector:

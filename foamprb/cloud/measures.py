@@ -41,6 +41,7 @@ from foamprb.cloud.block import (
     load3,
     load9,
     load_integrals,
+    new_block,
     new_integrals,
     resume_frames,
     store3,
@@ -386,7 +387,7 @@ def _prepare(
     p = particles.take(chosen)
     l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
     found = np.empty((12 + ALL_ROWS - ROWS, len(rows)))
-    block = np.empty(ALL_ROWS * LANES)
+    block = new_block(ALL_ROWS)
     link(find_out, separate=_STAGES)(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
     F, frame, l_f = tuple(p.F.T), tuple(found[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
