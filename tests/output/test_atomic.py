@@ -134,3 +134,13 @@ def test_a_folder_has_one_writer(tmp_path: Path) -> None:
         assert list(folder.iterdir()) == []
     with only_writer(folder):
         pass
+
+
+def test_a_file_system_that_takes_no_advice_is_written_to_all_the_same(tmp_path: Path, monkeypatch) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.EINVAL, "Invalid argument")
+
+    monkeypatch.setattr(os, "posix_fadvise", refuse)
+    with atomic_write(tmp_path / "table.csv") as temporary:
+        temporary.write_text("whole")
+    assert (tmp_path / "table.csv").read_text() == "whole"
