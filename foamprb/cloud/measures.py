@@ -8,6 +8,7 @@ at a time.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -387,10 +388,15 @@ def _prepare(
     l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
     found = np.empty((12 + ALL_ROWS - ROWS, len(rows)))
     block = np.empty(ALL_ROWS * LANES)
-    link(find_out, separate=_STAGES)(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
+    _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
     F, frame, l_f = tuple(p.F.T), tuple(found[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
     return Context(p, F, frame, (found[9], found[10], found[11]), l_f, found[12:], numbers, time, mu)
+
+
+@cache
+def _finder() -> Any:
+    return link(find_out, separate=_STAGES)
 
 
 def _rows(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
