@@ -50,6 +50,21 @@ def atomic_write(path: Path) -> Iterator[Path]:
         raise
 
 
+def forget(path: Path) -> None:
+    """Let the operating system give up its copy in memory of a file that is on disk.
+
+    Before the next file of a series is written, this is where its memory comes from: to take memory that was
+    not in use can cost several times what the copy does. Advice, which not all file systems take; a file that
+    is not there has no copy.
+    """
+    with suppress(OSError):
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.posix_fadvise(descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
+        finally:
+            os.close(descriptor)
+
+
 def remove_unfinished(folder: Path) -> None:
     """Remove the temporary files that killed processes left in a folder, if there is one."""
     for file in tuple(folder.iterdir()) if folder.is_dir() else ():
@@ -87,9 +102,5 @@ def _flush(path: Path, flags: int) -> None:
     descriptor = os.open(path, flags)
     try:
         os.fsync(descriptor)
-        # Nobody reads it soon: its memory is free for the next file, which costs less than memory never used.
-        # Advice, which not all file systems take.
-        with suppress(OSError):
-            os.posix_fadvise(descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
     finally:
         os.close(descriptor)
