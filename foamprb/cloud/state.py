@@ -137,7 +137,7 @@ class Particles(NamedTuple):
         arrays = self._asdict()
         for name in CHANGING if names is None else names:
             array, place = arrays[name], None if into is None else getattr(into, name)
-            if place is None or place.shape != array.shape:
+            if place is None or place is array or place.shape != array.shape:
                 arrays[name] = array.copy()
             else:
                 np.copyto(place, array)
