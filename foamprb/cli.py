@@ -20,6 +20,7 @@ from foamprb.run.estimates import declare as declare_numbers
 from foamprb.view.command import declare, declare_export, declare_report, export, report, view
 
 if TYPE_CHECKING:
+    from foamprb.compile.helper import Helper
     from foamprb.flow.read.source import Source
     from foamprb.parallel.ranks import Ranks
     from foamprb.settings.settings import StartFrom
@@ -121,6 +122,18 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
+    from foamprb.compile.helper import early_helper
+
+    alone = ranks is None and arguments.device == "cpu" and not arguments.dry_run
+    helper = early_helper("foamprb.run.precompile") if alone else None
+    try:
+        return _run_with(helper, arguments, ranks)
+    finally:
+        if helper is not None:
+            helper.stop()
+
+
+def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks | None) -> int:
     from foamprb.parallel.launch import choose_executor
     from foamprb.run.job import prepare
     from foamprb.run.log import describe, log_dry_run
@@ -136,6 +149,7 @@ def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         arguments.threads or executor.threads,
         _source(arguments),
         precompile=executor.precompiles and not arguments.dry_run,
+        helper=helper,
         tables=arguments.tables,
     )
     describe(job)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.executor import Executor, Threads, available_threads
+from foamprb.cloud.executor import Executor, Threads
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.limits import Bounds, Limits
 from foamprb.cloud.measures import shape_stokes_number
@@ -22,6 +22,7 @@ from foamprb.cloud.patches import REBOUND, STICK, Interaction
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Models, Tracker, check, never
+from foamprb.compile.helper import available_threads
 from foamprb.compile.link import link
 from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free

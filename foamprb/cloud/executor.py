@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -14,6 +13,7 @@ from foamprb.cloud.measures import gradients
 from foamprb.cloud.motion import longest_of
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Outcome, never
+from foamprb.compile.helper import available_threads
 from foamprb.compile.link import link
 
 if TYPE_CHECKING:
@@ -22,12 +22,7 @@ if TYPE_CHECKING:
     from foamprb.cloud.cloud import Cloud, Snapshot
     from foamprb.output.pvd import Series
 
-__all__ = ["Executor", "Threads", "available_threads", "longest_semi_axis"]
-
-
-def available_threads() -> int:
-    """Number of processors that this process may use."""
-    return len(os.sched_getaffinity(0))
+__all__ = ["Executor", "Threads", "longest_semi_axis"]
 
 
 AT_ONCE = 200_000_000

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
@@ -24,7 +24,7 @@ from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import Bounds
-from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, reach_end, release
+from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, reach_end
 from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
@@ -191,23 +191,21 @@ class Tracker:
 
     def compile_moves(self, flow: Any) -> None:
         """Compile what comes after the stages in each step, with what the flow's kernels read."""
-        self._compile((release, reach_end), {"flow": flow})
+        self._compile(reach_end, {"flow": flow})
 
-    def compile_stages(self) -> None:
-        """Compile the second half of the stages.
+    def compile_stages(self, first: int = 0) -> None:
+        """Compile stages from the last back to one of a number, or to one that is compiled already."""
+        for stage in reversed(self.integrator.stages[first:]):
+            if not self._compile(stage, {}):
+                break
 
-        With it, and with what reads a flow, there is about as much to compile as without it in the loop.
-        """
-        stages = self.integrator.stages
-        self._compile(stages[len(stages) // 2 :], {})
-
-    def _compile(self, functions: Iterable[Callable[..., Any]], arguments: dict[str, Any]) -> None:
+    def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> bool:
+        """Compile a part of the loop, with examples of those arguments that not every part has."""
         scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
-        for function in functions:
-            compile_part(function, arguments, self.bindings, self.separate)
+        return compile_part(function, arguments, self.bindings, self.separate)
 
     def advance(
         self,

@@ -81,7 +81,7 @@ def compile_part(
     arguments: Mapping[str, Any],
     bindings: Mapping[str, Any],
     separate: Collection[Callable[..., Any]],
-) -> None:
+) -> bool:
     """Compile a callee of an entry before that is compiled, here or by another process.
 
     Parameters
@@ -90,11 +90,18 @@ def compile_part(
         An example of each argument, by the names of the parameters; there may be others.
     bindings, separate
         As the entry will have them. Only separate callees are saved in the cache, for others to find.
+
+    Returns
+    -------
+    Whether it had not been compiled before.
     """
     role: Role = "separate" if function in separate else "inlined"
     part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
+    if is_compiled(part.dispatcher):
+        return False
     names = inspect.signature(function).parameters
     part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
+    return True
 
 
 def is_compiled(dispatcher: Any) -> bool:
@@ -225,6 +232,7 @@ def _processor() -> str:
 def _compile_for_cpu(function: Callable[..., Any], role: Role, key: str) -> Any:
     used = internals()
     dispatcher = numba.njit(**used.options[role], **_OPTIONS)(function)
+    used.prepare(dispatcher)
     if role != "inlined":
         _stores[id(dispatcher)] = used.use_cache(dispatcher, key, role)
     return dispatcher

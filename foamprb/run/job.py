@@ -18,7 +18,6 @@ from foamprb.body.imex import relaxation_time
 from foamprb.body.material import lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import available_threads
 from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
@@ -30,6 +29,7 @@ from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud, SeesRebounds, wants_rebounds
 from foamprb.compile.cache import cache_directory
+from foamprb.compile.helper import Helper, available_threads
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
@@ -110,6 +110,7 @@ def prepare(
     threads: int | None = None,
     source: Source | None = None,
     precompile: bool = False,
+    helper: Helper | None = None,
     tables: str = "csv",
 ) -> Job:
     """Read a case and place its particles.
@@ -129,6 +130,8 @@ def prepare(
         The mesh file or region to read, and the names of its fields, if they are not the usual ones.
     precompile
         Whether to compile the loop in another process meanwhile, if it has never been compiled.
+    helper
+        That process, if it has been started already.
     tables
         ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
 
@@ -148,7 +151,7 @@ def prepare(
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative)
     rotating = bool(rotations_of(case, source))
-    precompiler = _precompile(settings, rotating) if precompile else None
+    precompiler = _precompile(settings, rotating, helper) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
@@ -164,7 +167,7 @@ def prepare(
         raise
 
 
-def _precompile(settings: Settings, rotating: bool) -> Precompiler:
+def _precompile(settings: Settings, rotating: bool, helper: Helper | None) -> Precompiler:
     """Begin to compile the loop that the settings will want, as far as they tell."""
     scheme = settings.solution.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
@@ -177,10 +180,10 @@ def _precompile(settings: Settings, rotating: bool) -> Precompiler:
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     tracker = Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense)
-    precompiler = Precompiler(tracker, flow)
+    precompiler = Precompiler(tracker, flow, helper)
     if precompiler:
         log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
-        tracker.compile_stages()
+        precompiler.help()
     return precompiler
 
 

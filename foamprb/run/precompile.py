@@ -1,25 +1,28 @@
 """Compilation before the code is wanted: of one run, and of all that most runs need.
 
 Where the particle loop has never been compiled and there is a processor to spare, another process compiles it
-while the first compiles some of its stages and reads the flow. Each finds in the cache what the other has
-made; if the other process fails, or made what is not wanted, the first compiles.
+while the first compiles some of its stages, reads the flow, and then compiles what the other has not come to.
+Each finds in the cache what the other has made; if the other process fails, or made what is not wanted, the
+first compiles.
 """
 
 from __future__ import annotations
 
-import atexit
+import gc
 import logging
+import os
 import pickle
-import subprocess
 import sys
-from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from foamprb.cloud.executor import available_threads
+import numpy as np
+
 from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.measures import Gradients, context, measure
 from foamprb.cloud.state import empty, spheres
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.compile.cache import cache_directory
+from foamprb.compile.helper import Helper, available_threads
 
 if TYPE_CHECKING:
     # The process that compiles should soon begin to.
@@ -32,7 +35,7 @@ log = logging.getLogger("foamprb")
 
 
 class Precompiler:
-    """Another process that compiles a loop.
+    """Another process that compiles a loop, and what this one does meanwhile.
 
     Parameters
     ----------
@@ -40,38 +43,46 @@ class Precompiler:
         What is to be compiled, as far as it can be known before the flow is.
     flow
         Which kind of flow it will be.
+    helper
+        The process, if it has been started already.
     """
 
-    def __init__(self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow]) -> None:
-        self._process: subprocess.Popen[bytes] | None = None
+    def __init__(
+        self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow], helper: Helper | None = None
+    ) -> None:
+        self._tracker, self._helper = tracker, helper
         if tracker.compiled or available_threads() == 1:
+            self.stop()
+            self._helper = None
             return
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "foamprb.run.precompile"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        atexit.register(self.stop)
-        assert self._process.stdin is not None
-        # It may have ended already, if it cannot import what it needs.
-        with suppress(BrokenPipeError), self._process.stdin as pipe:
-            pickle.dump((tracker, flow), pipe)
+        self._helper = self._helper or Helper(__name__)
+        self._helper.tell((tracker, flow))
 
     def __bool__(self) -> bool:
         """Whether there is such a process."""
-        return self._process is not None
+        return self._helper is not None
+
+    def help(self) -> None:
+        """Compile the second half of the stages in this process, and what measures particles.
+
+        With it, and with what reads a flow, there is about as much to compile as without it in the loop.
+        """
+        if self._helper is not None:
+            self._tracker.compile_stages(len(self._tracker.integrator.stages) // 2)
+            context(empty(0), Gradients(np.empty((0, 9))), 1.0, 0.0)
 
     def wait(self) -> None:
-        """Wait until the process has ended."""
-        if self._process is not None:
-            self._process.wait()
+        """Wait until the process has ended; compile what it has not come to meanwhile."""
+        if self._helper is None:
+            return
+        if not self._helper.ended:
+            self._tracker.compile_stages()
+        self._helper.wait()
 
     def stop(self) -> None:
         """End the process; what it has made so far stays in the cache."""
-        if self._process is not None:
-            self._process.kill()
-            self._process.wait()
+        if self._helper is not None:
+            self._helper.stop()
 
 
 def compile_all() -> None:
@@ -79,12 +90,10 @@ def compile_all() -> None:
 
     Steady and transient flows have loops of their own, and so has each integrator.
     """
-    import numpy as np
     import pyvista
 
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud
-    from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Stick
     from foamprb.flow.mesh.mesh import build_mesh
     from foamprb.flow.meshflow import MeshFlow
@@ -111,10 +120,12 @@ def compile_all() -> None:
 
 def main() -> None:
     """Compile what stands on the standard input."""
+    # It lives for some seconds: to look for garbage, also at the end, would only keep the other waiting.
+    gc.disable()
     tracker, flow = pickle.load(sys.stdin.buffer)
     tracker.compile_moves(flow.nothing())
-    # With no particles nothing is done but to compile.
-    tracker.advance(flow.nothing(), empty(0), 0, 0, 1)
+    tracker.compile(flow.nothing())
+    os._exit(0)
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from foamprb.cloud.executor import available_threads
 from foamprb.cloud.tracker import Models
+from foamprb.compile.helper import available_threads
 from foamprb.flow import analytic
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from foamprb.validation.references import soft

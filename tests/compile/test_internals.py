@@ -96,14 +96,14 @@ def test_another_numba_is_used_as_far_as_it_goes(kind, tmp_path):
 CHANGED = """
 numba.__version__ = '0.99.0'
 
-def finalize(library, again=JITCodeLibrary.finalize):
+def finalize(library, again=JITCodeLibrary.finalize, optimize=JITCodeLibrary._optimize_final_module):
     # Called with what it was not called with before.
-    own, called = type(library)._finalize_final_module, []
-    if own is not JITCodeLibrary._finalize_final_module:
-        own(library, 1)
+    JITCodeLibrary._optimize_final_module = optimize
     again(library)
+    JITCodeLibrary._optimize_final_module = lambda library, level: optimize(library)
 
 JITCodeLibrary.finalize = finalize
+JITCodeLibrary._optimize_final_module = None
 
 import os
 from numba.core.typing.context import Context

@@ -60,6 +60,17 @@ def sum_of_two(values):
     return element(values, FIRST) + element(values, SECOND)
 
 
+def pair_sum(values, rows):
+    return element(values, rows[0]) + element(values, rows[1])
+
+
+def sum_of_all(values, rows):
+    total = element(values, 0) + pair_sum(values, (rows[0], rows[1]))
+    for i in range(len(rows)):
+        total += element(values, i) + element(values, rows[i])
+    return total
+
+
 def doubled(x):
     return x + x
 
@@ -197,6 +208,18 @@ def test_code_changes_with_the_fields_of_what_it_makes(cache, monkeypatch):
     monkeypatch.setitem(globals(), "Pair", Riap)
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(first_and_second)(1.0) == 1.0
+
+
+@pytest.mark.parametrize("without", ["0", "integers", "arithmetic"])
+def test_whole_numbers_of_any_kind_find_one_function(cache, monkeypatch, without):
+    """A constant, a counter and an element of 32 bits; each would have a function of its own."""
+    monkeypatch.setenv(SWITCH, without)
+    values, rows = np.array([1.0, 10.0, 100.0]), np.array([2, 0, -1], dtype=np.int32)
+    assert link(sum_of_all)(values, rows) == 1.0 + 101.0 + 111.0 + 201.0
+    made = {p.dispatcher.py_func.__code__: p.dispatcher.signatures for p in compiling._parts.values()}
+    number = len(made[element.__code__])
+    assert number > 1 if without == "integers" else number == 1
+    assert len(made[pair_sum.__code__]) == 1
 
 
 def test_separate_functions_stay_functions(cache):

@@ -11,9 +11,10 @@ import pytest
 from device_cases import pipe_cloud
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import Threads, available_threads
+from foamprb.cloud.executor import Threads
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import never
+from foamprb.compile.helper import available_threads
 from foamprb.errors import InputError, RunStopped
 from foamprb.output.pvd import Series, read_pvd
 from foamprb.parallel import launch
