@@ -271,7 +271,8 @@ class Cloud:
         before
             An earlier copy that nobody needs any more, whose memory is used again.
         """
-        particles = self.particles.copy_changing(None if before is None else before.particles)
+        into = None if before is None else before.particles
+        particles = self.particles.copy_changing(into, self.tracker.changing)
         return Snapshot(particles, self.flow, self.time, self.step, self.recovered, self.reach)
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:

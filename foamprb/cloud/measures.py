@@ -8,6 +8,7 @@ at a time.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -370,7 +371,7 @@ def gradients(particles: Particles, flow: Sampled, time: float) -> Gradients:
     l_f = np.full((particles.size, 9), np.nan)
     rows = injected(particles)
     for start in range(0, len(rows), PER_CONTEXT):
-        chosen = _rows(rows[start : start + PER_CONTEXT])
+        chosen = as_slice(rows[start : start + PER_CONTEXT])
         l_f[chosen] = _sampled(particles.x[chosen], particles.host[chosen], flow, time)
     return Gradients(l_f)
 
@@ -383,21 +384,27 @@ def _prepare(
     time: float,
     ids: NDArray[np.int64] | None,
 ) -> Context:
-    chosen = _rows(rows)
+    chosen = as_slice(rows)
     p = particles.take(chosen)
     l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
     found = np.empty((12 + ALL_ROWS - ROWS, len(rows)))
     block = new_block(ALL_ROWS)
-    link(find_out, separate=_STAGES)(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
+    _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
     F, frame, l_f = tuple(p.F.T), tuple(found[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
     return Context(p, F, frame, (found[9], found[10], found[11]), l_f, found[12:], numbers, time, mu)
 
 
-def _rows(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
+@cache
+def _finder() -> Any:
+    return link(find_out, separate=_STAGES)
+
+
+def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
     """The same rows as a slice, which copies nothing, if they follow each other."""
     n = len(rows)
-    return slice(rows[0], rows[-1] + 1) if n and rows[-1] - rows[0] == n - 1 else rows
+    follow = n > 0 and rows[-1] - rows[0] == n - 1 and bool((np.diff(rows) == 1).all())
+    return slice(rows[0], rows[-1] + 1) if follow else rows
 
 
 def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> Floats:

@@ -5,7 +5,7 @@ What is saved, restarted and written is read off this declaration (:data:`VARIAB
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
@@ -118,25 +118,26 @@ class Particles(NamedTuple):
 
     def counts(self) -> dict[Status, int]:
         """Number of particles of each status; the numbers sum to :attr:`size`."""
-        found = np.bincount(self.status, minlength=len(Status))
-        return {status: int(found[status]) for status in Status}
+        return {status: int(np.count_nonzero(self.status == status)) for status in Status}
 
     def take(self, rows: Array | slice) -> Particles:
         """The particles of the given rows: copied, or of a slice as they are."""
         return Particles(*(array[rows] for array in self))
 
-    def copy_changing(self, into: Particles | None = None) -> Particles:
+    def copy_changing(self, into: Particles | None = None, names: Collection[str] | None = None) -> Particles:
         """The same state, with copies of the arrays that change.
 
         Parameters
         ----------
         into
             An earlier copy of as many particles, whose memory is used again.
+        names
+            Which these are; by default all that may.
         """
         arrays = self._asdict()
-        for name in CHANGING:
+        for name in CHANGING if names is None else names:
             array, place = arrays[name], None if into is None else getattr(into, name)
-            if place is None or place.shape != array.shape:
+            if place is None or place is array or place.shape != array.shape:
                 arrays[name] = array.copy()
             else:
                 np.copyto(place, array)

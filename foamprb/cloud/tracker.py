@@ -22,10 +22,10 @@ from foamprb.cloud.block import Medium, new_scratch
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.layout import LANES
+from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import Bounds
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, reach_end
-from foamprb.cloud.patches import Interaction, Rebound
+from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import total as surroundings
@@ -168,6 +168,14 @@ class Tracker:
         return Tracker, self._made_of
 
     @property
+    def changing(self) -> frozenset[str]:
+        """Names of the arrays of particles that the loop may change with these models and patches."""
+        rows = [row for part in self.layout.parts for row in rows_of(type(part)).values()]
+        saved = {row.of for row in rows if row.saved} | {"status", "reason", "patch", "host"}
+        # Only a mirror changes a shape at rest.
+        return frozenset(saved if MIRROR in self.table.code else saved - {"F0"})
+
+    @property
     def compiled(self) -> bool:
         """Whether the loop is compiled already."""
         return is_compiled(self._track)
@@ -247,26 +255,23 @@ class Tracker:
         stop: Callable[[], bool],
     ) -> Outcome:
         """Carry the particles of some rows from a step through so many steps."""
-        rows = in_blocks(p, rows)
         halt = np.zeros(1, dtype=np.int64)
 
-        def work(first: int) -> Outcome:
+        def work(share: Share) -> Outcome:
             scratch = new_scratch(self.layout.rows, halt, bounds, self._room)
             mended: int = self._track(
-                flow, self.table, self.medium, p, rows, first, shares,
-                *steps, self.dt, self.start, scratch, self.options,
-            )  # fmt: skip
+                flow, self.table, self.medium, p, *share, self.dt, self.start, scratch, self.options
+            )
             if scratch.noted[1]:
                 self._rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
             return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 
-        blocks = -(-len(rows) // LANES)
         # A thread that is held up leaves the shares that it has not begun to others.
-        shares = max(1, min(_SHARES * threads if threads > 1 else 1, blocks))
+        shares = shares_of(p, rows, steps, (self.dt, self.start), _SHARES * threads if threads > 1 else 1)
         # Also one share goes to another thread: this one answers signals meanwhile.
         with ThreadPoolExecutor(threads) as pool:
-            under_way = [pool.submit(work, share) for share in range(shares)]
+            under_way = [pool.submit(work, share) for share in shares]
             try:
                 while wait(under_way, _PATIENCE).not_done:
                     if stop():
@@ -285,6 +290,58 @@ class Tracker:
         return in_order(found)
 
 
+class Share(NamedTuple):
+    """Particles that a thread carries, as :func:`foamprb.cloud.advance.track_share` wants them."""
+
+    rows: NDArray[np.int64]
+    first: int
+    stride: int
+    step: int
+    steps: int
+
+
+def shares_of(
+    p: Particles, rows: NDArray[np.int64], steps: tuple[int, int], times: tuple[float, float], number: int
+) -> list[Share]:
+    """Share out the particles of some rows: first those that are active, then those that will be.
+
+    A block goes through all steps of its share, whether its particles are there yet or not. So the pending
+    share blocks with those that appear when they do, from that step on; and those that do not appear before
+    the end are in none.
+
+    Parameters
+    ----------
+    p, rows
+        Particles, and which of them: active or pending.
+    steps
+        The first step, and their number.
+    times
+        Length of a step, and the time at step 0, s.
+    number
+        Shares of the active, if they have as many blocks.
+    """
+    (step, count), (dt, start) = steps, times
+    pending = p.status[rows] == Status.PENDING
+    active, waiting = rows[~pending], rows[pending]
+    blocks = -(-len(active) // LANES)
+    strides = max(1, min(number, blocks))
+    active = in_blocks(p, active)
+    found = [Share(active, first, strides, step, count) for first in range(strides) if blocks]
+
+    # One step early, as the loop has these times to other last bits.
+    due = np.maximum(np.floor((p.t0[waiting] - start) / dt) - 1.0, step)
+    coming = due < step + count
+    waiting, due = waiting[coming], due[coming]
+    order = np.argsort(due, kind="stable")
+    blocks = -(-len(waiting) // LANES)
+    most = -(-blocks // _GROUPS) * LANES
+    for begin in range(0, len(waiting), max(most, 1)):
+        group = order[begin : begin + most]
+        first = int(due[group[0]])
+        found.append(Share(in_blocks(p, waiting[group]), 0, 1, first, step + count - first))
+    return found
+
+
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """The order in which particles are put into blocks, of those in some rows.
 
@@ -293,17 +350,22 @@ def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     mesh, so that the nodes they read are in the cache.
     """
     effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
-    key = (p.status[rows].astype(np.int64) << 48) + (effort.astype(np.int64) << 33) + p.host[rows]
     # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
-    elongated = np.einsum("ni,ni->n", p.F, p.F) > COMPACT + 1.0 + 1.0 / COMPACT
-    key += elongated[rows].astype(np.int64) << 32
-    return rows[np.argsort(key, kind="stable")]
+    many = 2 * len(rows) > p.size
+    F = p.F if many else p.F[rows]
+    elongated = np.einsum("ni,ni->n", F, F) > COMPACT + 1.0 + 1.0 / COMPACT
+    elongated = elongated[rows] if many else elongated
+    key = (effort.astype(np.int64) << 33) + (elongated.astype(np.int64) << 32) + p.host[rows]
+    # Which of equals comes first does not matter, and a stable order costs four times as much.
+    return rows[np.argsort(key)]
 
 
 _PATIENCE = 0.1
 """Seconds after which it is asked whether to stop."""
 _SHARES = 8
-"""Of the particles, for each of several threads."""
+"""Of the active particles, for each of several threads."""
+_GROUPS = 64
+"""Shares of the pending particles that appear during the steps: half of one share's steps are idle."""
 _ROOM, _MORE_ROOM = 1000, 4
 """Rebounds of a share in a call; by what it grows where there are more."""
 

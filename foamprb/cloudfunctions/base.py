@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, contexts
+from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts
 from foamprb.cloud.state import Particles, Status
 from foamprb.dictionary.constraints import Meaning
 from foamprb.dictionary.schema import Schema
@@ -67,7 +67,7 @@ class ObservedCloud:
         As :func:`foamprb.cloud.measures.contexts`, a few at a time.
         """
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
-            yield from self._contexts_of(self.particles.take(rows[start : start + PER_CONTEXT]))
+            yield from self._contexts_of(self.particles.take(as_slice(rows[start : start + PER_CONTEXT])))
 
     def collect(self, rows: Rows, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
         """Return values of particles, whatever their status."""

@@ -137,7 +137,7 @@ def _machine_code() -> _Changes:
     Gains also a sixth of a step: what is called is handed no arguments that it does not use, and uses the
     widest registers that there are.
     """
-    from llvmlite.binding.newpassmanagers import create_new_module_pass_manager
+    from llvmlite.binding import create_new_module_pass_manager
     from numba import _dynfunc
     from numba.core.codegen import JITCodeLibrary
     from numba.core.compiler import CompileResult
@@ -294,7 +294,7 @@ def _machine_code() -> _Changes:
 
 
 _WIDE = '"prefer-vector-width"="512"'
-"""Of a processor that has registers of 512 bits LLVM uses those of 256, in which stages take a tenth longer."""
+"""On a processor that has registers of 512 bits LLVM uses those of 256: stages take a tenth longer."""
 
 
 def _let_be_linked(module: Any) -> None:

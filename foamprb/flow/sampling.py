@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -22,17 +23,25 @@ def sample_with(
 ) -> tuple[Floats, Floats]:
     """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
     points = np.ascontiguousarray(points, dtype=np.float64)
-    values = np.empty((len(points), 12))
-    sampler = link(_sample_all, {"sample": kernel})
-    sampler(arrays, points, np.ascontiguousarray(hosts, dtype=np.int32), t, values)
-    return values[:, :3].copy(), values[:, 3:].reshape(-1, 3, 3).copy()
+    velocities, gradients = np.empty((len(points), 3)), np.empty((len(points), 9))
+    hosts = np.ascontiguousarray(hosts, dtype=np.int32)
+    _sampler(kernel)(arrays, points, hosts, t, velocities, gradients)
+    return velocities, gradients.reshape(-1, 3, 3)
 
 
-def _sample_all(flow: Any, points: Floats, hosts: Ints, t: float, values: Floats) -> None:
-    """Put u and ∇u at the points (n, 3) in their hosts (n,) at time t into the rows of ``values`` (n, 12)."""
+# A cloud is sampled some thousands of particles at a time, and linking costs as much as to sample those.
+@lru_cache(maxsize=16)
+def _sampler(kernel: Callable[..., Any]) -> Any:
+    return link(_sample_all, {"sample": kernel})
+
+
+def _sample_all(
+    flow: Any, points: Floats, hosts: Ints, t: float, velocities: Floats, gradients: Floats
+) -> None:
+    """Put u (n, 3) and ∇u (n, 9) at the points (n, 3) in their hosts (n,) at time t into their arrays."""
     for i in range(points.shape[0]):
         u, l, _ = sample(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
         for k in range(3):
-            values[i, k] = u[k]
+            velocities[i, k] = u[k]
         for k in range(9):
-            values[i, 3 + k] = l[k]
+            gradients[i, k] = l[k]

@@ -7,7 +7,7 @@ import os
 import re
 import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from foamprb.errors import InputError
@@ -48,6 +48,21 @@ def atomic_write(path: Path) -> Iterator[Path]:
             # A write does not know its file, and the temporary one means nothing to the user.
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
+
+
+def forget(path: Path) -> None:
+    """Let the operating system give up its copy in memory of a file that is on disk.
+
+    Before the next file of a series is written, this is where its memory comes from: to take memory that was
+    not in use can cost several times what the copy does. Advice, which not all file systems take; a file that
+    is not there has no copy.
+    """
+    with suppress(OSError):
+        descriptor = os.open(path, os.O_RDONLY)
+        try:
+            os.posix_fadvise(descriptor, 0, 0, os.POSIX_FADV_DONTNEED)
+        finally:
+            os.close(descriptor)
 
 
 def remove_unfinished(folder: Path) -> None:

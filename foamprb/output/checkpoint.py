@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, remove_unfinished
+from foamprb.output.atomic import atomic_write, forget, remove_unfinished
 
 log = logging.getLogger("foamprb")
 
@@ -84,6 +84,8 @@ class Checkpoints:
             If the file cannot be written.
         """
         path = self.file(checkpoint.time)
+        for file in self.files().values():
+            forget(file)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
             file.unlink(missing_ok=True)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write
+from foamprb.output.atomic import atomic_write, forget
 from foamprb.output.vtk import Parts, PointCloud, write_snapshot
 
 
@@ -68,6 +68,8 @@ class Series:
             If a file cannot be written.
         """
         file = with_ending(self.next(cloud.time), ".vtp")
+        if self.entries:
+            forget(self.folder / self.entries[-1].file)
         write_snapshot(file, cloud)
         self.add(cloud.time, file)
         return file

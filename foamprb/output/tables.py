@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import importlib
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import groupby
 from math import isfinite
@@ -45,7 +45,9 @@ def find_table(folder: Path, name: str) -> Path | None:
     return next((file for file in files if file.exists()), None)
 
 
-def write_table(path: Path, columns: Mapping[str, Column]) -> None:
+def write_table(
+    path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
+) -> None:
     """Write a table, in one step; the ending of the file says of which kind.
 
     As text it has one line of column names. A floating-point number is written with the fewest digits that
@@ -58,6 +60,8 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
         The file, ``.csv`` or ``.parquet``.
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
+    before
+        Called once all is written, before the file takes its name; whatever it raises leaves no file.
 
     Raises
     ------
@@ -73,12 +77,14 @@ def write_table(path: Path, columns: Mapping[str, Column]) -> None:
     if len(set(lengths.values())) > 1:
         raise ValueError(f"Columns of a table differ in length: {lengths}.")
     if path.suffix == ".parquet":
-        _write_parquet(path, arrays)
+        _write_parquet(path, arrays, before)
         return
-    with atomic_write(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        file.write(",".join(map(_cell, arrays)) + "\n")
-        for rows in _chunks(list(arrays.values())):
-            file.write("\n".join(map(",".join, rows)) + "\n")
+    with atomic_write(path) as temporary:
+        with temporary.open("w", encoding="utf-8", newline="") as file:
+            file.write(",".join(map(_cell, arrays)) + "\n")
+            for lines in _chunks(list(arrays.values())):
+                file.write(lines)
+        before()
 
 
 def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
@@ -121,7 +127,7 @@ def _parquet(what: str) -> Any:
         raise InputError(f"{what} needs pyarrow: pip install 'foamprb[parquet]'.") from error
 
 
-def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[], object]) -> None:
     """Numbers keep their types. The bytes depend on nothing but the columns and the version of pyarrow."""
     parquet = _parquet(str(path))
     arrow = importlib.import_module("pyarrow")
@@ -130,10 +136,13 @@ def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
     # The bytes of doubles of like size are alike one by one, not all together.
     split = [name for name, kind in kinds.items() if kind == "f"]
     words = [name for name, kind in kinds.items() if kind == "O"]
-    with atomic_write(path) as temporary, temporary.open("wb") as file:
-        parquet.write_table(
-            arrow.table(columns), file, compression="zstd", use_dictionary=words, use_byte_stream_split=split
-        )
+    with atomic_write(path) as temporary:
+        with temporary.open("wb") as file:
+            parquet.write_table(
+                arrow.table(columns), file, compression="zstd", use_dictionary=words,
+                use_byte_stream_split=split,
+            )  # fmt: skip
+        before()
 
 
 def _plain(array: NDArray[Any]) -> NDArray[Any]:
@@ -180,12 +189,18 @@ def _as_column(name: str, column: Column) -> NDArray[Any]:
     return array
 
 
-def _chunks(columns: list[NDArray[Any]]) -> Iterator[Iterable[tuple[str, ...]]]:
+def _chunks(columns: list[NDArray[Any]]) -> Iterator[str]:
+    """The lines of a table, some thousands at a time."""
     n = len(columns[0]) if columns else 0
     runs = [list(run) for _, run in groupby(columns, _kind)]
     for start in range(0, n, _CHUNK):
         rows = slice(start, start + _CHUNK)
-        yield zip(*(_texts([column[rows] for column in run]) for run in runs), strict=True)
+        # Cells and what is between them in one list, which costs a third of joining row by row.
+        pieces = [","] * (2 * len(runs) * len(columns[0][rows]))
+        for i, run in enumerate(runs):
+            pieces[2 * i :: 2 * len(runs)] = _texts([column[rows] for column in run])
+        pieces[2 * len(runs) - 1 :: 2 * len(runs)] = ["\n"] * len(columns[0][rows])
+        yield "".join(pieces)
 
 
 def _kind(column: NDArray[Any]) -> np.dtype[Any] | int:
@@ -193,11 +208,15 @@ def _kind(column: NDArray[Any]) -> np.dtype[Any] | int:
     return _WIDE.get(column.dtype.kind, id(column))
 
 
-def _texts(columns: list[NDArray[Any]]) -> Iterable[str]:
+def _texts(columns: list[NDArray[Any]]) -> list[str]:
     """The rows of columns of a kind as text."""
     kind = _kind(columns[0])
     if isinstance(kind, int):
-        return map(_cell, columns[0].tolist())
+        values = columns[0].tolist()
+        if set(map(type, values)) != {str}:
+            return list(map(_cell, values))
+        cells = {text: _quoted(text) for text in set(values)}
+        return [cells[text] for text in values]
     # JSON's numbers are those of tables, and orjson writes them thirty times as fast as Python does.
     numbers = np.stack(columns, axis=1).astype(kind, order="C", copy=False)
     texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")

@@ -226,7 +226,9 @@ def _sums(array: ArrayLike) -> Sums:
     random = np.random.default_rng(0)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
-        chunk = np.nan_to_num(columns[start : start + _CHUNK], posinf=0.0, neginf=0.0)
+        chunk = columns[start : start + _CHUNK]
+        if not np.isfinite(chunk).all():
+            chunk = np.nan_to_num(chunk, posinf=0.0, neginf=0.0)
         total += np.abs(chunk).sum(axis=0), random.random(len(chunk)) @ chunk
     return [[float(columns.size)], *(total / max(len(columns), 1)).tolist()]
 

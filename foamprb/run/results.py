@@ -66,7 +66,7 @@ def open_results(job: Job) -> Iterator[Results]:
 class Results:
     """All that a run writes, and what it goes on from: :meth:`begin` first, then the other methods.
 
-    A file is in the manifest before it is written; that of a cloud function is so from the second time on.
+    A file is in the manifest before it has its name; that of a cloud function is so from the second time on.
 
     Parameters
     ----------
@@ -186,15 +186,22 @@ class Results:
     def end(self) -> None:
         """Write ``fates``, a row per particle, and ``failed`` if any failed.
 
+        ``fates`` says that the run is done: it takes its name after the last snapshot and checkpoint, beside
+        which it is written.
+
         Raises
         ------
         OSError
             If a file cannot be written, now or the last time.
         """
-        self._gathered()
+        self._job.cloud.gather()
         failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
-        self._manifest.expect([self._fates, self._failures] if len(failed) else [self._fates])
-        _write_fates(self._fates, self._job)
+
+        def list_them() -> None:
+            self._writer.finish()
+            self._manifest.expect([self._fates, self._failures] if len(failed) else [self._fates])
+
+        _write_fates(self._fates, self._job, list_them)
         if len(failed):
             _write_failures(self._failures, self._job, failed)
 
@@ -327,7 +334,7 @@ def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
     return found
 
 
-def _write_fates(path: Path, job: Job) -> None:
+def _write_fates(path: Path, job: Job, before: Callable[[], object]) -> None:
     p = job.cloud.particles
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last is that of −1.
@@ -342,6 +349,7 @@ def _write_fates(path: Path, job: Job) -> None:
             "fate": fates[p.status], "patch": patches[p.patch],
             "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
         },
+        before,
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from foamprb.body.ellipsoid import COMPACT, integrals
 from foamprb.cloud.block import ROWS, at, idle_lanes, load_integrals, new_integrals, new_scratch, store3
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Status, spheres
-from foamprb.cloud.tracker import in_blocks
+from foamprb.cloud.tracker import in_blocks, shares_of
 from foamprb.compile.link import link
 
 LONG, ROUND = (2.5, 1.0, 0.4), (1.3, 1.0, 1.0 / 1.3)
@@ -48,3 +48,26 @@ def test_those_that_cost_alike_share_blocks():
     assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 5
     flat, hosts = kinds.ravel(), p.host[order]
     assert (np.diff(hosts)[flat[1:] == flat[:-1]] >= 0).all()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_pending_particles_cost_nothing_before_they_appear(threads):
+    """In no share that ends before, and else in one whose first step is that, or little earlier."""
+    random, n, dt, start, step, steps = np.random.default_rng(5), 5000 * LANES + 3, 0.1, 2.0, 30, 100
+    p = spheres(np.zeros((n, 3)), d=1e-6, rho=1.0, mu=1.0)
+    p.status[:] = random.choice([Status.PENDING, Status.ACTIVE], n, p=[0.7, 0.3])
+    p.t0[:] = start + random.uniform(0.0, 20.0, n)
+    rows = np.flatnonzero(random.random(n) < 0.9)
+    pending = p.status == Status.PENDING
+    shares = shares_of(p, rows, (step, steps), (dt, start), threads)
+    assert all(share.step + share.steps == step + steps for share in shares)
+    carried = np.concatenate([share.rows for share in shares if share.first == 0])
+    assert len(np.unique(carried)) == len(carried)
+    assert np.isin(carried, rows).all()
+    appears = np.where(pending, (p.t0 - start) / dt, -np.inf)
+    assert np.isin(rows[appears[rows] < step + steps], carried).all()
+    assert appears[carried].max() < step + steps + 2
+    begun = np.concatenate([s.step - np.maximum(appears[s.rows], step) for s in shares if s.first == 0])
+    assert begun.max() <= 0.0
+    waited = np.concatenate([appears[s.rows] - s.step for s in shares if s.first == 0])
+    assert waited.max() < 3.0 + 2.0 * steps / 64

@@ -8,6 +8,7 @@ from mesh_shapes import block, box_patches, cyclic_row, interfaces, period, ring
 
 from foamprb import Cloud, Medium, Models, Rebound, Status, analytic, spheres
 from foamprb.cloud.patches import Cyclic, Mirror
+from foamprb.cloud.state import Particles
 from foamprb.compile.link import link
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -136,6 +137,26 @@ def test_beyond_a_symmetry_plane_the_mirror_image_goes_on():
     for name in ("F", "A"):
         ours, theirs = (getattr(c, name).reshape(3, 3) for c in (p, q))
         assert ours == pytest.approx(mirror @ theirs @ mirror, abs=1e-9)
+
+
+def test_a_snapshot_has_a_copy_of_shapes_at_rest_if_a_mirror_changes_them():
+    """Else the cloud's own serve."""
+    shape, copied = block(4, 0.2), []
+    l = np.diag([-0.1, -0.1, 0.2])
+    for kind in ("symmetryPlane", "wall"):
+        patches = [p._replace(type=kind) if p.name == "floor" else p for p in box_patches(shape)]
+        flow = linear(build_mesh(shape, patches), l)
+        p = moving(np.array([[0.5, 0.5, 0.1]]), np.array([[0.1, 0.02, -1.0]]))
+        cloud = tracked(p, flow, actions(flow), 1)
+        snapshot, before = cloud.snapshot(), Particles(*(array.copy() for array in cloud.particles))
+        cloud.advance(300)
+        now = cloud.particles
+        changed = {name for name in Particles._fields if (getattr(now, name) != getattr(before, name)).any()}
+        assert {"x", "F"} < changed <= cloud.tracker.changing
+        copied.append("F0" in changed)
+        for name, kept, then in zip(Particles._fields, snapshot.particles, before, strict=True):
+            np.testing.assert_array_equal(kept, then, err_msg=name)
+    assert copied == [True, False]
 
 
 def test_a_wedge_is_left_on_one_side_and_entered_on_the_other():

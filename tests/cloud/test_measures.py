@@ -173,6 +173,8 @@ def test_a_copy_of_what_changes_stays_as_it_was(flow):
     assert not np.array_equal(snapshot.particles.F, cloud.particles.F)
     # What stays as it is needs no memory twice, and the next copy none of its own.
     assert snapshot.particles.x0 is cloud.particles.x0
+    assert snapshot.particles.F0 is cloud.particles.F0
+    assert snapshot.particles.eddy is cloud.particles.eddy
     again = cloud.snapshot(snapshot)
     assert again.particles.F is snapshot.particles.F
     assert np.array_equal(again.particles.F, cloud.particles.F)

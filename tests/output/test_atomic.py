@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, only_writer, remove_unfinished
+from foamprb.output.atomic import atomic_write, forget, only_writer, remove_unfinished
 
 
 def test_writes_whole_file_and_nothing_else(tmp_path: Path) -> None:
@@ -134,3 +134,20 @@ def test_a_folder_has_one_writer(tmp_path: Path) -> None:
         assert list(folder.iterdir()) == []
     with only_writer(folder):
         pass
+
+
+def test_a_file_whose_memory_is_given_up_is_as_it_was(tmp_path: Path, monkeypatch) -> None:
+    """Whether it is there or not, and on a file system that takes no advice as well."""
+
+    def refuse(*_: object) -> None:
+        raise OSError(errno.EINVAL, "Invalid argument")
+
+    path = tmp_path / "table.csv"
+    forget(path)
+    with atomic_write(path) as temporary:
+        temporary.write_text("whole")
+    forget(path)
+    assert path.read_text() == "whole"
+    monkeypatch.setattr(os, "posix_fadvise", refuse)
+    forget(path)
+    assert path.read_text() == "whole"

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import re
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ from foamprb.cli import main
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
+from foamprb.output.checkpoint import Checkpoints
 from foamprb.output.manifest import Manifest
 from foamprb.output.pvd import Entry, Series, read_pvd
 
@@ -298,3 +301,24 @@ def test_a_run_whose_particles_come_later_begins_with_an_empty_snapshot(case):
     edit(case, r"SOI\s+0;", "SOI 0.0015;")
     run(case)
     assert [cloud_at(case, n).n_points > 0 for n in range(3)] == [False, False, True]
+
+
+@pytest.mark.parametrize("tables", ["csv", "parquet"])
+def test_a_run_whose_last_checkpoint_fails_is_not_done(tables, case, monkeypatch):
+    """Though the table that says so is written beside it; the run goes on from the checkpoint before."""
+    job, write = prepare(case, threads=1, tables=tables), Checkpoints.write
+
+    def fail_late(self, checkpoint):
+        # Long enough for the table to be there first.
+        time.sleep(0.2)
+        if checkpoint.time >= 0.999 * job.settings.solution.endTime:
+            raise OSError(errno.ENOSPC, "No space left on device", str(self.file(checkpoint.time)))
+        return write(self, checkpoint)
+
+    monkeypatch.setattr(Checkpoints, "write", fail_late)
+    with pytest.raises(RunStopped, match="No space left"):
+        execute(job)
+    assert not list(folder_of(case).glob("*fates*"))
+    monkeypatch.undo()
+    execute(prepare(case, threads=1, tables=tables), "latestTime")
+    assert (folder_of(case) / f"fates.{tables}").exists()
