@@ -137,7 +137,6 @@ def _machine_code() -> _Changes:
     Gains also a sixth of a step: what is called is handed no arguments that it does not use, and uses the
     widest registers that there are.
     """
-    from llvmlite.binding import create_new_module_pass_manager
     from numba import _dynfunc
     from numba.core.codegen import JITCodeLibrary
     from numba.core.compiler import CompileResult
@@ -179,7 +178,7 @@ def _machine_code() -> _Changes:
             for function in self.get_defined_functions():
                 if function.linkage == binding.Linkage.linkonce_odr:
                     function.linkage = "internal"
-            passes = create_new_module_pass_manager()
+            passes = binding.create_new_module_pass_manager()
             passes.add_dead_arg_elimination_pass()
             passes.run(self._final_module, self._codegen._pass_builder())
             super()._finalize_final_module()
