@@ -7,7 +7,7 @@ grows nor decays where
     2 Y b + ½ Δt² c E(Y) − Δt c J μ_f D(Y) = 0,   b = F Fᵀ,   c = 5/(ρ_s R²).
 
 Here −μ_f D is the change of the traction, and of the stress of the solid's own viscosity, by the body's
-velocity gradient (`traction_slopes` and `shear_coefficients` of :mod:`foamprb.body.rosenbrock`). E(Y) =
+velocity gradient (`traction_slopes` and `shears` of :mod:`foamprb.body.rosenbrock`). E(Y) =
 δτ − tr(Y) τ is the tangent of the elastic stress less that of the traction's Piola stress, the two in
 balance. In the particle frame the components ij and ji decouple from the rest, and so do the three ii.
 There remain three 2×2 matrices and one of 3×3; the step is stable as long as all their eigenvalues have
@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.rosenbrock import Elasticity, shear_coefficients, traction_slopes
+from foamprb.body.rosenbrock import Elasticity, shears, traction_slopes
 from foamprb.body.tensor import Scalar, Tensor, Vector, det
 
 _TRACTION = 4.0
@@ -91,7 +91,7 @@ def is_stable(
     bx, by, bz = x * x, y * y, z * z
     rx, ry, rz = 1.0 / bx, 1.0 / by, 1.0 / bz
     J = x * y * z
-    ratio, k = eta / mu_f, 8.0 / J
+    ratio = eta / mu_f
     f, h = dt * c * J * mu_f, 0.5 * dt * dt * c
     t, s = traction_slopes(stretches, g, ratio), e.slopes
     normal = _is_stable(
@@ -108,9 +108,7 @@ def is_stable(
         )
     )
     (e1, e2, e3), (s23, s13, s12) = e.squares, e.shear
-    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k, ratio)
-    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k, ratio)
-    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k, ratio)
+    p, q, r = shears(stretches, g, ratio)
     return (
         normal
         & _pair_is_stable(

@@ -20,7 +20,7 @@ start.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
@@ -71,9 +71,17 @@ class Resolvent(NamedTuple):
     """Those of the pairs 23, 13 and 12, four each; what is left at the ends is not used."""
 
 
-def _inverse_pair(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-    f = 1.0 / (a * d - b * c)
-    return f * d, -f * b, -f * c, f * a
+_Block: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
+
+
+def _inverse_pairs(m: tuple[_Block, _Block, _Block]) -> tuple[_Block, _Block, _Block]:
+    p, q, r = m
+    f, g, h = reciprocals((p[0] * p[3] - p[1] * p[2], q[0] * q[3] - q[1] * q[2], r[0] * r[3] - r[1] * r[2]))
+    return (
+        (f * p[3], -f * p[1], -f * p[2], f * p[0]),
+        (g * q[3], -g * q[1], -g * q[2], g * q[0]),
+        (h * r[3], -h * r[1], -h * r[2], h * r[0]),
+    )
 
 
 def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
@@ -95,18 +103,19 @@ def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
         gh2 * e[6] - gh * t[6], gh2 * e[7] - gh * t[7], z - gh * t[8] + gh2 * e[8],
     )  # fmt: skip
     (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
-    p23 = _inverse_pair(
+    m23 = (
         z - gh * p[0] + gh2 * f[0], gh2 * f[1] - gh * p[1],
         gh2 * f[2] - gh * p[2], y - gh * p[3] + gh2 * f[3],
     )  # fmt: skip
-    p13 = _inverse_pair(
+    m13 = (
         z - gh * p[4] + gh2 * f[4], gh2 * f[5] - gh * p[5],
         gh2 * f[6] - gh * p[6], x - gh * p[7] + gh2 * f[7],
     )  # fmt: skip
-    p12 = _inverse_pair(
+    m12 = (
         y - gh * q[0] + gh2 * k[0], gh2 * k[1] - gh * q[1],
         gh2 * k[2] - gh * q[2], x - gh * q[3] + gh2 * k[3],
     )  # fmt: skip
+    p23, p13, p12 = _inverse_pairs((m23, m13, m12))
     first = (p23[0], p23[1], p23[2], p23[3], p13[0], p13[1], p13[2], p13[3], 0.0)
     second = (p12[0], p12[1], p12[2], p12[3], 0.0, 0.0, 0.0, 0.0, 0.0)
     return Resolvent(gh, inverse(M), (first, second))

@@ -10,7 +10,7 @@ All tensors are components in the particle frame Q of the step's start, unless s
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
 from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector
+from foamprb.body.traction import shear_factors
 
 _DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
 
@@ -189,27 +190,40 @@ def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector, eta: Scalar) ->
     return s[0] - pressure + k * e[0], s[1] - pressure + k * e[1], s[2] - pressure + k * e[2]
 
 
+Shear: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
+
+
 def shear_coefficients(
-    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, k: Scalar, eta: Scalar
-) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, f: Scalar, eta: Scalar
+) -> Shear:
     """Change of (σ̃ − σ_v)_ab/μ_f by the body's l_s,ab and l_s,ba, then that of the component ba.
 
     Parameters
     ----------
     a, b, alpha, beta, ring
         Two semi-axes, their α₀, and the third axis' α₀°.
-    k
-        8/(abc).
+    f
+        4/(abc) times the third of :func:`foamprb.body.traction.shear_factors`.
     eta
         Viscosity of the solid over that of the fluid.
     """
     a2, b2 = a * a, b * b
-    f = 0.5 * k / (ring * (a2 * alpha + b2 * beta))
     # d = (Y_ab + Y_ba)/2 and w_ba = (Y_ba − Y_ab)/2 in H and H° (B.8), with d and w of the fluid zero.
     own = 1.0 - eta
     d1, w1 = own - 0.5 * f * alpha, 0.5 * f * b2 * ring
     d2, w2 = own - 0.5 * f * beta, -0.5 * f * a2 * ring
     return d1 - w1, d1 + w1, d2 - w2, d2 + w2
+
+
+def shears(semi_axes: Vector, g: Integrals, eta: Scalar) -> tuple[Shear, Shear, Shear]:
+    """:func:`shear_coefficients` of the pairs 23, 13 and 12."""
+    a, b, c = semi_axes
+    k, (f, g_, h) = 4.0 / (a * b * c), shear_factors(semi_axes, g)
+    return (
+        shear_coefficients(b, c, g.alpha[1], g.alpha[2], g.ring[0], k * f, eta),
+        shear_coefficients(a, c, g.alpha[0], g.alpha[2], g.ring[1], k * g_, eta),
+        shear_coefficients(a, b, g.alpha[0], g.alpha[1], g.ring[2], k * h, eta),
+    )
 
 
 def solve_pair(
@@ -264,10 +278,7 @@ def inertial_stiffness(
         c * s[3], c * s[4], c * s[5],
         c * s[6], c * s[7], c * s[8],
     )  # fmt: skip
-    k = 8.0 / J
-    p = shear_coefficients(y, z, g.alpha[1], g.alpha[2], g.ring[0], k, ratio)
-    q = shear_coefficients(x, z, g.alpha[0], g.alpha[2], g.ring[1], k, ratio)
-    r = shear_coefficients(x, y, g.alpha[0], g.alpha[1], g.ring[2], k, ratio)
+    p, q, r = shears(stretches, g, ratio)
     first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], 0.0)
     second = (f * r[0], f * r[1], f * r[2], f * r[3], 0.0, 0.0, 0.0, 0.0, 0.0)
     (s23, s13, s12), (e1, e2, e3) = e.shear, e.squares

@@ -20,6 +20,13 @@ def _pair(
     return h * (alpha * d21 - b2 * ring * w21), h * (beta * d21 + a2 * ring * w21)
 
 
+def shear_factors(semi_axes: Vector, g: Integrals) -> Vector:
+    """1/(α₀°(b²β₀ + c²γ₀)) of (B.6), and those of (B.7) and (B.8); arguments as of :func:`disturbance`."""
+    x, y, z = semi_axes
+    a, b, c = x * x * g.alpha[0], y * y * g.alpha[1], z * z * g.alpha[2]
+    return reciprocals((g.ring[0] * (b + c), g.ring[1] * (c + a), g.ring[2] * (a + b)))
+
+
 def disturbance(semi_axes: Vector, g: Integrals, d: Tensor, w: Tensor) -> tuple[Tensor, Scalar]:
     """Jeffery's s̃(d, w) (B.5) and the pressure 4(α₀A + β₀B + γ₀C) of (B.1) for unit viscosity.
 
@@ -36,13 +43,7 @@ def disturbance(semi_axes: Vector, g: Integrals, d: Tensor, w: Tensor) -> tuple[
     x, y, z = alpha_s * d[0], beta_s * d[4], gamma_s * d[8]
     A, B, C = n * (2.0 * x - y - z), n * (2.0 * y - z - x), n * (2.0 * z - x - y)
     a2, b2, c2 = a * a, b * b, c * c
-    f, g_, h = reciprocals(
-        (
-            alpha_r * (b2 * beta + c2 * gamma),
-            beta_r * (c2 * gamma + a2 * alpha),
-            gamma_r * (a2 * alpha + b2 * beta),
-        )
-    )
+    f, g_, h = shear_factors(semi_axes, g)
     F, F_ring = _pair(f, b2, c2, beta, gamma, alpha_r, d[7], w[7])
     G, G_ring = _pair(g_, c2, a2, gamma, alpha, beta_r, d[2], w[2])
     H, H_ring = _pair(h, a2, b2, alpha, beta, gamma_r, d[3], w[3])

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.stokes import Mobility, velocity_gradient
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, scale, skew
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, reciprocals, scale, skew
 
 _ROUND = 0.01
 """Square of the relative difference of two λ_a² below which a section counts as round."""
@@ -52,15 +52,13 @@ def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
         Velocity gradient of the body, 1/s.
     """
     x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
-    w12 = _spin(x, y, l_s[1], l_s[3])
-    w13 = _spin(x, z, l_s[2], l_s[6])
-    w23 = _spin(y, z, l_s[5], l_s[7])
+    xy, xz, yz = y - x, z - x, z - y
+    s, t, u = x + y, x + z, y + z
+    p, q, r = reciprocals((xy * xy + _ROUND * s * s, xz * xz + _ROUND * t * t, yz * yz + _ROUND * u * u))
+    w12 = (l_s[1] * y + l_s[3] * x) * (xy * p)
+    w13 = (l_s[2] * z + l_s[6] * x) * (xz * q)
+    w23 = (l_s[5] * z + l_s[7] * y) * (yz * r)
     return (0.0, w12, w13, -w12, 0.0, w23, -w13, -w23, 0.0)
-
-
-def _spin(bi: Scalar, bj: Scalar, lij: Scalar, lji: Scalar) -> Scalar:
-    d, s = bj - bi, bi + bj
-    return (lij * bj + lji * bi) * d / (d * d + _ROUND * s * s)
 
 
 def _stress_of_spin(e: Elasticity, W: Tensor) -> Tensor:

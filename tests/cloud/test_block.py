@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 
 from foamprb.body.ellipsoid import COMPACT, integrals
-from foamprb.cloud.block import ROWS, at, idle_lanes, load_integrals, new_integrals, new_scratch, store3
+from foamprb.cloud.block import (
+    ROWS,
+    at,
+    idle_lanes,
+    load_integrals,
+    new_block,
+    new_integrals,
+    new_scratch,
+    store3,
+)
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import in_blocks, shares_of
@@ -28,6 +37,16 @@ def test_every_lane_has_the_integrals_of_its_own_shape(elongated):
         found, expected = load_integrals(block, i), integrals(stretches)
         for name in ("alpha", "ring", "star", "chi"):
             np.testing.assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-13)
+
+
+@pytest.mark.parametrize("rows", [1, 3, ROWS])
+def test_a_block_begins_on_a_line_of_memory(rows):
+    """Else every second access of a wide register takes two lines."""
+    for _ in range(20):
+        block = new_block(rows)
+        assert block.shape == (rows * LANES,)
+        assert block.flags.c_contiguous
+        assert block.ctypes.data % 64 == 0
 
 
 def test_those_that_cost_alike_share_blocks():

@@ -1,15 +1,18 @@
 """Formulas become machine code once, and the code is found again by whoever has the same formulas."""
 
 import gc
+import math
 import os
+import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from llvmlite import binding
 from numba import TypingError
 
 import foamprb
@@ -19,6 +22,11 @@ from foamprb.compile.internals import SWITCH
 from foamprb.compile.link import compile_part, link
 
 FIRST, SECOND = 2, 3
+
+
+def has_registers_of_512_bits():
+    return bool(binding.get_host_cpu_features().get("avx512f"))
+
 
 PROGRAM = """
 import foamprb.flow
@@ -69,6 +77,36 @@ def sum_of_all(values, rows):
     for i in range(len(rows)):
         total += element(values, i) + element(values, rows[i])
     return total
+
+
+class Arrays(NamedTuple):
+    """As a flow's: most functions need few of them."""
+
+    first: Any
+    second: Any
+    third: Any
+    fourth: Any
+
+
+def last_of(arrays, i):
+    return arrays.third[i]
+
+
+def sum_of_third(arrays):
+    total = 0.0
+    for i in range(arrays.first.shape[0]):
+        total += last_of(arrays, i)
+    return total
+
+
+def roots(values):
+    for i in range(values.shape[0]):
+        values[i] = math.sqrt(values[i])
+
+
+def roots_of_both(values, others):
+    roots(values)
+    roots(others)
 
 
 def doubled(x):
@@ -230,6 +268,26 @@ def test_separate_functions_stay_functions(cache):
     calls = [line for line in assembly.splitlines() if "call" in line and "doubled" in line]
     calls += [line for line in assembly.splitlines() if "movabs" in line and "doubled" in line]
     assert calls
+
+
+def test_calls_hand_over_no_more_than_is_used(cache):
+    """Four arrays are 28 words, and to push them onto the stack takes longer than many a function."""
+    f = link(sum_of_third, separate=(last_of,))
+    arrays = Arrays(*(np.arange(4.0) + 10.0 * k for k in range(4)))
+    assert f(arrays) == sum(range(20, 24))
+    (code,) = f.inspect_llvm().values()
+    (parameters,) = re.findall(r"define internal [^\n]*last_of[^(]*\(([^\n]*)\)", code)
+    assert 3 <= parameters.count("%") <= 8
+
+
+@pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")
+def test_what_is_called_uses_the_widest_registers(cache):
+    f = link(roots_of_both, separate=(roots,))
+    values, others = np.arange(20.0), np.arange(20.0) ** 2
+    f(values, others)
+    np.testing.assert_array_equal(values, np.sqrt(np.arange(20.0)))
+    (assembly,) = f.inspect_asm().values()
+    assert re.search(r"vsqrtpd[^\n]*%zmm", assembly)
 
 
 def test_bound_of_the_stretches():

@@ -411,7 +411,8 @@ def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector
     Q, stretches, u = load9(block, at.Q, i), load3(block, at.stretch, i), load3(block, at.u, i)
     a, inertia = acceleration(block, i, medium, stretches[0] * stretches[1] * stretches[2])
     r = drag_rate(block, i, medium.mu, drag(stretches, load_integrals(block, i)))
-    rate = (r[0] / inertia, r[1] / inertia, r[2] / inertia)
+    f = 1.0 / inertia
+    rate = (f * r[0], f * r[1], f * r[2])
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
     a_D = vector_dot(resist(block, i, rate, w), Q)
     return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
