@@ -216,7 +216,15 @@ def shear_coefficients(
 
 
 def shears(semi_axes: Vector, g: Integrals, eta: Scalar) -> tuple[Shear, Shear, Shear]:
-    """:func:`shear_coefficients` of the pairs 23, 13 and 12."""
+    """:func:`shear_coefficients` of the pairs 23, 13 and 12, each without a unit.
+
+    Parameters
+    ----------
+    semi_axes, g
+        a, b, c and their integrals, in one unit of length.
+    eta
+        Viscosity of the solid over that of the fluid.
+    """
     a, b, c = semi_axes
     k, (f, g_, h) = 4.0 / (a * b * c), shear_factors(semi_axes, g)
     return (

@@ -21,7 +21,13 @@ def _pair(
 
 
 def shear_factors(semi_axes: Vector, g: Integrals) -> Vector:
-    """1/(α₀°(b²β₀ + c²γ₀)) of (B.6), and those of (B.7) and (B.8); arguments as of :func:`disturbance`."""
+    """1/(α₀°(b²β₀ + c²γ₀)) of (B.6), and those of (B.7) and (B.8).
+
+    Parameters
+    ----------
+    semi_axes, g
+        As of :func:`disturbance`; the result has the sixth power of their unit of length.
+    """
     x, y, z = semi_axes
     a, b, c = x * x * g.alpha[0], y * y * g.alpha[1], z * z * g.alpha[2]
     return reciprocals((g.ring[0] * (b + c), g.ring[1] * (c + a), g.ring[2] * (a + b)))

@@ -194,7 +194,7 @@ class Tracker:
         self._compile(reach_end, {"flow": flow})
 
     def compile_stages(self, first: int = 0) -> None:
-        """Compile stages from the last back to one of a number, or to one that is compiled already."""
+        """Compile stages from the last back to number ``first``, or to one that is compiled already."""
         for stage in reversed(self.integrator.stages[first:]):
             if not self._compile(stage, {}):
                 break
