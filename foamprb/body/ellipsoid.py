@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, select, transpose
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, reciprocals, select, transpose
 
 _DUPLICATIONS, _FEW_DUPLICATIONS = 5, 3
 COMPACT = 4.0
@@ -31,40 +31,63 @@ class Integrals(NamedTuple):
     """χ = ∫dλ/Δ; 1/length."""
 
 
-def _ring_tail(x: Scalar, y: Scalar, z: Scalar) -> Scalar:
-    """∫dλ/((y+λ)(z+λ)Δ) for nearly equal x, y, z (squared semi-axes), by its series about their mean.
+def _ring_tail(x: Scalar, y: Scalar, z: Scalar, inverse: Scalar) -> Scalar:
+    """m^{5/2} ∫dλ/((y+λ)(z+λ)Δ) for nearly equal x, y, z (squared semi-axes), by its series about their mean.
 
-    The integral is (2/5) R_{-5/2}(1/2, 3/2, 3/2; x, y, z), expanded in the power sums of the relative
-    deviations (Carlson 1979); the series ends before the eighth order.
+    The integral is (2/5) R_{-5/2}(1/2, 3/2, 3/2; x, y, z). Its series in the power sums of the relative
+    deviations 1 − x/m, 1 − y/m and 1 − z/m (Carlson 1979) is arranged here by x/m − 1 and the square of
+    (y − z)/m, from which all three follow; it ends before the eighth order.
+
+    Parameters
+    ----------
+    inverse
+        1/m of the mean m = (x + 3y + 3z)/7.
     """
-    mean = (x + 3.0 * y + 3.0 * z) * (1.0 / 7.0)
-    inverse = 1.0 / mean
-    X, Y, Z = (mean - x) * inverse, (mean - y) * inverse, (mean - z) * inverse
-    p, q, r = 0.5 * X * X, 1.5 * Y * Y, 1.5 * Z * Z
-    p2 = p + q + r
-    p, q, r = p * X, q * Y, r * Z
-    p3 = p + q + r
-    p, q, r = p * X, q * Y, r * Z
-    p4 = p + q + r
-    p, q, r = p * X, q * Y, r * Z
-    p5 = p + q + r
-    p, q, r = p * X, q * Y, r * Z
-    p6 = p + q + r
-    p7 = p * X + q * Y + r * Z
-    # Products with constants: a division costs as much as ten of them.
-    T2 = p2 * (1.0 / 2.0)
-    T3 = p3 * (1.0 / 3.0)
-    T4 = p4 * (1.0 / 4.0) + p2 * p2 * (1.0 / 8.0)
-    T5 = p5 * (1.0 / 5.0) + p2 * p3 * (1.0 / 6.0)
-    T6 = p6 * (1.0 / 6.0) + p2 * p4 * (1.0 / 8.0) + p3 * p3 * (1.0 / 18.0) + p2 * p2 * p2 * (1.0 / 48.0)
-    T7 = p7 * (1.0 / 7.0) + p2 * p5 * (1.0 / 10.0) + p3 * p4 * (1.0 / 12.0) + p2 * p2 * p3 * (1.0 / 24.0)
-    # (5/2)_m / (7/2)_m = 5/(5 + 2m)
-    series = (
-        1.0
-        + (T2 * (5.0 / 9.0) + T3 * (5.0 / 11.0) + T4 * (5.0 / 13.0))
-        + (T5 * (5.0 / 15.0) + T6 * (5.0 / 17.0) + T7 * (5.0 / 19.0))
+    s, d = x * inverse - 1.0, (y - z) * inverse
+    t = d * d
+    p = s * (
+        581.0 / 22464.0 - s * (763.0 / 38880.0 - s * (102445.0 / 6345216.0 - s * (286233.0 / 21275136.0)))
     )
-    return 0.4 * series * inverse * inverse * np.sqrt(inverse)
+    p = 2.0 / 5.0 + s * s * (7.0 / 108.0 - s * (35.0 / 1188.0) + s * p)
+    q = 9.0 / 416.0 - s * (1.0 / 432.0 - s * (1475.0 / 235008.0 - s * (1021.0 / 262656.0)))
+    q = 1.0 / 12.0 + s * (1.0 / 44.0 + s * q)
+    r = 15.0 / 832.0 + s * (1.0 / 96.0 + s * (205.0 / 26112.0 + s * (15.0 / 9728.0)))
+    return p + t * (q + t * (r + t * (35.0 / 8704.0 + s * (35.0 / 9728.0))))
+
+
+def _tails(x: Scalar, y: Scalar, z: Scalar) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    """The integral of :func:`_ring_tail` for x, y and z in turn, and 2/√(xyz), of nearly equal x, y, z.
+
+    Divisions and roots cost most here. One division gives all reciprocals; one root that of the common mean,
+    and series in the relative differences from it, below 0.013 and 0.0015, give the others.
+    """
+    p, q, r = (
+        (x + 3.0 * (y + z)) * (1.0 / 7.0),
+        (y + 3.0 * (z + x)) * (1.0 / 7.0),
+        (z + 3.0 * (x + y)) * (1.0 / 7.0),
+    )
+    mean = (x + y + z) * (1.0 / 3.0)
+    both, v, w = reciprocals((p * mean, q, r))
+    u, inverse = mean * both, p * both
+    root = np.sqrt(inverse)
+    e = 1.0 - (x * inverse) * (y * inverse) * (z * inverse)
+    total = 1.0 + e * (
+        1.0 / 2.0 + e * (3.0 / 8.0 + e * (5.0 / 16.0 + e * (35.0 / 128.0 + e * (63.0 / 256.0))))
+    )
+    return (
+        _ring_tail(x, y, z, u) * (u * u * (root * _reciprocal_root(p * inverse - 1.0))),
+        _ring_tail(y, z, x, v) * (v * v * (root * _reciprocal_root(q * inverse - 1.0))),
+        _ring_tail(z, x, y, w) * (w * w * (root * _reciprocal_root(r * inverse - 1.0))),
+        2.0 * inverse * root * total,
+    )
+
+
+def _reciprocal_root(e: Scalar) -> Scalar:
+    """1/√(1 + e) for |e| below 0.013, to round-off."""
+    s = 231.0 / 1024.0 - e * (429.0 / 2048.0)
+    s = 35.0 / 128.0 - e * (63.0 / 256.0 - e * s)
+    s = 3.0 / 8.0 - e * (5.0 / 16.0 - e * s)
+    return 1.0 - e * (1.0 / 2.0 - e * s)
 
 
 def integrals_of_compact(semi_axes: Vector) -> Integrals:
@@ -76,9 +99,9 @@ def integrals(semi_axes: Vector) -> Integrals:
     """Jeffery's integrals for an ellipsoid with the given semi-axes, in any order.
 
     Duplication: with s = √x and so on, Λ = s_x s_y + s_y s_z + s_z s_x, the squares x, y, z give way to
-    (x+Λ)/4, …; what is left of α₀ at step n is 2·4⁻ⁿ/(s_x(s_x+s_y)(s_x+s_z)), and its divided differences,
-    taken analytically, give α₀° (B.10). α₀* = β₀ − c²α₀° with the smaller of b and c. Relative error below
-    1e-13 for axis ratios up to 1000.
+    (x+Λ)/4 = (s_x+s_y)(s_x+s_z)/4, …; what is left of α₀ at step n is 2·4⁻ⁿ/(s_x(s_x+s_y)(s_x+s_z)), and its
+    divided differences, taken analytically, give α₀° (B.10). α₀* = β₀ − c²α₀° with the smaller of b and c.
+    Relative error below 1e-13 for axis ratios up to 1000.
 
     Parameters
     ----------
@@ -96,8 +119,8 @@ def _duplicated(semi_axes: Vector, times: int) -> Integrals:
     alpha, beta, gamma = zero, zero, zero
     alpha_ring, beta_ring, gamma_ring = zero, zero, zero
     weight = 1.0
+    sx, sy, sz = a, b, c
     for _ in range(times):
-        sx, sy, sz = np.sqrt(x), np.sqrt(y), np.sqrt(z)
         p, q, r = sy + sz, sz + sx, sx + sy
         # d = 1/(s_x s_y s_z p q r)
         product = sx * sy * sz
@@ -109,13 +132,12 @@ def _duplicated(semi_axes: Vector, times: int) -> Integrals:
         alpha_ring = alpha_ring + common * (sx * q * r)
         beta_ring = beta_ring + common * (sy * r * p)
         gamma_ring = gamma_ring + common * (sz * p * q)
-        shift = sx * sy + sy * sz + sz * sx
-        x, y, z = 0.25 * (x + shift), 0.25 * (y + shift), 0.25 * (z + shift)
+        x, y, z = 0.25 * q * r, 0.25 * r * p, 0.25 * p * q
+        sx, sy, sz = np.sqrt(x), np.sqrt(y), np.sqrt(z)
         weight = 0.25 * weight
 
-    tail_alpha, tail_beta, tail_gamma = _ring_tail(x, y, z), _ring_tail(y, z, x), _ring_tail(z, x, y)
+    tail_alpha, tail_beta, tail_gamma, total = _tails(x, y, z)
     # α₀ + β₀ + γ₀ = 2/(abc) and (B.10), well conditioned once the axes are nearly equal.
-    total = 2.0 / np.sqrt(x * y * z)
     third = weight * (1.0 / 3.0)
     alpha = alpha + third * (total + (y - x) * tail_gamma + (z - x) * tail_beta)
     beta = beta + third * (total + (z - y) * tail_alpha + (x - y) * tail_gamma)

@@ -25,7 +25,7 @@ import math
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, dot, select, transpose
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, add_identity, dot, transpose
 
 LEAST_STRAIN = 1e-6
 """Smaller elastic strains count as this."""
@@ -100,15 +100,7 @@ def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
 
 def longest_step(l_f: Tensor) -> Scalar:
     """The step, s, that no estimate may exceed, for a velocity gradient of the fluid at its start, 1/s."""
-    most = abs(l_f[0])
-    # For a branch a scalar loop takes one instruction, for what np.maximum makes of NaN half a dozen.
-    most = _larger(_larger(most, abs(l_f[1])), _larger(abs(l_f[2]), abs(l_f[3])))
-    rest = _larger(_larger(abs(l_f[4]), abs(l_f[5])), _larger(abs(l_f[6]), abs(l_f[7])))
-    return LONGEST / (_larger(_larger(most, rest), abs(l_f[8])) + 1e-300)
-
-
-def _larger(a: Scalar, b: Scalar) -> Scalar:
-    return select(a > b, a, b)
+    return LONGEST / (largest(l_f) + 1e-300)
 
 
 def path_error(h: Scalar, R: Scalar, v: Vector, a0: Vector, a1: Vector) -> Scalar:
@@ -131,7 +123,12 @@ def path_error(h: Scalar, R: Scalar, v: Vector, a0: Vector, a1: Vector) -> Scala
     return h * h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / way
 
 
-def step_factor(third: bool, difference: float, path: float, tolerance: float) -> float:
+def path_factor(path: Scalar, tolerance: float) -> Scalar:
+    """Length of the next step over that of this one, as far as :func:`path_error` has a say in it."""
+    return SAFETY * np.sqrt(tolerance / (path + 1e-300))
+
+
+def step_factor(third: bool, difference: float, by_path: float, tolerance: float) -> float:
     """Length of the next step over that of this one.
 
     Parameters
@@ -140,15 +137,14 @@ def step_factor(third: bool, difference: float, path: float, tolerance: float) -
         Whether the step has gone to order 3.
     difference
         δ₂ if so.
-    path
-        :func:`path_error`.
+    by_path
+        :func:`path_factor`.
     tolerance
         Largest error of a step.
     """
-    if not math.isfinite(difference + path):
+    if not math.isfinite(difference) or math.isnan(by_path):
         return LEAST
     factor = MOST
     if third:
         factor = SAFETY * (tolerance**0.75 / (difference + 1e-300)) ** (1.0 / 3.0)
-    factor = min(factor, SAFETY * math.sqrt(tolerance / (path + 1e-300)))
-    return min(MOST, max(LEAST, factor))
+    return min(MOST, max(LEAST, min(factor, by_path)))

@@ -20,18 +20,17 @@ start.
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
-from foamprb.body.rosenbrock import Stiffness, elastic_response
+from foamprb.body.rosenbrock import Shear, Stiffness, elastic_response, paired
 from foamprb.body.tensor import (
     ZERO,
     Scalar,
     Tensor,
     Vector,
     add,
-    dot_vector,
     inverse,
     reciprocals,
     scale,
@@ -57,7 +56,6 @@ R3 = _partial_fractions(1.0 / 6.0, GAMMA**3 - 1.5 * GAMMA**2, 0.5 * GAMMA**3)
 
 Pair = tuple[Tensor, Tensor]
 """A change of Ω and one of l_s, or rates of both."""
-NOTHING: Pair = ZERO, ZERO
 
 
 class Resolvent(NamedTuple):
@@ -67,14 +65,11 @@ class Resolvent(NamedTuple):
     """γh, s."""
     normal: Tensor
     """Inverse matrix of the normal components of l_s."""
-    pairs: tuple[Tensor, Tensor]
-    """Those of the pairs 23, 13 and 12, four each; what is left at the ends is not used."""
+    pairs: tuple[Shear, Shear, Shear]
+    """Those of the pairs 23, 13 and 12."""
 
 
-_Block: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
-
-
-def _inverse_pairs(m: tuple[_Block, _Block, _Block]) -> tuple[_Block, _Block, _Block]:
+def _inverse_pairs(m: tuple[Shear, Shear, Shear]) -> tuple[Shear, Shear, Shear]:
     p, q, r = m
     f, g, h = reciprocals((p[0] * p[3] - p[1] * p[2], q[0] * q[3] - q[1] * q[2], r[0] * r[3] - r[1] * r[2]))
     return (
@@ -102,23 +97,22 @@ def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
         gh2 * e[3] - gh * t[3], y - gh * t[4] + gh2 * e[4], gh2 * e[5] - gh * t[5],
         gh2 * e[6] - gh * t[6], gh2 * e[7] - gh * t[7], z - gh * t[8] + gh2 * e[8],
     )  # fmt: skip
-    (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
-    m23 = (
-        z - gh * p[0] + gh2 * f[0], gh2 * f[1] - gh * p[1],
-        gh2 * f[2] - gh * p[2], y - gh * p[3] + gh2 * f[3],
+    (p, q, r), (f, g, k) = n.traction_pairs, n.elastic_pairs
+    pairs = _inverse_pairs(
+        (
+            _sheared(z, y, gh, p, gh2, f),
+            _sheared(z, x, gh, q, gh2, g),
+            _sheared(y, x, gh, r, gh2, k),
+        )
+    )
+    return Resolvent(gh, inverse(M), pairs)
+
+
+def _sheared(first: Scalar, second: Scalar, gh: Scalar, T: Shear, gh2: Scalar, E: Shear) -> Shear:
+    return (
+        first - gh * T[0] + gh2 * E[0], gh2 * E[1] - gh * T[1],
+        gh2 * E[2] - gh * T[2], second - gh * T[3] + gh2 * E[3],
     )  # fmt: skip
-    m13 = (
-        z - gh * p[4] + gh2 * f[4], gh2 * f[5] - gh * p[5],
-        gh2 * f[6] - gh * p[6], x - gh * p[7] + gh2 * f[7],
-    )  # fmt: skip
-    m12 = (
-        y - gh * q[0] + gh2 * k[0], gh2 * k[1] - gh * q[1],
-        gh2 * k[2] - gh * q[2], x - gh * q[3] + gh2 * k[3],
-    )  # fmt: skip
-    p23, p13, p12 = _inverse_pairs((m23, m13, m12))
-    first = (p23[0], p23[1], p23[2], p23[3], p13[0], p13[1], p13[2], p13[3], 0.0)
-    second = (p12[0], p12[1], p12[2], p12[3], 0.0, 0.0, 0.0, 0.0, 0.0)
-    return Resolvent(gh, inverse(M), (first, second))
 
 
 def _resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
@@ -130,25 +124,13 @@ def _resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
         Y[3] * x - gh * E[3], Y[4] * y - gh * E[4], Y[5] * z - gh * E[5],
         Y[6] * x - gh * E[6], Y[7] * y - gh * E[7], Y[8] * z - gh * E[8],
     )  # fmt: skip
-    d = dot_vector(r.normal, (s[0], s[4], s[8]))
-    p, q = r.pairs
-    L = (
-        d[0], q[0] * s[1] + q[1] * s[3], p[4] * s[2] + p[5] * s[6],
-        q[2] * s[1] + q[3] * s[3], d[1], p[0] * s[5] + p[1] * s[7],
-        p[6] * s[2] + p[7] * s[6], p[2] * s[5] + p[3] * s[7], d[2],
-    )  # fmt: skip
+    L = paired(r.normal, r.pairs, s)
     return add(X, scale(gh, L)), L
 
 
 def _traction_response(n: Stiffness, Y: Tensor) -> Tensor:
     """Change of the traction's part of Ȧ Fᵀ by that of l_s, 1/s²."""
-    p, q = n.traction_pairs
-    d = dot_vector(n.traction, (Y[0], Y[4], Y[8]))
-    return (
-        d[0], q[0] * Y[1] + q[1] * Y[3], p[4] * Y[2] + p[5] * Y[6],
-        q[2] * Y[1] + q[3] * Y[3], d[1], p[0] * Y[5] + p[1] * Y[7],
-        p[6] * Y[2] + p[7] * Y[6], p[2] * Y[5] + p[3] * Y[7], d[2],
-    )  # fmt: skip
+    return paired(n.traction, n.traction_pairs, Y)
 
 
 def over_b(b: Vector, T: Tensor) -> Tensor:
@@ -168,8 +150,20 @@ def combine(a: Scalar, u: Pair, b: Scalar, v: Pair) -> Pair:
     return add(scale(a, u[0]), scale(b, v[0])), add(scale(a, u[1]), scale(b, v[1]))
 
 
-def _mix(k: int, u: Pair, v: Pair, w: Pair) -> Pair:
-    return combine(1.0, combine(R1[k], u, R2[k], v), R3[k], w)
+def _mix(k: int, u: Pair, v: Pair) -> Pair:
+    return combine(R1[k], u, R2[k], v)
+
+
+def _mix_three(k: int, u: Pair, v: Pair, w: Pair) -> Pair:
+    return combine(1.0, _mix(k, u, v), R3[k], w)
+
+
+def _respond(n: Stiffness, r: Resolvent, h: Scalar, a: Pair, b: Pair, c: Pair) -> Pair:
+    """H (P a + P² b + P³ c)."""
+    s = _resolve(n, r, c)
+    s = _resolve(n, r, combine(1.0, b, 1.0, s))
+    s = _resolve(n, r, combine(1.0, a, 1.0, s))
+    return scale(h, s[0]), scale(h, s[1])
 
 
 def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) -> Pair:
@@ -182,10 +176,18 @@ def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) ->
     u, v, w
         Rates of Ω, 1/s, and of l_s, 1/s².
     """
-    s = _resolve(n, r, _mix(2, u, v, w))
-    s = _resolve(n, r, combine(1.0, _mix(1, u, v, w), 1.0, s))
-    s = _resolve(n, r, combine(1.0, _mix(0, u, v, w), 1.0, s))
-    return scale(h, s[0]), scale(h, s[1])
+    return _respond(n, r, h, _mix_three(0, u, v, w), _mix_three(1, u, v, w), _mix_three(2, u, v, w))
+
+
+def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> Pair:
+    """:func:`respond` to rates u + v t/h."""
+    return _respond(n, r, h, _mix(0, u, v), _mix(1, u, v), _mix(2, u, v))
+
+
+def size_of_slope(n: Stiffness, r: Resolvent, h: Scalar, v: Pair) -> Pair:
+    """½ h P v, which is h r₂(hJ) v, what a rate v t/h and J add up to, but for −13 to 3 % where J damps."""
+    s = _resolve(n, r, v)
+    return scale(0.5 * h, s[0]), scale(0.5 * h, s[1])
 
 
 def fluid_change(stretches: Vector, g: Integrals, c: Scalar, mu_f: Scalar, dl_f: Tensor) -> Tensor:
@@ -259,7 +261,7 @@ def first_argument(
         :func:`turning_acceleration`.
     """
     bent = (ZERO, scale(NODE, add(change, scale(h, turning))))
-    return respond(n, quarter, NODE * h, rate, bent, NOTHING)
+    return respond_to_line(n, quarter, NODE * h, rate, bent)
 
 
 def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step: Scalar) -> Pair:
@@ -290,7 +292,7 @@ def second_order(
     slope: Pair,
     shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2, and what shares of the slope and of the fluid's change have in them.
+    """Ω and change of l_s of order 2; about what shares of the slope and the fluid's change have in them.
 
     Parameters
     ----------
@@ -301,10 +303,10 @@ def second_order(
     shares
         Of the slope, and of the change.
     """
-    two = respond(n, whole, h, rate, (slope[0], add(slope[1], change)), NOTHING)
+    two = respond_to_line(n, whole, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
     judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
-    return two, respond(n, whole, h, NOTHING, judged, NOTHING)
+    return two, size_of_slope(n, whole, h, judged)
 
 
 def last_argument(

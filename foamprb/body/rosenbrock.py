@@ -17,10 +17,14 @@ import numpy as np
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
-from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector
+from foamprb.body.material import neo_hooke_dilation as dilation
+from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, reciprocals
 from foamprb.body.traction import shear_factors
 
 _DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
+
+Shear: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
+"""Of a matrix that takes the components ij and ji to such: its rows, one after the other."""
 
 
 class Elasticity(NamedTuple):
@@ -154,6 +158,40 @@ def elasticity(
     return Elasticity(squares, slopes, e.shear)
 
 
+def elasticity_by_dilation(
+    squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
+) -> Elasticity:
+    """:func:`elasticity` of a solid with τ = φ b_e + ψ(J) I and a constant φ, in closed form.
+
+    The solid is one that has a :attr:`foamprb.body.material.Material.dilation`.
+    """
+    bulk = dilation(J, mu, lame)
+    e = extra_elasticity_by_dilation(squares, J, mu, lame, k, tension)
+    s = e.slopes
+    slopes = (
+        s[0] + bulk, s[1] + bulk, s[2] + bulk,
+        s[3] + bulk, s[4] + bulk, s[5] + bulk,
+        s[6] + bulk, s[7] + bulk, s[8] + bulk,
+    )  # fmt: skip
+    return Elasticity(squares, slopes, e.shear)
+
+
+def extra_elasticity_by_dilation(
+    squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
+) -> Elasticity:
+    """:func:`extra_elasticity` of such a solid."""
+    x, y, z = squares
+    w1, _, _ = derivatives(x + y + z, x * y + y * z + z * x, J, mu, lame, k)
+    phi = 2.0 * w1
+    normal, cross, shear = 16.0 / 15.0 * tension, -8.0 / 15.0 * tension, phi + 0.8 * tension
+    slopes = (
+        2.0 * phi * x + normal, cross, cross,
+        cross, 2.0 * phi * y + normal, cross,
+        cross, cross, 2.0 * phi * z + normal,
+    )  # fmt: skip
+    return Elasticity(squares, slopes, (shear, shear, shear))
+
+
 def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
     """Change of the normal stresses (σ̃ − σ_v)_aa/μ_f with the body's own stretching d_s,cc (26).
 
@@ -190,9 +228,6 @@ def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector, eta: Scalar) ->
     return s[0] - pressure + k * e[0], s[1] - pressure + k * e[1], s[2] - pressure + k * e[2]
 
 
-Shear: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
-
-
 def shear_coefficients(
     a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, f: Scalar, eta: Scalar
 ) -> Shear:
@@ -226,7 +261,8 @@ def shears(semi_axes: Vector, g: Integrals, eta: Scalar) -> tuple[Shear, Shear, 
         Viscosity of the solid over that of the fluid.
     """
     a, b, c = semi_axes
-    k, (f, g_, h) = 4.0 / (a * b * c), shear_factors(semi_axes, g)
+    # As the traction has it, for one division.
+    k, (f, g_, h) = 0.5 * (8.0 / (a * b * c)), shear_factors(semi_axes, g)
     return (
         shear_coefficients(b, c, g.alpha[1], g.alpha[2], g.ring[0], k * f, eta),
         shear_coefficients(a, c, g.alpha[0], g.alpha[2], g.ring[1], k * g_, eta),
@@ -249,11 +285,11 @@ class Stiffness(NamedTuple):
     """λ_a²."""
     traction: Tensor
     """c J μ_f times :func:`traction_slopes`, 1/s, with c = 5/(ρ_s R²)."""
-    traction_pairs: tuple[Tensor, Tensor]
-    """The same of :func:`shear_coefficients`, 23, 13 and 12 in turn, four each; one unused at the end."""
+    traction_pairs: tuple[Shear, Shear, Shear]
+    """The same of :func:`shear_coefficients`, of 23, 13 and 12."""
     elastic: Tensor
     """c ∂τ_a/∂ln e_c, 1/s²."""
-    elastic_pairs: tuple[Tensor, Tensor]
+    elastic_pairs: tuple[Shear, Shear, Shear]
     """The same of the shear stresses, laid out as ``traction_pairs``."""
 
 
@@ -276,7 +312,7 @@ def inertial_stiffness(
     x, y, z = stretches
     b = (x * x, y * y, z * z)
     J = x * y * z
-    ratio = eta / mu_f
+    ratio = eta * (1.0 / mu_f)
     t = traction_slopes(stretches, g, ratio)
     f = c * J * mu_f
     traction = (f * t[0], f * t[1], f * t[2], f * t[3], f * t[4], f * t[5], f * t[6], f * t[7], f * t[8])
@@ -287,28 +323,32 @@ def inertial_stiffness(
         c * s[6], c * s[7], c * s[8],
     )  # fmt: skip
     p, q, r = shears(stretches, g, ratio)
-    first = (f * p[0], f * p[1], f * p[2], f * p[3], f * q[0], f * q[1], f * q[2], f * q[3], 0.0)
-    second = (f * r[0], f * r[1], f * r[2], f * r[3], 0.0, 0.0, 0.0, 0.0, 0.0)
+    traction_pairs = (
+        (f * p[0], f * p[1], f * p[2], f * p[3]),
+        (f * q[0], f * q[1], f * q[2], f * q[3]),
+        (f * r[0], f * r[1], f * r[2], f * r[3]),
+    )
     (s23, s13, s12), (e1, e2, e3) = e.shear, e.squares
-    stiff_first = (
-        c * s23 * e3, c * s23 * e2, c * s23 * e3, c * s23 * e2,
-        c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1, 0.0,
-    )  # fmt: skip
-    stiff_second = (
-        c * s12 * e2, c * s12 * e1, c * s12 * e2, c * s12 * e1,
-        0.0, 0.0, 0.0, 0.0, 0.0,
-    )  # fmt: skip
-    return Stiffness(b, traction, (first, second), elastic, (stiff_first, stiff_second))
+    elastic_pairs = (
+        (c * s23 * e3, c * s23 * e2, c * s23 * e3, c * s23 * e2),
+        (c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1),
+        (c * s12 * e2, c * s12 * e1, c * s12 * e2, c * s12 * e1),
+    )
+    return Stiffness(b, traction, traction_pairs, elastic, elastic_pairs)
 
 
 def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
     """What the displacement H = X F takes from Ȧ Fᵀ through the elastic part of the Jacobian, 1/s²."""
-    p, q = n.elastic_pairs
-    d = dot_vector(n.elastic, (X[0], X[4], X[8]))
+    return paired(n.elastic, n.elastic_pairs, X)
+
+
+def paired(normal: Tensor, pairs: tuple[Shear, Shear, Shear], X: Tensor) -> Tensor:
+    """What one matrix makes of the X_ii, and those of the pairs 23, 13 and 12 of their X_ij and X_ji."""
+    d, (p, q, r) = dot_vector(normal, (X[0], X[4], X[8])), pairs
     return (
-        d[0], q[0] * X[1] + q[1] * X[3], p[4] * X[2] + p[5] * X[6],
-        q[2] * X[1] + q[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],
-        p[6] * X[2] + p[7] * X[6], p[2] * X[5] + p[3] * X[7], d[2],
+        d[0], r[0] * X[1] + r[1] * X[3], q[0] * X[2] + q[1] * X[6],
+        r[2] * X[1] + r[3] * X[3], d[1], p[0] * X[5] + p[1] * X[7],
+        q[2] * X[2] + q[3] * X[6], p[2] * X[5] + p[3] * X[7], d[2],
     )  # fmt: skip
 
 
@@ -323,12 +363,15 @@ def relaxation_rate(n: Stiffness) -> Scalar:
     n
         :func:`inertial_stiffness`, with T its ``traction_pairs`` and E its ``elastic_pairs``.
     """
-    (p, q), (f, k) = n.traction_pairs, n.elastic_pairs
-    first = _pair_rate(p[0], p[1], p[2], p[3], f[0], f[1])
-    second = _pair_rate(p[4], p[5], p[6], p[7], f[4], f[5])
-    return np.maximum(np.maximum(first, second), _pair_rate(q[0], q[1], q[2], q[3], k[0], k[1]))
+    (p, q, r), (e, f, g) = n.traction_pairs, n.elastic_pairs
+    x, y, z = reciprocals((_determinant(p), _determinant(q), _determinant(r)))
+    return np.maximum(np.maximum(abs(x * _trace(p, e)), abs(y * _trace(q, f))), abs(z * _trace(r, g)))
 
 
-def _pair_rate(p: Scalar, q: Scalar, r: Scalar, s: Scalar, e: Scalar, f: Scalar) -> Scalar:
-    """The one eigenvalue but zero of T⁻¹E, T = (p, q; r, s) and E = (e, f; e, f)."""
-    return abs((e * (s - q) + f * (p - r)) / (p * s - q * r))
+def _determinant(T: Shear) -> Scalar:
+    return T[0] * T[3] - T[1] * T[2]
+
+
+def _trace(T: Shear, E: Shear) -> Scalar:
+    """The one eigenvalue but zero of det(T) T⁻¹E for E = (e, f; e, f)."""
+    return E[0] * (T[3] - T[1]) + E[1] * (T[0] - T[2])

@@ -17,6 +17,7 @@ Vector: TypeAlias = tuple[Scalar, Scalar, Scalar]
 Tensor: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar, Scalar, Scalar, Scalar]
 
 _TINY = 1e-300
+_LEAST = 1e-60
 _SMALL = 1e-150
 
 
@@ -293,18 +294,16 @@ def _turn_all(b: Vector, off: Vector, R: Tensor) -> Tensor:
     """
     b1, b2, b3 = b
     b12, b13, _ = off
-    square = b12 * b12 + b13 * b13
-    z, y = b12 * _reciprocal(b2 - b1, square), b13 * _reciprocal(b3 - b1, square)
-    x = 0.5 * (z * b13 + y * b12) * _reciprocal(b3 - b2, square)
+    # 1/δ where its square is large against those of what is off, and zero where it is zero.
+    least = b12 * b12 + b13 * b13 + _LEAST
+    p, q, r = b2 - b1, b3 - b1, b3 - b2
+    f, g, h = reciprocals((p * p + least, q * q + least, r * r + least))
+    z, y = b12 * (p * f), b13 * (q * g)
+    x = 0.5 * (z * b13 + y * b12) * (r * h)
     k = 1.0 / (1.0 + 0.25 * (x * x + y * y + z * z))
     A = _skew_times(x, y, z, R)
     B = _skew_times(x, y, z, A)
     return add(R, scale(k, add(A, scale(0.5, B))))
-
-
-def _reciprocal(delta: Scalar, square: Scalar) -> Scalar:
-    """1/δ where its square is large against another number, and zero where it is zero."""
-    return delta / (delta * delta + square + _TINY)
 
 
 def _skew_times(x: Scalar, y: Scalar, z: Scalar, R: Tensor) -> Tensor:
@@ -353,23 +352,11 @@ def longest_stretch(F: Tensor) -> Scalar:
     With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
-    m, variance = _spread(F)
-    return np.sqrt(m + np.sqrt(2.0 * variance))
-
-
-def is_stretched(F: Tensor, limit: Scalar) -> Any:
-    """Whether :func:`longest_stretch` is above a limit, but for round-off, without a root."""
-    m, variance = _spread(F)
-    rest = limit * limit - m
-    return (rest < 0.0) | (2.0 * variance > rest * rest)
-
-
-def _spread(F: Tensor) -> tuple[Scalar, Scalar]:
-    """Mean and variance of the eigenvalues of F Fᵀ."""
     x, xy, xz, _, y, yz, _, _, z = dot(F, transpose(F))
-    m = (x + y + z) / 3.0
+    m = (x + y + z) * (1.0 / 3.0)
     x, y, z = x - m, y - m, z - m
-    return m, (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) / 3.0
+    variance = (x * x + y * y + z * z + 2.0 * (xy * xy + xz * xz + yz * yz)) * (1.0 / 3.0)
+    return np.sqrt(m + np.sqrt(2.0 * variance))
 
 
 def refined_frame(F: Tensor, Q: Tensor) -> Tensor:

@@ -25,6 +25,7 @@ from foamprb.body.tensor import (
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
 from foamprb.cloud.limits import Bounds
 from foamprb.cloud.state import Particles, Reason
+from foamprb.compile.link import side_by_side
 
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
@@ -63,6 +64,7 @@ class Rows(NamedTuple):
     lame: Annotated[int, Row(1, "Pa", "Lame's first parameter of the solid", 1.0, of="lame")]
     k: Annotated[int, Row(1, "1", "third parameter of the solid, if it has one", 1.0, of="k")]
     eta: Annotated[int, Row(1, "Pa s", "viscosity of the solid", of="eta")]
+    inertia: Annotated[int, Row(1, "m/kg", "5/(ρ_s R²), the inverse inertia of the shape per volume", 5.0)]
     tension: Annotated[int, Row(1, "Pa", "surface tension over the radius, γ/R")]
     F0: Annotated[int, Row(9, "1", "F at rest, from that sphere", of="F0", saved="mirrored")]
     M: Annotated[int, Row(9, "1", "shape at rest, (F₀ F₀)⁻¹", IDENTITY)]
@@ -75,6 +77,7 @@ class Rows(NamedTuple):
     dt: Annotated[int, Row(1, "s", "time step that is being taken")]
     moving: Annotated[int, Row(1, "", "1 where a step is being taken, else 0")]
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
+    length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more")]
     clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall")]
     most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed")]
     most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed")]
@@ -191,6 +194,18 @@ def store3(block: Any, row: int, i: int, v: Vector) -> None:
     block[k], block[k + LANES], block[k + 2 * LANES] = v[0], v[1], v[2]
 
 
+def load4(block: Any, row: int, i: int) -> tuple[Any, Any, Any, Any]:
+    """The numbers in four rows of lane i."""
+    k = row * LANES + i
+    return block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES]
+
+
+def store4(block: Any, row: int, i: int, v: tuple[Any, Any, Any, Any]) -> None:
+    """Put four numbers into as many rows of lane i."""
+    k = row * LANES + i
+    block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = v[0], v[1], v[2], v[3]
+
+
 def load9(block: Any, row: int, i: int) -> Tensor:
     """The tensor in nine rows of lane i."""
     k = row * LANES + i
@@ -267,6 +282,7 @@ def renew_frames(block: Any) -> None:
         new_integrals(block)
 
 
+@side_by_side
 def frame_stage(block: Any) -> None:
     """Particle frame of the new deformation gradient, from the frame of the last one."""
     for i in range(LANES):
@@ -294,6 +310,7 @@ def straighten(block: Any, allowed: float) -> None:
         stretch_stage(block)
 
 
+@side_by_side
 def straighten_stage(block: Any, allowed: float) -> None:
     """Refine those frames, and no others, that are more skew than is allowed."""
     for i in range(LANES):
@@ -302,6 +319,11 @@ def straighten_stage(block: Any, allowed: float) -> None:
         store9(block, at.Q, i, choose(block[at.skewness * LANES + i] > allowed, refined, Q))
 
 
+def note_pace(_block: Any, _i: int, _tolerance: float) -> None:
+    """Nothing says how long the next step of lane i may be."""
+
+
+@side_by_side
 def accept_stage(block: Any, tolerance: float) -> None:
     """Judge the new shapes and velocities, and take over those that are sound, of the lanes that move."""
     for i in range(LANES):
@@ -320,7 +342,9 @@ def accept_stage(block: Any, tolerance: float) -> None:
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         block[at.verdict * LANES + i] = verdict
+        note_pace(block, i, tolerance)
         sound = (verdict == 0.0) & (block[at.moving * LANES + i] > 0.0)
+        block[at.length * LANES + i] = select(sound, length, block[at.length * LANES + i])
         store9(block, at.F, i, choose(sound, F, load9(block, at.F, i)))
         store9(block, at.A, i, choose(sound, A, load9(block, at.A, i)))
         store9(block, at.frame, i, choose(sound, load9(block, at.Q, i), load9(block, at.frame, i)))
@@ -360,12 +384,14 @@ def is_elongated(stretches: Vector) -> Any:
     return np.maximum(np.maximum(x, y), z) > COMPACT * np.minimum(np.minimum(x, y), z)
 
 
+@side_by_side
 def compact_stage(block: Any) -> None:
     """Jeffery's integrals of the stretches, of bodies that are not elongated."""
     for i in range(LANES):
         store_integrals(block, i, integrals_of_compact(load3(block, at.stretch, i)))
 
 
+@side_by_side
 def elongated_stage(block: Any) -> None:
     """Those of the others; the rest stays as it is."""
     for i in range(LANES):
@@ -382,12 +408,14 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     # None of those that are loaded has ended.
     s.reason[i], s.patch[i] = 0, -1
     load_rows(p, k, s.block, i)
+    s.block[at.inertia * LANES + i] = 5.0 / (p.rho[k] * p.R[k] * p.R[k])
     s.block[at.tension * LANES + i] = p.gamma[k] / p.R[k]
     store9(s.block, at.M, i, metric_at_rest(load9(s.block, at.F0, i)))
     s.block[at.clearance * LANES + i] = np.inf
     s.block[at.taken * LANES + i] = 0.0
     s.block[at.most_stretch * LANES + i] = s.bounds.stretch * longest_stretch(load9(s.block, at.F0, i))
     s.block[at.most_length * LANES + i] = s.bounds.length
+    s.block[at.length * LANES + i] = p.R[k] * longest_stretch(load9(s.block, at.F, i))
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, is_stretched, longest_stretch, transpose
+from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
     CELLS_TOO_MANY,
     FLOW_NOT_FINITE,
@@ -153,7 +153,7 @@ def reach_end(
 
 def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
     """End the particle in lane i if its longest semi-axis is longer than so many sizes of its cell."""
-    longest = s.block[at.R * LANES + i] * longest_stretch(load9(s.block, at.F, i))
+    longest = s.block[at.length * LANES + i]
     if longest**3 > s.bounds.cells**3 * cell_volume(flow, s.host[i]):
         fail(s, i, CELLS_TOO_MANY)
 
@@ -177,7 +177,7 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
     """
     block = s.block
     R, F = block[at.R * LANES + i], load9(block, at.F, i)
-    if is_stretched(F, s.bounds.reach / (SEEN * R)):
+    if SEEN * block[at.length * LANES + i] > s.bounds.reach:
         if s.bounds.reach_grows:
             s.outgrown[0] = UNLISTED
         else:

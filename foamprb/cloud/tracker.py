@@ -14,7 +14,12 @@ from foamprb.body.drag import DRAGS
 from foamprb.body.ellipsoid import COMPACT
 from foamprb.body.error_control import strain_in_frame
 from foamprb.body.material import MATERIALS, finger, finger_in_frame
-from foamprb.body.rosenbrock import extra_stress, kirchhoff
+from foamprb.body.rosenbrock import (
+    elasticity_by_dilation,
+    extra_elasticity_by_dilation,
+    extra_stress,
+    kirchhoff,
+)
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
@@ -129,6 +134,8 @@ class Tracker:
         bindings["derivatives"] = material.derivatives
         if material.dilation is not None:
             bindings["dilation"] = material.dilation
+            bindings["elasticity"] = elasticity_by_dilation
+            bindings["extra_elasticity"] = extra_elasticity_by_dilation
         # In its particle frame the elastic strain of a sphere is diagonal.
         if shaped:
             bindings |= {"finger": finger, "finger_in_frame": finger_in_frame}
@@ -204,7 +211,7 @@ class Tracker:
         scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
-        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h"), 0.0)
+        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt"), 0.0)
         return compile_part(function, arguments, self.bindings, self.separate)
 
     def advance(

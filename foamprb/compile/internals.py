@@ -35,7 +35,7 @@ from importlib.metadata import version
 from typing import Any, Literal, TypeAlias
 
 import numba
-from llvmlite import binding  # type: ignore[import-untyped]
+from llvmlite import binding, ir  # type: ignore[import-untyped]
 
 from foamprb.compile.cache import Store
 from foamprb.errors import InputError, suggestion
@@ -193,10 +193,15 @@ def _machine_code() -> _Changes:
     class Separate(Entry):
         """Intermediate code that others call, optimised, with that of all that it calls."""
 
+        side_by_side = False
+
         def add_ir_module(self, ir_module: Any) -> None:
             for function in ir_module.functions:
                 # Llvmlite knows no attributes of this kind. It means nothing to other processors.
                 set.add(function.attributes, _WIDE)
+                set.add(function.attributes, _ALIGNED)
+                if self.side_by_side:
+                    _interleave(ir_module, function)
             super().add_ir_module(ir_module)
 
         def _finalize_final_module(self) -> None:
@@ -264,7 +269,9 @@ def _machine_code() -> _Changes:
         _name = "lowering_of_separate"
 
         def run_pass(self, state: Any) -> bool:
-            return lower(self, state, Separate(state.targetctx.codegen(), state.func_id.func_qualname))
+            library = Separate(state.targetctx.codegen(), state.func_id.func_qualname)
+            library.side_by_side = getattr(state.func_id.func, SIDE_BY_SIDE, False)
+            return lower(self, state, library)
 
     @register_pass(mutates_CFG=True, analysis_only=False)
     class LoweringOfEntry(NativeLowering):  # type: ignore[misc]
@@ -294,6 +301,24 @@ def _machine_code() -> _Changes:
 
 _WIDE = '"prefer-vector-width"="512"'
 """On a processor that has registers of 512 bits LLVM uses those of 256: stages take a tenth longer."""
+_ALIGNED = '"stackrealign"'
+"""What registers have no room for goes to the stack, where else it may lie on two lines or two pages."""
+
+
+SIDE_BY_SIDE = "side_by_side"
+"""Attribute of functions whose loops go through two registers full of elements at a time."""
+
+
+def _interleave(module: Any, function: Any) -> None:
+    """Ask LLVM for that, at the branches by which the loops of a function begin anew."""
+    count = module.add_metadata(["llvm.loop.interleave.count", ir.Constant(ir.IntType(32), 2)])
+    for place, block in enumerate(function.blocks):
+        for target in block.terminator.operands:
+            if target in function.blocks[: place + 1]:
+                loop = module.add_metadata([block.name, count])
+                # What stands for a loop holds itself.
+                loop.operands = (loop, count)
+                block.terminator.set_metadata("llvm.loop", loop)
 
 
 def _let_be_linked(module: Any) -> None:

@@ -29,9 +29,9 @@ from llvmlite import binding  # type: ignore[import-untyped]
 from foamprb.body.tensor import select
 from foamprb.compile import internals as inner
 from foamprb.compile.cache import Store
-from foamprb.compile.internals import Role, internals, use_cache_for_cuda
+from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals, use_cache_for_cuda
 
-__all__ = ["Target", "compile_part", "is_compiled", "link"]
+__all__ = ["Target", "compile_part", "is_compiled", "link", "side_by_side"]
 
 Target: TypeAlias = Literal["cpu", "cuda"]
 
@@ -74,6 +74,15 @@ def link(
     that was linked.
     """
     return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
+
+
+def side_by_side(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a stage in which each operation waits for the one before: two registers full of lanes go together.
+
+    It holds for separate callees. Where much is at hand to be computed there are not enough registers.
+    """
+    setattr(function, SIDE_BY_SIDE, True)
+    return function
 
 
 def compile_part(
@@ -149,7 +158,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
-    digest.update(repr(captured).encode())
+    digest.update(f"{captured!r} {vars(function)}".encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
@@ -170,6 +179,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         # Code is linked by name, and other processes may have put other models behind a name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
+        vars(clone).update(vars(function))
         make = _compile_for_cpu if target == "cpu" else _compile_for_cuda
         _parts[key] = _Part(make(clone, role, key), key)
     return _parts[key]

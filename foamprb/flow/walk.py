@@ -165,15 +165,18 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
     -------
     As :func:`walk`.
     """
-    tets, neighbours, nodes = flow.tets, flow.neighbours, flow.nodes
+    neighbours = flow.neighbours
     if not is_sound(flow, host):
         return find_thread(flow, host, x0, x1)
     for attempt in range(_ATTEMPTS):
-        nudge = 0.0 if attempt == 0 else 1e-10 * 100.0**attempt
-        a, b, c, d = tets[host, 0], tets[host, 1], tets[host, 2], tets[host, 3]
-        at = a, b, c, d
-        mx, my, mz = blend(nodes, 0, at, _INSIDE), blend(nodes, 1, at, _INSIDE), blend(nodes, 2, at, _INSIDE)
-        start = (x0[0] + nudge * (mx - x0[0]), x0[1] + nudge * (my - x0[1]), x0[2] + nudge * (mz - x0[2]))
+        start = x0
+        if attempt > 0:
+            m, nudge = _blend3(flow, host, _INSIDE), 1e-10 * 100.0**attempt
+            start = (
+                x0[0] + nudge * (m[0] - x0[0]),
+                x0[1] + nudge * (m[1] - x0[1]),
+                x0[2] + nudge * (m[2] - x0[2]),
+            )
         tet, came_from, progress, stalls = host, -1, 0.0, 0
         for _ in range(_MOST_CROSSINGS):
             origin, c1, c2, c3, volume = frame(flow, tet)

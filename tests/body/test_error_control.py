@@ -54,14 +54,18 @@ def test_path_error_is_that_of_the_trapezoidal_rule():
 
 def test_step_factor():
     tolerance = 1e-4
-    assert control.step_factor(False, 1.0, 0.0, tolerance) == control.MOST
-    assert control.step_factor(True, np.nan, 0.0, tolerance) == control.LEAST
-    assert control.step_factor(True, 1e9, 0.0, tolerance) == control.LEAST
+    assert control.step_factor(False, 1.0, np.inf, tolerance) == control.MOST
+    assert control.step_factor(True, np.nan, np.inf, tolerance) == control.LEAST
+    assert control.step_factor(True, 1e9, np.inf, tolerance) == control.LEAST
     # δ₂ of tolerance^(3/4) is just accepted; it is of third order.
     just = tolerance**0.75
-    assert control.step_factor(True, just, 0.0, tolerance) == pytest.approx(control.SAFETY)
-    assert control.step_factor(True, just / 8, 0.0, tolerance) == pytest.approx(2 * control.SAFETY)
-    assert control.step_factor(False, 0.0, 4 * tolerance, tolerance) == pytest.approx(control.SAFETY / 2)
+    assert control.step_factor(True, just, np.inf, tolerance) == pytest.approx(control.SAFETY)
+    assert control.step_factor(True, just / 8, np.inf, tolerance) == pytest.approx(2 * control.SAFETY)
+    by_path = control.path_factor(4 * tolerance, tolerance)
+    assert control.step_factor(False, 0.0, by_path, tolerance) == pytest.approx(control.SAFETY / 2)
+    for path in (np.inf, np.nan):
+        by_path = control.path_factor(path, tolerance)
+        assert control.step_factor(False, 0.0, by_path, tolerance) == control.LEAST
 
 
 def distance(bodies, F, exact):

@@ -124,11 +124,3 @@ def test_exponential_is_a_rotation_for_a_skew_tensor_and_of_fourth_order(T):
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-13)
     small = t.scale(1e-2, T)
     np.testing.assert_allclose(square(t.exponential(small)), expm(square(small)), atol=5e-8)
-
-
-@given(tensors, st.floats(0.1, 10.0))
-def test_whether_a_stretch_is_above_a_limit(F, limit):
-    longest = t.longest_stretch(F)
-    for factor in (1.0 - 1e-9, 1.0 + 1e-9, limit):
-        assert t.is_stretched(F, factor * longest) == (factor < 1.0 and longest > 0.0)
-    assert not t.is_stretched(F, np.inf)

@@ -410,7 +410,7 @@ def test_the_place_predicted_with_inertia_is_that_of_drag_in_a_fluid_that_is_acc
     new_integrals(block)
     u, a = np.array([1.0, -2.0, 3.0]), np.array([4e4, 2e4, -6e4])
     rows = block.reshape(-1, LANES)
-    rows[at.R], rows[at.rho] = R, 4.5
+    rows[at.R], rows[at.rho], rows[at.inertia] = R, 4.5, 5.0 / (4.5 * R**2)
     rows[during.start_l : during.start_l + 9] = rows[at.l : at.l + 9] = 0.0
     for c in range(3):
         rows[at.u + c] = rows[during.start_u + c] = u[c]

@@ -121,7 +121,7 @@ def assembly_of(stage, integrator, monkeypatch, folder, more=()):
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
     around = surrounding(integrator.layout, models, integrator.inertia)
     dispatcher = link(stage, compose(FORCES) | integrator.bindings | around)
-    values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22, "share": 1.0}
+    values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22, "share": 1.0, "dt": 1e-4}
     for model in models:
         values["coefficients"] = model.coefficients([])
     dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))

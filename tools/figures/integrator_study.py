@@ -269,10 +269,11 @@ def pair_step(
         transpose(Q),
         dot(pair.group_exponential(tuple(np.where(third, *p) for p in zip(three, two, strict=True))), G),
     )
+    by_path = control.path_factor(path, tolerance or TOLERANCE)
     factor = np.array(
         [
             control.step_factor(*row, tolerance or TOLERANCE)
-            for row in zip(third, difference, path, strict=True)
+            for row in zip(third, difference, by_path, strict=True)
         ]
     )
     return Step(

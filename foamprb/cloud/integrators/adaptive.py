@@ -19,9 +19,17 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.error_control import largest, longest_step, path_error, share_of_slope, step_factor
-from foamprb.body.tensor import Vector, add, dot_vector, scale, select
+from foamprb.body.error_control import (
+    largest,
+    longest_step,
+    path_error,
+    path_factor,
+    share_of_slope,
+    step_factor,
+)
+from foamprb.body.tensor import Tensor, Vector, add, dot_vector, scale, select
 from foamprb.cloud.block import (
+    BLOCK_STAGES,
     ROWS,
     Medium,
     Scratch,
@@ -78,6 +86,8 @@ class StepRows(NamedTuple):
     disturbed: Annotated[int, Row(1, "", "1 where the gradient that is felt is not the flow's, else 0")]
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
+    by_path: Annotated[int, Row(1, "1", "length of the next step over that of this one, by that error")]
+    rest: Annotated[int, Row(1, "s", "what is left of the tracking step", 1.0)]
 
 
 during = offsets(StepRows, ROWS)
@@ -89,8 +99,7 @@ _SMALLEST = 1e-9
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
     """μ_f K_a/m, 1/s, with K_a in units of R."""
-    R = block[at.R * LANES + i]
-    c = mu_f / (4.0 / 3.0 * math.pi * R * R * block[at.rho * LANES + i])
+    c = mu_f * (3.0 / (20.0 * math.pi)) * block[at.inertia * LANES + i]
     return c * k[0], c * k[1], c * k[2]
 
 
@@ -177,6 +186,33 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
+def begin_stage(block: Any, dt: float) -> None:
+    """Let a step begin with the fluid as the flow has it, and find out how long it is, in tracking steps Δt.
+
+    What was sampled are ``start_u`` and ``start_l``, and ∂u/∂t in the place of Du/Dt.
+    """
+    for i in range(LANES):
+        l = load9(block, during.start_l, i)
+        store_fluid(block, i, load3(block, during.start_u, i), l, load3(block, at.DuDt, i))
+        store9(block, at.new_F, i, load9(block, at.F, i))
+        rest, size, longest = block[during.rest * LANES + i], block[at.h * LANES + i], longest_step(l)
+        size = select(longest < size, longest, size)
+        half = 0.5 * rest
+        # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
+        size = select(size >= rest - SHORTEST_STEP * dt, rest, select(half < size, half, size))
+        block[at.dt * LANES + i] = select(block[at.moving * LANES + i] > 0.0, size, block[at.dt * LANES + i])
+
+
+def path_pace(block: Any, i: int, tolerance: float) -> None:
+    """Store how long the error of the path lets the next step of lane i be."""
+    block[during.by_path * LANES + i] = path_factor(block[during.path * LANES + i], tolerance)
+
+
+ADAPTIVE_STAGES = (*BLOCK_STAGES, begin_stage)
+ADAPTIVE_BINDINGS = {"note_pace": path_pace}
+"""What every integrator of this loop has beside its own stages."""
+
+
 def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
 
@@ -187,17 +223,20 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     surround(block, medium, share)
 
 
-def _host_of(flow: Any, host: int, x: Vector, goal: Vector) -> int:
-    """Host of a place that the step leads to, or the last one on the way to a boundary."""
+def _sample_ahead(flow: Any, host: int, x: Vector, goal: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """The flow at a place to which the step leads from x, as its host has it, or the last one on the way."""
     found, _, patch, _ = walk(flow, host, x, goal)
-    return host if patch == -2 else found
+    if patch == -2 or found == host:
+        # Said so, the compiler takes the shares of the nodes from the walk, which asked whether it is there.
+        return sample(flow, host, goal, t)
+    return sample(flow, found, goal, t)
 
 
 def _sample_end(flow: Any, host: int, block: Any, i: int) -> None:
     """The flow where the step of lane i leads."""
     place = load3(block, at.new_x, i)
-    there = _host_of(flow, host, load3(block, at.x, i), place)
-    u, l_f, u_t = sample(flow, there, place, block[at.t * LANES + i] + block[at.dt * LANES + i])
+    t = block[at.t * LANES + i] + block[at.dt * LANES + i]
+    u, l_f, u_t = _sample_ahead(flow, host, load3(block, at.x, i), place, t)
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
@@ -213,8 +252,7 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
         x[1] + half * v[1] + f * a[1],
         x[2] + half * v[2] + f * a[2],
     )
-    there = _host_of(flow, host, x, place)
-    _, l_f, _ = sample(flow, there, place, block[at.t * LANES + i] + half)
+    _, l_f, _ = _sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
     store9(block, during.middle_l, i, l_f)
 
 
@@ -272,20 +310,19 @@ def track_adaptive(
             block[at.moving * LANES + i] = 1.0
             t = block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
-            store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
-            look_around(flow, scratch, i, current[i], start + (current[i] + 1) * dt - t, medium)
-            store9(block, at.new_F, i, load9(block, at.F, i))
-            size = min(block[at.h * LANES + i], longest_step(l_f))
-            rest = start + (current[i] + 1) * dt - t
-            # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
-            block[at.dt * LANES + i] = rest if size >= rest - SHORTEST_STEP * dt else min(size, 0.5 * rest)
+            store3(block, at.DuDt, i, u_t)
+            block[during.rest * LANES + i] = start + (current[i] + 1) * dt - t
         if interrupted(scratch):
             return 0
         if moving == 0:
             break
 
+        begin_stage(block, dt)
+        for i in range(len(members)):
+            if block[at.moving * LANES + i] > 0.0:
+                look_around(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(len(members)):
@@ -314,8 +351,8 @@ def track_adaptive(
             t_end = start + (current[i] + 1) * dt
             error = block[at.error * LANES + i]
             third = block[during.third * LANES + i] > 0.0
-            difference, path = block[during.difference * LANES + i], block[during.path * LANES + i]
-            allowed = h * step_factor(third, difference, path, tolerance)
+            difference, by_path = block[during.difference * LANES + i], block[during.by_path * LANES + i]
+            allowed = h * step_factor(third, difference, by_path, tolerance)
             if not error <= tolerance:
                 block[at.h * LANES + i] = allowed
                 if allowed < _SMALLEST * dt:

@@ -54,6 +54,7 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.total import look_around, surround
+from foamprb.compile.link import side_by_side
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
@@ -85,6 +86,7 @@ def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
     block[at.J * LANES + i] = det(G)
 
 
+@side_by_side
 def newton_stage(block: Any) -> None:
     """The new deformation gradient."""
     for i in range(LANES):

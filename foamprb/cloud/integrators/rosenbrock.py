@@ -35,7 +35,7 @@ from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.material import viscous_stress
-from foamprb.body.rosenbrock import Stiffness, inertial_stiffness, relaxation_rate
+from foamprb.body.rosenbrock import Shear, Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -51,10 +51,23 @@ from foamprb.body.tensor import (
     vector_dot,
 )
 from foamprb.body.traction import roscoe as traction
-from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import (
+    Medium,
+    at,
+    choose,
+    load3,
+    load4,
+    load9,
+    load_integrals,
+    store3,
+    store4,
+    store9,
+)
 from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces.total import acceleration
 from foamprb.cloud.integrators.adaptive import (
+    ADAPTIVE_BINDINGS,
+    ADAPTIVE_STAGES,
     STEP_ROWS,
     drag_rate,
     during,
@@ -69,6 +82,7 @@ from foamprb.cloud.integrators.adaptive import (
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 from foamprb.cloud.surroundings.resistance import along_own_axes as resist
+from foamprb.cloud.surroundings.resistance import forget_gradient
 from foamprb.cloud.surroundings.resistance import own_axes as find_drag_axes
 from foamprb.cloud.surroundings.resistance import own_frame as drag_axes
 
@@ -86,11 +100,9 @@ class StiffnessRows(NamedTuple):
     l_t: Annotated[int, Row(9, "1/s2", "its rate")]
     b: Annotated[int, Row(3, "1", "λ_a²")]
     traction: Annotated[int, Row(9, "1/s", "how the traction's normal stresses resist stretching")]
-    traction_first: Annotated[int, Row(9, "1/s", "how its shear stresses do, 23 and 13")]
-    traction_second: Annotated[int, Row(9, "1/s", "the same, 12")]
+    traction_pairs: Annotated[int, Row(12, "1/s", "how its shear stresses do, 23, 13 and 12")]
     elastic: Annotated[int, Row(9, "1/s2", "how the elastic normal stresses resist strain")]
-    elastic_first: Annotated[int, Row(9, "1/s2", "how the elastic shear stresses do, 23 and 13")]
-    elastic_second: Annotated[int, Row(9, "1/s2", "the same, 12")]
+    elastic_pairs: Annotated[int, Row(12, "1/s2", "how the elastic shear stresses do, 23, 13 and 12")]
     change: Annotated[int, Row(9, "1/s2", "change of dl_s/dt by that of the fluid's gradient over the step")]
     turning: Annotated[int, Row(9, "1/s3", "rate of change of dl_s/dt by turning")]
     Omega: Annotated[int, Row(9, "1", "Ω of the shape that is evaluated")]
@@ -144,7 +156,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
     depends on l_s, so that what is stiff in l_s does not reappear in F.
     """
     for i in range(LANES):
-        h, c = block[at.dt * LANES + i], _inertia(block, i)
+        h, c = block[at.dt * LANES + i], block[at.inertia * LANES + i]
         Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         # The flow's, and with what the surroundings do to it.
@@ -162,8 +174,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
-        # l_s there, until A is known: the surroundings ask for it.
-        store9(block, at.new_A, i, from_frame(Q, add(L, shape[1])))
+        forget_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)
         store9(block, during.start_Q, i, Q)
         store3(block, own.first_stretch, i, stretches)
         store3(block, own.first_alpha, i, g.alpha)
@@ -261,10 +272,10 @@ def last_inertial(block: Any, medium: Medium) -> None:
         change, turning = load9(block, own.change, i), load9(block, own.turning, i)
         bend = _bend(block, i, medium, Q0)
         shape = end_argument(n, resolvent(n, h), h, start, change, bend, k, turning)
-        F, L = load9(block, at.new_F, i), from_frame(Q0, add(start[0], shape[1]))
+        F = load9(block, at.new_F, i)
         _set_shape(block, i, Q0, dot(Q0, load9(block, at.F, i)), shape)
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
-        store9(block, at.new_A, i, choose(third, L, load9(block, at.new_A, i)))
+        forget_gradient(block, i, Q0, add(start[0], shape[1]), third)
 
         rate, moving = (
             load3(block, own.rate, i),
@@ -342,7 +353,7 @@ def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tupl
     stress = add(stress, scale(-1.0, viscous_stress(L, block[at.eta * LANES + i])))
     J = stretches[0] * stretches[1] * stretches[2]
     tau = conservative_stress(block, i, stretches, b_e, J)
-    c = _inertia(block, i)
+    c = block[at.inertia * LANES + i]
     W = add(scale(c * J, stress), scale(-c, tau))
     return add(over_b(_squares(stretches), W), scale(-1.0, dot(L, L))), tau
 
@@ -429,11 +440,10 @@ def _store_path_error(block: Any, i: int, h: Any, du: Vector, a_u: Vector) -> No
     """Store what the fluid's velocity has beside a parabola in time, by its last slope, over the way."""
     v = load3(block, at.v, i)
     a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
-    f = 2.0 / h
-    x = a[0] + w[0] + a_u[0] - f * du[0]
-    y = a[1] + w[1] + a_u[1] - f * du[1]
-    z = a[2] + w[2] + a_u[2] - f * du[2]
-    error = h * h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / _way(block, i)
+    x = h * (a[0] + w[0] + a_u[0]) - 2.0 * du[0]
+    y = h * (a[1] + w[1] + a_u[1]) - 2.0 * du[1]
+    z = h * (a[2] + w[2] + a_u[2]) - 2.0 * du[2]
+    error = h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / _way(block, i)
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error
@@ -472,35 +482,36 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
         load3(block, own.first_star, i),
         block[own.first_chi * LANES + i],
     )
-    return fluid_change(
-        load3(block, own.first_stretch, i), g, _inertia(block, i), medium.mu, to_frame(Q, bend)
-    )
-
-
-def _inertia(block: Any, i: int) -> float:
-    """c = 5/(ρ_s R²), the inverse inertia of the shape per volume."""
-    R = block[at.R * LANES + i]
-    return 5.0 / (block[at.rho * LANES + i] * R * R)  # type: ignore[no-any-return]
+    c = block[at.inertia * LANES + i]
+    return fluid_change(load3(block, own.first_stretch, i), g, c, medium.mu, to_frame(Q, bend))
 
 
 def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
     store3(block, own.b, i, n.b)
     store9(block, own.traction, i, n.traction)
-    store9(block, own.traction_first, i, n.traction_pairs[0])
-    store9(block, own.traction_second, i, n.traction_pairs[1])
+    _store_pairs(block, own.traction_pairs, i, n.traction_pairs)
     store9(block, own.elastic, i, n.elastic)
-    store9(block, own.elastic_first, i, n.elastic_pairs[0])
-    store9(block, own.elastic_second, i, n.elastic_pairs[1])
+    _store_pairs(block, own.elastic_pairs, i, n.elastic_pairs)
 
 
 def _load_stiffness(block: Any, i: int) -> Stiffness:
     return Stiffness(
         load3(block, own.b, i),
         load9(block, own.traction, i),
-        (load9(block, own.traction_first, i), load9(block, own.traction_second, i)),
+        _load_pairs(block, own.traction_pairs, i),
         load9(block, own.elastic, i),
-        (load9(block, own.elastic_first, i), load9(block, own.elastic_second, i)),
+        _load_pairs(block, own.elastic_pairs, i),
     )
+
+
+def _store_pairs(block: Any, row: int, i: int, pairs: tuple[Shear, Shear, Shear]) -> None:
+    store4(block, row, i, pairs[0])
+    store4(block, row + 4, i, pairs[1])
+    store4(block, row + 8, i, pairs[2])
+
+
+def _load_pairs(block: Any, row: int, i: int) -> tuple[Shear, Shear, Shear]:
+    return load4(block, row, i), load4(block, row + 4, i), load4(block, row + 8, i)
 
 
 ROSENBROCK = Integrator(
@@ -509,7 +520,7 @@ ROSENBROCK = Integrator(
     order=3,
     track=track_adaptive,
     stages=(
-        *BLOCK_STAGES,
+        *ADAPTIVE_STAGES,
         predict_inertial,
         first_inertial,
         second_inertial,
@@ -518,6 +529,7 @@ ROSENBROCK = Integrator(
     ),
     layout=layout(at, during, own),
     bindings={
+        **ADAPTIVE_BINDINGS,
         "predict": predict_inertial,
         "first_slope": first_inertial,
         "second_slope": second_inertial,

@@ -36,10 +36,12 @@ from foamprb.body.tensor import (
     transpose,
 )
 from foamprb.body.turning import commutator, turning_gradient
-from foamprb.cloud.block import BLOCK_STAGES, Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import Medium, at, choose, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.elastic import incompressible_elasticity, incompressible_stress
 from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.integrators.adaptive import (
+    ADAPTIVE_BINDINGS,
+    ADAPTIVE_STAGES,
     STEP_ROWS,
     drag_rate,
     during,
@@ -343,7 +345,7 @@ STOKES = Integrator(
     order=3,
     track=track_adaptive,
     stages=(
-        *BLOCK_STAGES,
+        *ADAPTIVE_STAGES,
         predict_inertialess,
         first_inertialess,
         second_inertialess,
@@ -353,6 +355,7 @@ STOKES = Integrator(
     ),
     layout=layout(at, during, own),
     bindings={
+        **ADAPTIVE_BINDINGS,
         "predict": predict_inertialess,
         "first_slope": first_inertialess,
         "second_slope": second_inertialess,

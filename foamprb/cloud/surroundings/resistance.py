@@ -31,6 +31,10 @@ def own_frame(_block: Any, _i: int, Q: Tensor) -> Tensor:
     return Q
 
 
+def forget_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
+    """Nobody asks for the l_s of a body with inertia before its A is known."""
+
+
 def no_hindrance(_block: Any, _i: int) -> Tensor:
     """No wall hinders."""
     return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
