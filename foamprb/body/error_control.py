@@ -13,7 +13,8 @@ the slope of N has of the solution of order 2, and δ_f that of the fluid's grad
 says that the solution of order 2 will do, and two evaluations are enough. Its error is 5/48 h³ N'' where δ₁
 is ½ h² N', that is 0.21 h N''/N' δ₁. N changes at the rate ρ at which the elastic stress relaxes, or at
 that of the fluid's gradient, and θ = ½ min(1, h (ρ + max |∂u_i/∂x_j|)) is more than twice as much. Else the
-third evaluation is made, and δ₂, the difference of the two solutions, is the error of order 2. That of the
+third evaluation is made, and δ₂, the difference of the two solutions, is the error of order 2. From then on
+as much of θ δ₁ counts as δ₂ says (:func:`learned_share`), for at most eight Δt. That of the
 solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), so that a step is accepted for
 
     δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
@@ -33,6 +34,8 @@ FLUID_SHARE = 1.0 / 32.0
 """Share of δ_f that counts: what is not linear in time of the fluid's gradient is not sampled for order 2."""
 SECOND_SHARE = 0.5
 """θ of a step in which N has all the time to change."""
+DISTRUST, LEAST_SHARE, LEARNED_FOR = 1.5, 0.25, 8
+"""Of :func:`learned_share`: over the error that was found; the least; after so many Δt it is learned anew."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
 LONGEST = 0.5
@@ -96,6 +99,21 @@ def share_of_slope(h: Scalar, rho: Scalar, l_f: Tensor) -> Scalar:
         Velocity gradient of the fluid, 1/s.
     """
     return SECOND_SHARE * np.minimum(1.0, h * (rho + largest(l_f)))
+
+
+def learned_share(difference: Scalar, judged: Scalar) -> Scalar:
+    """What of θ δ₁ counts after a step of order 3, in which the error of order 2 was δ₂: 1.5 δ₂/(θ δ₁).
+
+    Where a body's slope changes less than it might, θ δ₁ is many times the error. At least a quarter counts:
+    since θ is more than twice what it need be, no error that N can have is then above twice the tolerance.
+
+    Parameters
+    ----------
+    difference, judged
+        δ₂ and θ δ₁ of that step.
+    """
+    share = DISTRUST * difference / (judged + 1e-300)
+    return np.minimum(1.0, np.maximum(LEAST_SHARE, share))
 
 
 def longest_step(l_f: Tensor) -> Scalar:

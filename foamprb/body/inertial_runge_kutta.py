@@ -185,7 +185,7 @@ def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> 
 
 
 def size_of_slope(n: Stiffness, r: Resolvent, h: Scalar, v: Pair) -> Pair:
-    """½ h P v, which is h r₂(hJ) v, what a rate v t/h and J add up to, but for −13 to 3 % where J damps."""
+    """½ h P v, 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps."""
     s = _resolve(n, r, v)
     return scale(0.5 * h, s[0]), scale(0.5 * h, s[1])
 

@@ -98,6 +98,10 @@ class Particles(NamedTuple):
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection", fixed=True)]
     t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
     h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 until it has one")]
+    discount: Annotated[
+        Array,
+        Variable((), "f8", "1", "share of what order 2 is judged by that does not count, as was learned"),
+    ]
     substeps: Annotated[
         Array, Variable((), "f8", "1", "time steps of its last tracking step, with those that were repeated")
     ]

@@ -27,6 +27,7 @@ from foamprb.flow.walk import (
     normal,
     recover,
     sample,
+    sample_ahead,
     turbulence,
     walk,
 )
@@ -140,6 +141,7 @@ class MeshFlow:
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "sample_ahead": sample_ahead,
         "curvature": curvature,
         "walk": walk,
         "gap": gap,

@@ -40,7 +40,28 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
 
     The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
     """
-    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
+    return _sample_by(flow, host, shape(flow, host, x))
+
+
+def sample_ahead(
+    flow: MeshArrays, host: int, x0: Vector, x1: Vector, t: float
+) -> tuple[Vector, Tensor, Vector]:
+    """:func:`sample` at x1, to which a way leads from x0 in ``host``, as the last tetrahedron on it has it.
+
+    Mostly that is ``host``, and what says so are the shares of its nodes.
+    """
+    origin, c1, c2, c3, volume = frame(flow, host)
+    w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
+    if min(w0, w1, w2, w3) >= -TOLERANCE * volume and is_sound(flow, host):
+        s = 1.0 / volume
+        return _sample_by(flow, host, (s * w0, s * w1, s * w2, s * w3))
+    found, _, patch, _ = follow(flow, host, x0, x1)
+    return sample(flow, host if patch == FAILED else found, x1, t)
+
+
+def _sample_by(flow: MeshArrays, host: int, w: Weights) -> tuple[Vector, Tensor, Vector]:
+    """:func:`sample` where the nodes of the tetrahedron have these shares."""
+    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), w)
     return u, l, (0.0, 0.0, 0.0)
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from scipy.special import elliprd, elliprf
 from strategies import flat, rotations, stretches
 
-from foamprb.body.ellipsoid import integrals, reach
+from foamprb.body.ellipsoid import _ring_tail, _tails, integrals, reach
 
 SHAPES = [
     (1.0, 1.0, 1.0),
@@ -68,6 +68,36 @@ def test_integrals_equal_quadrature_to_twelve_digits(shape):
     expected = by_quadrature(*shape)
     for name, value in as_dict(*shape).items():
         assert abs(mpmath.mpf(float(value)) / expected[name] - 1) < 1e-12, name
+
+
+def ring(x, y, z):
+    """∫dλ/((y+λ)(z+λ)Δ) of squared semi-axes, as a divided difference, to 30 digits."""
+    mpmath.mp.dps = 60
+    x, y, z = map(mpmath.mpf, (x, y, z))
+    return mpmath.mpf(2) / 3 * (mpmath.elliprd(x, y, z) - mpmath.elliprd(x, z, y)) / (y - z)
+
+
+@pytest.mark.parametrize("way", [(2.0, -1.0, -0.9), (-2.0, 1.0, 1.3), (0.1, 1.0, -1.0), (1.0, 0.5, -1.5)])
+def test_the_series_at_nearly_equal_axes_ends_before_the_eighth_order(way):
+    errors = []
+    for size in (0.1, 0.05):
+        x, y, z = (1.0 + size * w for w in way)
+        mean = mpmath.mpf(x + 3.0 * y + 3.0 * z) / 7
+        found = _ring_tail(x, y, z, float(1 / mean))
+        errors.append(abs(float(found - ring(x, y, z) * mean ** mpmath.mpf(2.5))))
+    assert errors[0] < 3e-7
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(8.0, abs=0.5)
+
+
+@given(stretches)
+def test_the_tails_have_all_digits_where_few_duplications_leave_them(axes):
+    """Roots by series about the common mean, for squares that differ as a ratio of 1000 leaves them."""
+    x, y, z = (1.0 + 0.045 * np.log(a / min(axes)) / max(np.log(max(axes) / min(axes)), 1e-9) for a in axes)
+    *tails, total = _tails(x, y, z)
+    assert total == pytest.approx(2.0 / np.sqrt(x * y * z), rel=1e-15)
+    for tail, (p, q, r) in zip(tails, ((x, y, z), (y, z, x), (z, x, y)), strict=True):
+        mean = (p + 3.0 * q + 3.0 * r) / 7.0
+        assert tail == pytest.approx(_ring_tail(p, q, r, 1.0 / mean) * mean**-2.5, rel=1e-15)
 
 
 @given(stretches, st.permutations([0, 1, 2]))

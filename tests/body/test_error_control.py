@@ -68,6 +68,11 @@ def test_step_factor():
         assert control.step_factor(False, 0.0, by_path, tolerance) == control.LEAST
 
 
+def test_what_counts_after_a_step_of_order_three_is_what_it_found():
+    share = control.learned_share(np.array([0.1, 1.0, 4.0, 9.0, np.inf]), 10.0)
+    np.testing.assert_allclose(share, [0.25, 0.25, 0.6, 1.0, 1.0])
+
+
 def distance(bodies, F, exact):
     """Size of Ω in F = (1 + Ω) F_exact."""
     b_e = finger(exact, bodies.M)

@@ -97,6 +97,24 @@ def test_response_is_that_function_of_the_stiffness(stretch, X, Y, h):
     np.testing.assert_allclose(found, expected, atol=1e-7 * (1.0 + np.abs(expected).max()))
 
 
+@pytest.mark.parametrize("z", [*-np.geomspace(1e-6, 1e6, 40)])
+def test_a_slope_counts_for_what_it_adds_up_to_or_a_little_more(z):
+    """½ P for r₂, from no damping to one that leaves nothing."""
+    assert 0.96 < 0.5 / (1.0 - own.GAMMA * z) / r(2, z) < 1.15
+
+
+@given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
+def test_the_size_of_a_slope_is_half_of_the_resolvent(stretch, X, Y, h):
+    n, _ = stiffness(stretch)
+    whole = own.resolvent(n, h)
+    s = own.size_of_slope(n, whole, h, (X, Y))
+    # (1 − γhJ) s = ½ h v
+    J = own.stiff_rate(n, s)
+    for part, rate, v in zip(s, J, (X, Y), strict=True):
+        back = np.subtract(part, own.GAMMA * h * np.array(rate))
+        np.testing.assert_allclose(back, 0.5 * h * np.array(v), atol=1e-7 * (1.0 + np.abs(v).max()))
+
+
 @given(st.tuples(positive, positive, positive), st.floats(1e-3, 10.0))
 def test_the_barycentre_is_advanced_by_the_same_functions(rates, h):
     """Along each axis by its own rate."""

@@ -73,6 +73,25 @@ def test_the_extra_stress_of_an_incompressible_body_lacks_a_pressure_only(name, 
     assert whole.shear == extra.shear
 
 
+@pytest.mark.parametrize("tension", [0.0, 3.0])
+@pytest.mark.parametrize("name", [name for name, solid in MATERIALS.items() if solid.dilation is not None])
+@given(stretch=mild_stretches)
+def test_the_elasticity_of_a_solid_with_a_dilation_is_that_by_differences(name, tension, stretch):
+    squares, J = tuple(s * s for s in stretch), float(np.prod(stretch))
+    with pytest.MonkeyPatch.context() as patch:
+        for part in ("derivatives", "dilation"):
+            patch.setattr(rosenbrock, part, getattr(MATERIALS[name], part))
+        arguments = squares, J, MU, LAME, 0.0, tension
+        for closed, by_differences in (
+            (rosenbrock.elasticity_by_dilation, rosenbrock.elasticity),
+            (rosenbrock.extra_elasticity_by_dilation, rosenbrock.extra_elasticity),
+        ):
+            found, expected = closed(*arguments), by_differences(*arguments)
+            size = np.abs(expected.slopes).max()
+            np.testing.assert_allclose(found.slopes, expected.slopes, atol=1e-5 * size)
+            np.testing.assert_allclose(found.shear, expected.shear, rtol=1e-12)
+
+
 def _bulk_of_shear(name, k):
     """By how much λ' is less than λ in the solid's volume energy."""
     return {"mooneyRivlin": 2.0 * MU * k, "gent": 2.0 * MU / (k or 1.0)}.get(name, 0.0)

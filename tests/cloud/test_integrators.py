@@ -298,24 +298,63 @@ def test_what_inertia_did_at_a_sudden_start_is_soon_forgotten(number):
         assert (errors < limits).all(), errors
 
 
+@pytest.mark.parametrize("learns", [False, True])
 @pytest.mark.parametrize("gamma_h", [0.03, 0.073, 0.15])
-def test_the_error_of_every_step_is_about_below_the_tolerance(gamma_h):
-    """Of steps from right states, from rest on: below in 95 of 100, and nowhere twice as much."""
+def test_the_error_of_every_step_is_about_below_the_tolerance(gamma_h, learns):
+    """Of steps from right states, from rest on: below in 95 of 100, and nowhere twice as much.
+
+    So it is whether or not a body remembers what its last steps of order 3 said of those of order 2.
+    """
     Ca, tolerance, parts = [1e-3, 1e-2, 0.03, 0.1, 0.3, 0.5, 1.0, 2.0], 1e-4, 64
     # Steps of fixed size are of order 3 whatever their errors are.
     exact = in_flow(analytic.shear(1.0), Ca, gamma_h / parts, "stokes")
-    errors = []
+    errors, discount = [], np.zeros(len(Ca))
     for _ in range(30):
         cloud = in_flow(analytic.shear(1.0), Ca, gamma_h, "stokes", tolerance)
+        cloud.particles.discount[:] = discount
         for name in ("F", "A", "v", "Q"):
             getattr(cloud.particles, name)[:] = getattr(exact.particles, name)
         cloud.particles.h[:] = gamma_h
         exact.advance(parts)
         cloud.advance(1)
+        if learns:
+            discount = cloud.particles.discount
         found = relative_errors(cloud.particles.F, exact.particles.F)
         errors.append(found / np.maximum(cloud.particles.substeps, 1.0))
     assert np.max(errors) < 2 * tolerance
     assert np.mean(np.array(errors) < tolerance) > 0.95
+
+
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+def test_a_body_learns_how_much_less_its_errors_are_than_they_might_be(integrator):
+    """A soft one treads its tank steadily: where N might change at a rate γ̇ it hardly does.
+
+    Whether a step was of order 3 is seen by comparison with one of order 2.
+    """
+    Ca, h = [1.5, 2.0, 2.5], 0.08
+    clouds = [in_flow(analytic.shear(1.0), Ca, h, integrator, 1e-4, 0.05) for _ in range(2)]
+    exact, second = (in_flow(analytic.shear(1.0), Ca, h, integrator, t, 0.05) for t in (1e-9, 1e6))
+    thirds = np.zeros((2, 60, len(Ca)))
+    errors = []
+    for n in range(60):
+        for k, cloud in enumerate(clouds):
+            for other in (exact, second):
+                for name in ("F", "A", "v", "Q"):
+                    getattr(other.particles, name)[:] = getattr(cloud.particles, name)
+                other.particles.h[:] = h
+                other.advance(1)
+            if k == 1:
+                cloud.particles.discount[:] = 0.0
+            cloud.advance(1)
+            thirds[k, n] = (cloud.particles.F != second.particles.F).any(axis=1)
+            if n >= 20:
+                assert (cloud.particles.substeps == 1).all()
+                errors.append(relative_errors(cloud.particles.F, exact.particles.F))
+    learned, not_learned = thirds[:, 20:].mean(axis=(1, 2))
+    assert not_learned > 0.4
+    assert 0.0 < learned < 0.7 * not_learned
+    assert np.max(errors) < 1e-4
+    assert (clouds[0].particles.discount > 0.0).any()
 
 
 def test_rosenbrock_and_the_papers_scheme_go_to_one_limit():

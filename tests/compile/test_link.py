@@ -17,11 +17,13 @@ from numba import TypingError
 
 import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
+from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
 from foamprb.compile.internals import SWITCH
-from foamprb.compile.link import compile_part, link
+from foamprb.compile.link import compile_part, link, side_by_side
 
 FIRST, SECOND = 2, 3
+MANY = 48
 
 
 def has_registers_of_512_bits():
@@ -107,6 +109,35 @@ def roots(values):
 def roots_of_both(values, others):
     roots(values)
     roots(others)
+
+
+# All the roots of a lane are wanted before the first of them can go.
+exec(
+    "def many_at_once(values):\n    for i in range(LANES):\n"
+    + "".join(f"        r{k} = math.sqrt(values[{k} * LANES + i])\n" for k in range(MANY))
+    + "".join(f"        values[{k} * LANES + i] = r{k} * r{MANY - 1 - k}\n" for k in range(MANY))
+)
+
+
+def first_of_many(values):
+    many_at_once(values)  # noqa: F821
+    return values[0]
+
+
+def chain(values):
+    for i in range(values.shape[0]):
+        values[i] = math.sqrt(1.0 / (1.0 + math.sqrt(values[i])))
+
+
+@side_by_side
+def chain_side_by_side(values):
+    for i in range(values.shape[0]):
+        values[i] = math.sqrt(1.0 / (1.0 + math.sqrt(values[i])))
+
+
+def last_of_chain(values):
+    chain(values)
+    return values[0]
 
 
 def doubled(x):
@@ -288,6 +319,34 @@ def test_what_is_called_uses_the_widest_registers(cache):
     np.testing.assert_array_equal(values, np.sqrt(np.arange(20.0)))
     (assembly,) = f.inspect_asm().values()
     assert re.search(r"vsqrtpd[^\n]*%zmm", assembly)
+
+
+@pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")
+def test_what_registers_have_no_room_for_lies_on_whole_lines(cache):
+    """Where the stack is taken as it is found, registers are saved across lines, and some across pages."""
+    f = link(first_of_many, separate=(many_at_once,))  # noqa: F821
+    values = np.full(MANY * LANES, 4.0)
+    f(values)
+    np.testing.assert_array_equal(values, 4.0)
+    (assembly,) = f.inspect_asm().values()
+    assert re.search(r"and[q]?\s+\$-64, %rsp", assembly)
+    assert re.search(r"vmovap[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
+    assert not re.search(r"vmovup[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
+
+
+@pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")
+def test_two_registers_full_go_side_by_side_where_that_is_asked_for(cache):
+    found = []
+    for stage in (chain, chain_side_by_side):
+        f = link(last_of_chain, {"chain": stage}, separate=(stage,))
+        values = np.arange(1.0, 35.0)
+        f(values)
+        np.testing.assert_allclose(values, np.sqrt(1.0 / (1.0 + np.sqrt(np.arange(1.0, 35.0)))), rtol=1e-15)
+        (assembly,) = f.inspect_asm().values()
+        found.append(re.findall(r"(vsqrtpd|vdivpd)[^\n]*%zmm", assembly))
+    alone, together = found
+    assert alone == ["vsqrtpd", "vdivpd", "vsqrtpd"]
+    assert together == ["vsqrtpd", "vsqrtpd", "vdivpd", "vdivpd", "vsqrtpd", "vsqrtpd"]
 
 
 def test_bound_of_the_stretches():

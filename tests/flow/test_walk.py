@@ -38,6 +38,7 @@ from foamprb.flow.walk import (
     normal,
     recover,
     sample,
+    sample_ahead,
     turbulence,
     walk,
 )
@@ -142,6 +143,35 @@ def test_walks_end_where_the_tree_finds_them(kind, random):
     assert np.all(fractions == 1.0)
     assert weights(flow, hosts, end).min() >= -1e-9
     assert np.array_equal(hosts, flow.locate(end))
+
+
+def look_ahead(flow, hosts, start, end, u, l):
+    for i in range(start.shape[0]):
+        x0, x1 = (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
+        velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
+        for k in range(3):
+            u[i, k] = velocity[k]
+        for k in range(9):
+            l[i, k] = gradient[k]
+
+
+@pytest.mark.parametrize("reach", [0.01, 0.3, 3.0])
+def test_ahead_the_flow_is_that_of_the_last_tetrahedron_on_the_way(reach, random):
+    """Within the first one, in another, and beyond the boundary."""
+    shape = block(6, 0.25, "mixed")
+    mesh = build_mesh(shape, box_patches(shape))
+    n = len(mesh.nodes)
+    flow = MeshFlow(mesh, random.standard_normal((n, 3)), random.standard_normal((n, 3, 3)))
+    start = random.random((2000, 3))
+    end = start + reach * random.uniform(-0.5, 0.5, start.shape)
+    first = flow.locate(start)
+    last, *_ = walked(flow, first, start, end)
+    assert 0.02 < np.mean(first == last) < 0.98 or reach == 3.0
+    u, l = np.empty((2000, 3)), np.empty((2000, 9))
+    link(look_ahead)(flow.arrays(), first, start, end, u, l)
+    expected_u, expected_l = flow.sample(end, last, 0.0)
+    np.testing.assert_allclose(u, expected_u, atol=1e-11 * np.abs(expected_u).max())
+    np.testing.assert_allclose(l, expected_l.reshape(-1, 9), atol=1e-11 * np.abs(expected_l).max())
 
 
 @pytest.mark.parametrize("kind", KINDS)

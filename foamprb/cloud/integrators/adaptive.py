@@ -8,7 +8,8 @@ A step evaluates the body's equations at its start, at a quarter of it, and for 
 at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
 
 The names ``predict``, ``first_slope``, ``second_slope``, ``last_argument``, ``third_slope`` and ``end_slope``
-are bound to the stages of the integrator when the loop is compiled, ``sample`` and ``walk`` to the flow.
+are bound to the stages of the integrator when the loop is compiled, ``sample`` and ``walk`` to the flow, and
+``sample_ahead`` where it has its own.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.error_control import (
+    LEARNED_FOR,
     largest,
+    learned_share,
     longest_step,
     path_error,
     path_factor,
@@ -83,6 +86,10 @@ class StepRows(NamedTuple):
     end_u: Annotated[int, Row(3, "m/s", "velocity of the fluid at the end")]
     end_ut: Annotated[int, Row(3, "m/s2", "∂u/∂t at the end")]
     third: Annotated[int, Row(1, "", "1 where the step goes to order 3, else 0")]
+    discount: Annotated[
+        int, Row(1, "1", "share of what order 2 is judged by that does not count", of="discount", saved=True)
+    ]
+    judged: Annotated[int, Row(1, "1", "what order 2 is judged by: θ δ₁, with that of the fluid")]
     disturbed: Annotated[int, Row(1, "", "1 where the gradient that is felt is not the flow's, else 0")]
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
@@ -166,6 +173,19 @@ def judged_share(block: Any, i: int, rho: Any) -> Any:
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
+def counted(block: Any, i: int, judged: Any) -> Any:
+    """What counts of θ δ₁ as an error of order 2: all where the surroundings change what the body feels."""
+    block[during.judged * LANES + i] = judged
+    discount = select(block[during.disturbed * LANES + i] > 0.0, 0.0, block[during.discount * LANES + i])
+    return (1.0 - discount) * judged
+
+
+def learn(block: Any, i: int, third: Any, difference: Any) -> None:
+    """Store what shall count from now on, where a step has gone to order 3, δ₂ being the difference."""
+    share = learned_share(difference, block[during.judged * LANES + i])
+    block[during.discount * LANES + i] = select(third, 1.0 - share, block[during.discount * LANES + i])
+
+
 def keep_frame(block: Any, i: int, third: Any) -> None:
     """Give lane i the frame of its own last evaluation; the third is made if any lane needs it."""
     Q, second = load9(block, at.Q, i), load9(block, during.second_Q, i)
@@ -223,20 +243,17 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     surround(block, medium, share)
 
 
-def _sample_ahead(flow: Any, host: int, x: Vector, goal: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+def sample_ahead(flow: Any, host: int, x: Vector, goal: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
     """The flow at a place to which the step leads from x, as its host has it, or the last one on the way."""
     found, _, patch, _ = walk(flow, host, x, goal)
-    if patch == -2 or found == host:
-        # Said so, the compiler takes the shares of the nodes from the walk, which asked whether it is there.
-        return sample(flow, host, goal, t)
-    return sample(flow, found, goal, t)
+    return sample(flow, host if patch == -2 else found, goal, t)
 
 
 def _sample_end(flow: Any, host: int, block: Any, i: int) -> None:
     """The flow where the step of lane i leads."""
     place = load3(block, at.new_x, i)
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    u, l_f, u_t = _sample_ahead(flow, host, load3(block, at.x, i), place, t)
+    u, l_f, u_t = sample_ahead(flow, host, load3(block, at.x, i), place, t)
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
@@ -252,7 +269,7 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
         x[1] + half * v[1] + f * a[1],
         x[2] + half * v[2] + f * a[2],
     )
-    _, l_f, _ = _sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
+    _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
     store9(block, during.middle_l, i, l_f)
 
 
@@ -314,6 +331,9 @@ def track_adaptive(
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
             block[during.rest * LANES + i] = start + (current[i] + 1) * dt - t
+            # All at the same time: a third evaluation costs a block as much for one lane as for all.
+            if current[i] % LEARNED_FOR == 0:
+                block[during.discount * LANES + i] = 0.0
         if interrupted(scratch):
             return 0
         if moving == 0:

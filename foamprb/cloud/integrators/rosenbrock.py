@@ -69,6 +69,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
     STEP_ROWS,
+    counted,
     drag_rate,
     during,
     end_acceleration,
@@ -76,6 +77,7 @@ from foamprb.cloud.integrators.adaptive import (
     judge_difference,
     judged_share,
     keep_frame,
+    learn,
     note_disturbance,
     track_adaptive,
 )
@@ -230,7 +232,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
         share = judged_share(block, i, relaxation_rate(n))
         two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
-        size = _size(judged, h, b_e, strain_scale(b_e, two[0]))
+        size = counted(block, i, _size(judged, h, b_e, strain_scale(b_e, two[0])))
         store9(block, own.slope_Omega, i, k[0])
         store9(block, own.slope_l, i, k[1])
         store9(block, own.second_Omega, i, two[0])
@@ -308,6 +310,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
         strain = strain_scale(b_e, two[0])
         difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
+        learn(block, i, third, difference)
 
         rate, moving = (
             load3(block, own.rate, i),
