@@ -59,7 +59,7 @@ def _tails(x: Scalar, y: Scalar, z: Scalar) -> tuple[Scalar, Scalar, Scalar, Sca
     """The integral of :func:`_ring_tail` for x, y and z in turn, and 2/√(xyz), of nearly equal x, y, z.
 
     Divisions and roots cost most here. One division gives all reciprocals; one root that of the common mean,
-    and series in the relative differences from it, below 0.013 and 0.0015, give the others.
+    and a series in what differs from it, by less than 0.013, gives the others.
     """
     p, q, r = (
         (x + 3.0 * (y + z)) * (1.0 / 7.0),
@@ -70,15 +70,11 @@ def _tails(x: Scalar, y: Scalar, z: Scalar) -> tuple[Scalar, Scalar, Scalar, Sca
     both, v, w = reciprocals((p * mean, q, r))
     u, inverse = mean * both, p * both
     root = np.sqrt(inverse)
-    e = 1.0 - (x * inverse) * (y * inverse) * (z * inverse)
-    total = 1.0 + e * (
-        1.0 / 2.0 + e * (3.0 / 8.0 + e * (5.0 / 16.0 + e * (35.0 / 128.0 + e * (63.0 / 256.0))))
-    )
     return (
         _ring_tail(x, y, z, u) * (u * u * (root * _reciprocal_root(p * inverse - 1.0))),
         _ring_tail(y, z, x, v) * (v * v * (root * _reciprocal_root(q * inverse - 1.0))),
         _ring_tail(z, x, y, w) * (w * w * (root * _reciprocal_root(r * inverse - 1.0))),
-        2.0 * inverse * root * total,
+        2.0 * inverse * (root * _reciprocal_root((x * inverse) * (y * inverse) * (z * inverse) - 1.0)),
     )
 
 

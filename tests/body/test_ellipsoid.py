@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.special import elliprd, elliprf
+from numpy.polynomial import Polynomial
+from scipy.special import binom, elliprd, elliprf
 from strategies import flat, rotations, stretches
 
-from foamprb.body.ellipsoid import _ring_tail, _tails, integrals, reach
+from foamprb.body.ellipsoid import _reciprocal_root, _ring_tail, _tails, integrals, reach
 
 SHAPES = [
     (1.0, 1.0, 1.0),
@@ -75,6 +76,21 @@ def ring(x, y, z):
     mpmath.mp.dps = 60
     x, y, z = map(mpmath.mpf, (x, y, z))
     return mpmath.mpf(2) / 3 * (mpmath.elliprd(x, y, z) - mpmath.elliprd(x, z, y)) / (y - z)
+
+
+@pytest.mark.parametrize("ratio", [-3.0, -0.7, 0.0, 0.5, 2.0])
+def test_the_series_at_nearly_equal_axes_is_that_of_the_power_sums(ratio):
+    """(2/5) Σ 5/(5 + 2m) T_m (Carlson 1979), m T_m = Σ p_k T_{m−k}; ``ratio`` is (y − z)/m over x/m − 1."""
+    s = Polynomial([0.0, 1.0])
+    found = _ring_tail(1.0 + s, ratio * s, 0.0 * s, 1.0)
+    X, Y, Z = -1.0, (1.0 / 3.0 - ratio) / 2.0, (1.0 / 3.0 + ratio) / 2.0
+    p = [0.5 * X**k + 1.5 * (Y**k + Z**k) for k in range(8)]
+    T = [1.0]
+    for m in range(1, 8):
+        T.append(sum(p[k] * T[m - k] for k in range(1, m + 1)) / m)
+    expected = [0.4 * 5.0 / (5.0 + 2.0 * m) * T[m] for m in range(8)]
+    np.testing.assert_allclose(found.coef, expected, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(_reciprocal_root(s).coef, binom(-0.5, np.arange(8)), rtol=1e-14)
 
 
 @pytest.mark.parametrize("way", [(2.0, -1.0, -0.9), (-2.0, 1.0, 1.3), (0.1, 1.0, -1.0), (1.0, 0.5, -1.5)])
