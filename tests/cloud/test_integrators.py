@@ -357,6 +357,19 @@ def test_a_body_learns_how_much_less_its_errors_are_than_they_might_be(integrato
     assert (clouds[0].particles.discount > 0.0).any()
 
 
+@pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])
+def test_what_a_body_has_learned_holds_until_the_next_eighth_step(integrator):
+    """A stiff one in a slow flow, which needs no step of order 3 to learn from."""
+    cloud = in_flow(analytic.shear(1.0), 0.1, 1e-3, integrator, 1e-4, 1e-4)
+    cloud.advance(10)
+    cloud.particles.discount[:] = 0.5
+    cloud.advance(6)
+    assert cloud.step == 16
+    assert (cloud.particles.discount == 0.5).all()
+    cloud.advance(1)
+    assert (cloud.particles.discount == 0.0).all()
+
+
 def test_rosenbrock_and_the_papers_scheme_go_to_one_limit():
     found = {}
     for integrator, dt in (("paper", 2e-4), ("paper", 1e-4), ("rosenbrock", 1e-3)):
