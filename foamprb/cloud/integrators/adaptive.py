@@ -183,7 +183,9 @@ def counted(block: Any, i: int, judged: Any) -> Any:
 def learn(block: Any, i: int, third: Any, difference: Any) -> None:
     """Store what shall count from now on, where a step has gone to order 3, δ₂ being the difference."""
     share = learned_share(difference, block[during.judged * LANES + i])
-    block[during.discount * LANES + i] = select(third, 1.0 - share, block[during.discount * LANES + i])
+    # A lane that has done its steps goes through the stages still, and is saved after them.
+    learns = third & (block[at.moving * LANES + i] > 0.0)
+    block[during.discount * LANES + i] = select(learns, 1.0 - share, block[during.discount * LANES + i])
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:
