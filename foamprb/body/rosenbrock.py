@@ -149,13 +149,18 @@ def elasticity(
     px = (_pressure(*_principal_invariants((x * g, y, z)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
     py = (_pressure(*_principal_invariants((x, y * g, z)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
     pz = (_pressure(*_principal_invariants((x, y, z * g)), Jh, mu, lame, k) - p) * _PER_DIFFERENCE
+    return _with_pressure(e, px, py, pz)
+
+
+def _with_pressure(e: Elasticity, px: Scalar, py: Scalar, pz: Scalar) -> Elasticity:
+    """The same of a solid whose pressure changes so, Pa, with each ln e_c."""
     s = e.slopes
     slopes = (
         s[0] + px, s[1] + py, s[2] + pz,
         s[3] + px, s[4] + py, s[5] + pz,
         s[6] + px, s[7] + py, s[8] + pz,
     )  # fmt: skip
-    return Elasticity(squares, slopes, e.shear)
+    return Elasticity(e.squares, slopes, e.shear)
 
 
 def elasticity_by_dilation(
@@ -166,14 +171,7 @@ def elasticity_by_dilation(
     The solid is one that has a :attr:`foamprb.body.material.Material.dilation`.
     """
     bulk = dilation(J, mu, lame)
-    e = extra_elasticity_by_dilation(squares, J, mu, lame, k, tension)
-    s = e.slopes
-    slopes = (
-        s[0] + bulk, s[1] + bulk, s[2] + bulk,
-        s[3] + bulk, s[4] + bulk, s[5] + bulk,
-        s[6] + bulk, s[7] + bulk, s[8] + bulk,
-    )  # fmt: skip
-    return Elasticity(squares, slopes, e.shear)
+    return _with_pressure(extra_elasticity_by_dilation(squares, J, mu, lame, k, tension), bulk, bulk, bulk)
 
 
 def extra_elasticity_by_dilation(

@@ -158,7 +158,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
-    digest.update(f"{captured!r} {vars(function)}".encode())
+    together = getattr(function, SIDE_BY_SIDE, False)
+    digest.update(f"{captured!r} {together}".encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
@@ -179,7 +180,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         # Code is linked by name, and other processes may have put other models behind a name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
-        vars(clone).update(vars(function))
+        setattr(clone, SIDE_BY_SIDE, together)
         make = _compile_for_cpu if target == "cpu" else _compile_for_cuda
         _parts[key] = _Part(make(clone, role, key), key)
     return _parts[key]

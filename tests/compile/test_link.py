@@ -349,6 +349,17 @@ def test_two_registers_full_go_side_by_side_where_that_is_asked_for(cache):
     assert together == ["vsqrtpd", "vsqrtpd", "vdivpd", "vdivpd", "vsqrtpd", "vsqrtpd"]
 
 
+def test_what_else_a_function_carries_does_not_change_its_code(cache, monkeypatch):
+    """A wrapper's ``__wrapped__`` has another address in every process."""
+    keys = []
+    for mark in (object(), object()):
+        monkeypatch.setattr(compiling, "_parts", {})
+        monkeypatch.setattr(doubled, "mark", mark, raising=False)
+        link(doubled)
+        keys += compiling._parts
+    assert keys[0] == keys[1]
+
+
 def test_bound_of_the_stretches():
     """No stretch is longer, and of spheres and prolate spheroids the longest is it."""
     random = np.random.default_rng(0)

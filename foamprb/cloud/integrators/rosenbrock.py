@@ -84,7 +84,7 @@ from foamprb.cloud.integrators.adaptive import (
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 from foamprb.cloud.surroundings.resistance import along_own_axes as resist
-from foamprb.cloud.surroundings.resistance import forget_gradient
+from foamprb.cloud.surroundings.resistance import leave_gradient
 from foamprb.cloud.surroundings.resistance import own_axes as find_drag_axes
 from foamprb.cloud.surroundings.resistance import own_frame as drag_axes
 
@@ -176,7 +176,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
-        forget_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)
+        leave_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)
         store9(block, during.start_Q, i, Q)
         store3(block, own.first_stretch, i, stretches)
         store3(block, own.first_alpha, i, g.alpha)
@@ -277,7 +277,7 @@ def last_inertial(block: Any, medium: Medium) -> None:
         F = load9(block, at.new_F, i)
         _set_shape(block, i, Q0, dot(Q0, load9(block, at.F, i)), shape)
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
-        forget_gradient(block, i, Q0, add(start[0], shape[1]), third)
+        leave_gradient(block, i, Q0, add(start[0], shape[1]), third)
 
         rate, moving = (
             load3(block, own.rate, i),

@@ -31,7 +31,7 @@ def own_frame(_block: Any, _i: int, Q: Tensor) -> Tensor:
     return Q
 
 
-def forget_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
+def leave_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
     """Nobody asks for the l_s of a body with inertia before its A is known."""
 
 

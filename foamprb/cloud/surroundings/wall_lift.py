@@ -340,7 +340,7 @@ def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:
     return to_frame(Q, dot(load9(block, at.A, i), inverse(load9(block, at.F, i))))
 
 
-def leave_gradient(block: Any, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
+def leave_moving_gradient(block: Any, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
     """Put its l_s, components in the frame Q, where :func:`moving_gradient` finds it, if it is wanted."""
     l = from_frame(Q, l_s)
     store9(block, at.new_A, i, choose(wanted, l, load9(block, at.new_A, i)))
@@ -530,7 +530,7 @@ class WallLift(Surrounding):
         motion: Mapping[str, Callable[..., Any]] = {
             "body_gradient": moving_gradient if inertia else balanced_gradient,
             "body_response": standing_firm if inertia else giving_way,
-            "forget_gradient": leave_gradient,
+            "leave_gradient": leave_moving_gradient,
         }
         if not self.mobility:
             return motion
