@@ -102,6 +102,7 @@ class Particles(NamedTuple):
         Array,
         Variable((), "f8", "1", "share of what order 2 is judged by that does not count, as was learned"),
     ]
+    demanding: Annotated[Array, Variable((), "i1", "", "1 if steps like its last one go to order 3, else 0")]
     substeps: Annotated[
         Array, Variable((), "f8", "1", "time steps of its last tracking step, with those that were repeated")
     ]

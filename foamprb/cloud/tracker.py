@@ -352,9 +352,10 @@ def shares_of(
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """The order in which particles are put into blocks, of those in some rows.
 
-    A block goes on until its last particle is done: those that took as many steps to the power of two before
-    share one, and among them the elongated, whose integrals want more work. Of these do neighbours in the
-    mesh, so that the nodes they read are in the cache.
+    A block goes on until its last particle is done, and does for all of them what one needs: those that took
+    as many steps to the power of two before share one; among them those whose steps go to order 3, now or
+    when it is found out again whether they must; among these the elongated, whose integrals want more work.
+    Of these do neighbours in the mesh, so that the nodes they read are in the cache.
     """
     effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
     # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
@@ -362,7 +363,8 @@ def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     F = p.F if many else p.F[rows]
     elongated = np.einsum("ni,ni->n", F, F) > COMPACT + 1.0 + 1.0 / COMPACT
     elongated = elongated[rows] if many else elongated
-    key = (effort.astype(np.int64) << 33) + (elongated.astype(np.int64) << 32) + p.host[rows]
+    kind = 4 * p.demanding[rows] + 2 * (p.discount[rows] > 0.0) + elongated
+    key = (effort.astype(np.int64) << 35) + (kind.astype(np.int64) << 32) + p.host[rows]
     # Which of equals comes first does not matter, and a stable order costs four times as much.
     return rows[np.argsort(key)]
 

@@ -26,7 +26,7 @@ from foamprb.output.atomic import atomic_write, forget, remove_unfinished
 
 log = logging.getLogger("foamprb")
 
-VERSION = 4
+VERSION = 5
 MOST_FILES = 2
 """Checkpoints that stay on disk."""
 

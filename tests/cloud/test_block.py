@@ -51,7 +51,7 @@ def test_a_block_begins_on_a_line_of_memory(rows):
 
 def test_those_that_cost_alike_share_blocks():
     """Of each kind only what is left over shares a block with others; within, neighbours are side by side."""
-    random, n = np.random.default_rng(4), 40 * LANES
+    random, n = np.random.default_rng(4), 160 * LANES
     p = spheres(np.zeros((n, 3)), d=1e-6, rho=1.0, mu=1.0)
     p.status[:] = Status.ACTIVE
     p.host[:] = random.integers(0, 2**31 - 1, n)
@@ -60,11 +60,14 @@ def test_those_that_cost_alike_share_blocks():
     turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
     for shape, chosen in ((LONG, long), (ROUND, ~long)):
         p.F[chosen] = (np.diag(shape) @ turn).ravel()
+    p.discount[:] = random.choice([0.0, 0.3, 0.75], n)
+    p.demanding[:] = random.integers(0, 2, n)
     assert LONG[0] / LONG[2] > COMPACT > ROUND[0] / ROUND[2]
     order = in_blocks(p, np.arange(n))
     np.testing.assert_array_equal(np.sort(order), np.arange(n))
-    kinds = (p.substeps[order] * 2 + long[order]).reshape(-1, LANES)
-    assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 5
+    orders = 2 * p.demanding[order] + (p.discount[order] > 0.0)
+    kinds = (8 * p.substeps[order] + 2 * orders + long[order]).reshape(-1, LANES)
+    assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 3 * 4 * 2 - 1
     flat, hosts = kinds.ravel(), p.host[order]
     assert (np.diff(hosts)[flat[1:] == flat[:-1]] >= 0).all()
 

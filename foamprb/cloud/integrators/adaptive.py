@@ -89,6 +89,9 @@ class StepRows(NamedTuple):
     discount: Annotated[
         int, Row(1, "1", "share of what order 2 is judged by that does not count", of="discount", saved=True)
     ]
+    demanding: Annotated[
+        int, Row(1, "", "1 where steps like the last one go to order 3, else 0", of="demanding", saved=True)
+    ]
     judged: Annotated[int, Row(1, "1", "what order 2 is judged by: θ δ₁, with that of the fluid")]
     disturbed: Annotated[int, Row(1, "", "1 where the gradient that is felt is not the flow's, else 0")]
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
@@ -180,12 +183,23 @@ def counted(block: Any, i: int, judged: Any) -> Any:
     return (1.0 - discount) * judged
 
 
-def learn(block: Any, i: int, third: Any, difference: Any) -> None:
-    """Store what shall count from now on, where a step has gone to order 3, δ₂ being the difference."""
-    share = learned_share(difference, block[during.judged * LANES + i])
+def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
+    """Store whether the step goes to order 3: where the error of order 2 is beyond the tolerance."""
+    third = select(error <= tolerance, 0.0, 1.0)
+    block[during.third * LANES + i] = third
     # A lane that has done its steps goes through the stages still, and is saved after them.
+    moving = block[at.moving * LANES + i] > 0.0
+    block[during.demanding * LANES + i] = select(moving, third, block[during.demanding * LANES + i])
+
+
+def learn(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> None:
+    """Store what shall count from now on, where a step has gone to order 3, δ₂ being the difference."""
+    judged = block[during.judged * LANES + i]
+    share = learned_share(difference, judged)
     learns = third & (block[at.moving * LANES + i] > 0.0)
     block[during.discount * LANES + i] = select(learns, 1.0 - share, block[during.discount * LANES + i])
+    content = learns & (counted(block, i, judged) <= tolerance)
+    block[during.demanding * LANES + i] = select(content, 0.0, block[during.demanding * LANES + i])
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:

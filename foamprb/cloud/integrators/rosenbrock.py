@@ -69,6 +69,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
     STEP_ROWS,
+    choose_order,
     counted,
     drag_rate,
     during,
@@ -249,7 +250,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         path = path_of_second_order(rate, h, moving, *changes, kv)
         by_forces = respond_in_path(rate, h, NOTHING, kv, NOTHING)
         size = np.maximum(size, _length(by_forces, h, _way(block, i)))
-        block[during.third * LANES + i] = select(size <= tolerance, 0.0, 1.0)
+        choose_order(block, i, size, tolerance)
         store3(block, own.slope_v, i, kv[1])
         store3(block, own.second_x, i, path[0])
         store3(block, own.second_v, i, path[1])
@@ -310,7 +311,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
         strain = strain_scale(b_e, two[0])
         difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
-        learn(block, i, third, difference)
+        learn(block, i, third, difference, tolerance)
 
         rate, moving = (
             load3(block, own.rate, i),

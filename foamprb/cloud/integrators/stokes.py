@@ -43,6 +43,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
     STEP_ROWS,
+    choose_order,
     counted,
     drag_rate,
     during,
@@ -165,8 +166,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         share = judged_share(block, i, fastest(n))
         size = share * relative_size(by_slope, b_e, strain)
         size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
-        third = select(counted(block, i, size) <= tolerance, 0.0, 1.0)
-        block[during.third * LANES + i] = third
+        choose_order(block, i, counted(block, i, size), tolerance)
         store9(block, own.slope, i, k)
         store9(block, own.second, i, two)
         store9(block, during.second_Q, i, load9(block, at.Q, i))
@@ -229,7 +229,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         three = of_third_order(n, whole, h, l_s, change, curve, k, last)
         difference = relative_size(add(three, scale(-1.0, two)), b_e, strain_scale(b_e, two))
         third = block[during.third * LANES + i] > 0.0
-        learn(block, i, third, difference)
+        learn(block, i, third, difference, tolerance)
         F_two, J_two, A_two = load9(block, at.new_F, i), block[at.J * LANES + i], load9(block, at.new_A, i)
         F = _finish_shape(block, i, Q0, three)
         store9(block, at.new_F, i, choose(third, F, F_two))
