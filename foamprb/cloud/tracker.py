@@ -29,7 +29,7 @@ from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import Bounds
-from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, reach_end
+from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_of, reach_end
 from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
@@ -200,19 +200,25 @@ class Tracker:
         """Compile what comes after the stages in each step, with what the flow's kernels read."""
         self._compile(reach_end, {"flow": flow})
 
-    def compile_stages(self, first: int = 0) -> None:
-        """Compile stages from the last back to number ``first``, or to one that is compiled already."""
-        for stage in reversed(self.integrator.stages[first:]):
-            if not self._compile(stage, {}):
-                break
+    def compile_contact(self, flow: Any) -> None:
+        """Compile what takes particles to walls and through coupled patches, likewise."""
+        self._compile(clearance_of, {"flow": flow})
+        self._compile(beyond, {"flow": flow})
 
-    def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> bool:
+    def compile_stages(self) -> None:
+        """Compile the stages."""
+        for stage in self.integrator.stages:
+            self._compile(stage, {})
+
+    def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> None:
         """Compile a part of the loop, with examples of those arguments that not every part has."""
         scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
-        arguments |= {"M": scratch.matrix, "i": np.int64(0), "goal": vector}
+        arguments |= {"M": scratch.matrix}
+        arguments |= dict.fromkeys(("i", "code", "triangle"), np.int64(0))
+        arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt"), 0.0)
-        return compile_part(function, arguments, self.bindings, self.separate)
+        compile_part(function, arguments, self.bindings, self.separate)
 
     def advance(
         self,

@@ -11,16 +11,17 @@ A part is left out
 * if numba is of a version with which the part was never tried, and the small program in
   :mod:`foamprb.compile.trial` goes wrong with it; what came of that is saved in the cache.
 
-What a part gains is what is lost without it and with all others: user CPU seconds on one core of an Intel
-Xeon with AVX-512 to compile the loop of the integrator stokes for a steady flow on a mesh, from nothing,
-medians of three in turns, numba 0.68.1. With all parts it took 9.6 s; with none 25.4 s, and a step took 9
-times as long. ``tools/benchmarks/compile_parts.py`` measures it again.
+What a part gains is what is lost without it and with all others: user CPU seconds on one core of an AMD
+EPYC with AVX-512 to compile the loop of the integrator stokes for a steady flow on a mesh, from nothing,
+numba 0.68.1. With all parts it took 9.5 s; with none 78 s, and a step took 15 times as long.
+``tools/benchmarks/compile_parts.py`` measures it again.
 """
 
 from __future__ import annotations
 
 import copy
 import gc
+import inspect
 import logging
 import operator
 import os
@@ -30,14 +31,15 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from importlib.metadata import version
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numba
 from llvmlite import binding, ir  # type: ignore[import-untyped]
 
 from foamprb.compile.cache import Store
+from foamprb.compile.trace import Code, UntraceableError, trace
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["Internals", "Role", "internals", "use_cache_for_cuda"]
@@ -55,6 +57,17 @@ _TIMEOUT = 300.0
 """Of a trial, s."""
 
 
+class _Called(NamedTuple):
+    """How functions are kept that only compiled code calls."""
+
+    library: Callable[[Any, str], Any]
+    """``library(codegen, name)`` is where one goes that need not be optimised."""
+    context: Callable[[Any], Any]
+    """Numba's context of a target, for such functions."""
+    stand_in: Callable[[Any, Any, Any], Any]
+    """Of one's library, descriptor and environment, what takes the place of what Python would call."""
+
+
 @dataclass
 class _Changes:
     """What a part changes of how functions of each role are compiled."""
@@ -65,6 +78,11 @@ class _Changes:
     """Passes of the compiler, and what takes their place, if anything."""
     rebuild: dict[Role, Callable[..., Any]] = field(default_factory=dict)
     """How the result of a compilation is made from what was saved of it, if not as numba makes it."""
+    called: _Called | None = None
+    """How separate functions are kept."""
+    shortcut: Callable[[_Called, Any, Any], Any] | None = None
+    """``shortcut(called, state, function)`` is the result of the compilation of a separate function where all
+    passes can be done without, else None; ``state`` is that of numba's compiler."""
     use_cache: Callable[..., Store] | None = None
     """How a dispatcher is given its :class:`~foamprb.compile.cache.Store`."""
     prepare: Callable[[Any], None] | None = None
@@ -74,7 +92,7 @@ class _Changes:
 def _collector() -> _Changes:
     """No garbage is collected while numba compiles.
 
-    Gains 2.1 s: numba makes millions of objects, and the collector looks through them again and again for
+    Gains 1.8 s: numba makes millions of objects, and the collector looks through them again and again for
     nothing. Without it, it does.
     """
     from numba.core.event import Event, Listener, register
@@ -101,7 +119,7 @@ def _collector() -> _Changes:
 def _references() -> _Changes:
     """References to arrays are not counted.
 
-    Gains 2.7 s and a step that takes a sixth of the time. No function allocates an array, or outlives those
+    Gains 3.4 s and a step that takes a sixth of the time. No function allocates an array, or outlives those
     it is given, so that counts are only raised and lowered again; without the part they are, in every stage.
     """
     return _Changes(options={role: {"_nrt": False} for role in _ROLES})
@@ -110,7 +128,7 @@ def _references() -> _Changes:
 def _wrappers() -> _Changes:
     """Python cannot call what only compiled code calls, and C nothing at all.
 
-    Gains 5.2 s: without it numba compiles two more functions for each, which convert the arguments.
+    Gains 4.3 s: without it numba compiles two more functions for each, which convert the arguments.
     """
     neither = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
     return _Changes(options={"entry": {"no_cfunc_wrapper": True}, "separate": neither, "inlined": neither})
@@ -119,8 +137,7 @@ def _wrappers() -> _Changes:
 def _inlining() -> _Changes:
     """Functions are inlined by order, not at LLVM's choice.
 
-    Gains a step that takes a quarter of the time, for 0.3 s of compilation: without it LLVM leaves calls in
-    the stages, which are then not vectorised.
+    Gains a step that takes half the time, and 0.3 s: without it LLVM leaves calls in the loop.
     """
     # What is not said is inherited from the caller.
     return _Changes(options={role: {"forceinline": role == "inlined"} for role in _ROLES})
@@ -129,7 +146,8 @@ def _inlining() -> _Changes:
 def _machine_code() -> _Changes:
     """Machine code is made of entries only, with all that they call in them.
 
-    Gains 3.7 s: without it numba makes machine code of every function by itself, which of one that is always
+    Gains 18 s beside what :func:`_tracing` does, which it is needed for: without it numba makes machine code
+    of every function by itself, which of one that is always
     inlined is never used, and functions are nested. Such a function is left as LLVM's intermediate code. So
     is a separate one, which is optimised by itself, and linked with its callers after these are: LLVM would
     make one huge function of a loop and its stages, or optimise each of them in every caller again.
@@ -193,15 +211,11 @@ def _machine_code() -> _Changes:
     class Separate(Entry):
         """Intermediate code that others call, optimised, with that of all that it calls."""
 
-        side_by_side = False
-
         def add_ir_module(self, ir_module: Any) -> None:
             for function in ir_module.functions:
                 # Llvmlite knows no attributes of this kind. It means nothing to other processors.
                 set.add(function.attributes, _WIDE)
                 set.add(function.attributes, _ALIGNED)
-                if self.side_by_side:
-                    _interleave(ir_module, function)
             super().add_ir_module(ir_module)
 
         def _finalize_final_module(self) -> None:
@@ -212,6 +226,19 @@ def _machine_code() -> _Changes:
         def serialize_using_object_code(self) -> Any:
             """What numba saves: there is no machine code."""
             return self.serialize_using_bitcode()
+
+    class Ready(Separate):
+        """The same, of what is so already but for what stands in functions of their own."""
+
+        def finalize(self) -> None:
+            passes = binding.create_new_module_pass_manager()
+            passes.add_always_inliner_pass()
+            passes.add_instruction_combine_pass()
+            passes.add_dead_code_elimination_pass()
+            passes.add_global_dead_code_eliminate_pass()
+            passes.run(self._final_module, self._codegen._pass_builder())
+            self._final_module.verify()
+            self._finalize_final_module()
 
     def sort(library: Any, inlined: dict[Any, None], called: dict[Any, None]) -> None:
         """Put what a library refers to among what is inlined, with what that refers to, or what is called."""
@@ -269,9 +296,7 @@ def _machine_code() -> _Changes:
         _name = "lowering_of_separate"
 
         def run_pass(self, state: Any) -> bool:
-            library = Separate(state.targetctx.codegen(), state.func_id.func_qualname)
-            library.side_by_side = getattr(state.func_id.func, SIDE_BY_SIDE, False)
-            return lower(self, state, library)
+            return lower(self, state, Separate(state.targetctx.codegen(), state.func_id.func_qualname))
 
     @register_pass(mutates_CFG=True, analysis_only=False)
     class LoweringOfEntry(NativeLowering):  # type: ignore[misc]
@@ -296,6 +321,7 @@ def _machine_code() -> _Changes:
             "inlined": {NativeLowering: LoweringOfInlined},
         },
         rebuild={"separate": rebuild},
+        called=_Called(Ready, for_code, not_executable),
     )
 
 
@@ -306,19 +332,92 @@ _ALIGNED = '"stackrealign"'
 
 
 SIDE_BY_SIDE = "side_by_side"
-"""Attribute of functions whose loops go through two registers full of elements at a time."""
+"""Attribute of stages that go through two registers full of lanes at a time."""
 
 
-def _interleave(module: Any, function: Any) -> None:
-    """Ask LLVM for that, at the branches by which the loops of a function begin anew."""
-    count = module.add_metadata(["llvm.loop.interleave.count", ir.Constant(ir.IntType(32), 2)])
-    for place, block in enumerate(function.blocks):
-        for target in block.terminator.operands:
-            if target in function.blocks[: place + 1]:
-                loop = module.add_metadata([block.name, count])
-                # What stands for a loop holds itself.
-                loop.operands = (loop, count)
-                block.terminator.set_metadata("llvm.loop", loop)
+def _tracing() -> _Changes:
+    """Stages are traced (:mod:`foamprb.compile.trace`).
+
+    Gains 7.8 s and a tenth of a step: without it numba finds the types of all that is in a stage, and LLVM
+    inlines, simplifies and vectorises it. It takes what :func:`_machine_code` has for separate functions.
+    """
+    from numba import types
+    from numba.core.bytecode import FunctionIdentity
+    from numba.core.compiler import compile_result
+    from numba.core.funcdesc import PythonFunctionDescriptor
+    from numba.core.lowering import Environment
+    from numba.core.typing import signature
+
+    def shortcut(called: _Called, state: Any, function: Any) -> Any:
+        context, identity = called.context(state.targetctx), FunctionIdentity.from_function(function)
+        together = _register() * (2 if getattr(function, SIDE_BY_SIDE, False) else 1)
+        flags = " ".join(sorted(state.flags.fastmath.flags))
+
+        def arguments(code: Code) -> list[Any]:
+            return [symbols(kind, code, (k,)) for k, kind in enumerate(state.args)]
+
+        try:
+            code = trace(function, together, flags, arguments)
+        except UntraceableError as why:
+            log.debug("%s is not traced: %s", function.__qualname__, why)
+            return None
+        names = tuple(inspect.signature(function).parameters)
+        descriptor = PythonFunctionDescriptor(
+            True, identity.modname, identity.func_qualname, identity.unique_name, "", {}, types.none, {},
+            names, (), mangler=context.mangler, argtypes=tuple(state.args),
+            abi_tags=[state.flags.get_mangle_string()], uid=identity.unique_id,
+        )  # fmt: skip
+        library = called.library(context.codegen(), identity.func_qualname)
+        library.add_ir_module(calling(context, library, descriptor, code))
+        lanes = binding.parse_assembly(code.function(f"{identity.func_qualname}_lanes"))
+        library.add_llvm_module(lanes)
+        library.finalize()
+        environment = Environment.from_fndesc(descriptor)
+        entry_point = called.stand_in(library, descriptor, environment)
+        state.targetctx.insert_user_function(entry_point, descriptor, [library])
+        return compile_result(
+            typing_context=state.typingctx, target_context=state.targetctx, entry_point=entry_point,
+            typing_error=None, type_annotation="", library=library, call_helper=None,
+            signature=signature(types.none, *state.args), objectmode=False, lifted=(), fndesc=descriptor,
+            environment=environment, metadata=state.metadata, reload_init=[],
+        )  # fmt: skip
+
+    def symbols(kind: Any, code: Code, path: tuple[int, ...]) -> Any:
+        """What stands for an argument of some type, found under ``path`` among the arguments."""
+        if kind == types.Array(types.float64, 1, "C") and path == (0,):
+            return code.block
+        if kind == types.float64:
+            return code.argument(path)
+        if isinstance(kind, types.BaseTuple):
+            items = [symbols(item, code, (*path, k)) for k, item in enumerate(kind)]
+            return kind.instance_class(*items) if isinstance(kind, types.BaseNamedTuple) else tuple(items)
+        return object()
+
+    def calling(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
+        """LLVM's module of a function that numba can call, which calls that of the lanes."""
+        module = library.create_ir_module(descriptor.unique_name)
+        outer = context.declare_function(module, descriptor)
+        builder = ir.IRBuilder(outer.append_basic_block())
+        arguments = context.call_conv.decode_arguments(builder, descriptor.argtypes, outer)
+        block = context.make_array(descriptor.argtypes[0])(context, builder, arguments[0]).data
+        numbers = [
+            builder.extract_value(arguments[path[0]], path[1:]) if path[1:] else arguments[path[0]]
+            for path in code.arguments
+        ]
+        kind = ir.FunctionType(ir.VoidType(), [block.type, *(number.type for number in numbers)])
+        builder.call(ir.Function(module, kind, f"{descriptor.qualname}_lanes"), [block, *numbers])
+        context.call_conv.return_value(builder, context.get_dummy_value())
+        return module
+
+    return _Changes(shortcut=shortcut)
+
+
+def _register() -> int:
+    """How many numbers a register of this processor has room for."""
+    features: dict[str, bool] = {}
+    with suppress(RuntimeError):
+        features = binding.get_host_cpu_features()
+    return 8 if features.get("avx512f") else 4 if features.get("avx") else 2
 
 
 def _let_be_linked(module: Any) -> None:
@@ -331,7 +430,7 @@ def _let_be_linked(module: Any) -> None:
 def _arithmetic() -> _Changes:
     """The types of results of what numba itself has for numbers and arrays are remembered.
 
-    Gains 1.8 s: without it numba finds out anew for each sum and product which type it has, and the formulas
+    Gains 4.4 s: without it numba finds out anew for each sum and product which type it has, and the formulas
     have hardly another than float.
     """
     from numba import types
@@ -385,7 +484,7 @@ def _arithmetic() -> _Changes:
 def _integers() -> _Changes:
     """Functions are compiled for whole numbers of 64 bits only.
 
-    Gains 2.8 s, with what :func:`_arithmetic` remembers of arrays: without it numba compiles a function anew
+    Gains 3.7 s, with what :func:`_arithmetic` remembers of arrays: without it numba compiles a function anew
     for an element of an array of 32 bits, and for each constant.
     """
     from numba import int64, types
@@ -416,7 +515,7 @@ def _integers() -> _Changes:
 def _needless() -> _Changes:
     """Numba does not look for closures, nor for operations on whole arrays: the formulas have neither.
 
-    Gains 1.2 s; without it, it looks.
+    Gains 0.9 s; without it, it looks.
     """
     from numba.core.typed_passes import NopythonRewrites
     from numba.core.untyped_passes import InlineClosureLikes
@@ -427,7 +526,7 @@ def _needless() -> _Changes:
 def _cache() -> _Changes:
     """Compiled code is saved on disk, as :mod:`foamprb.compile.cache` does it.
 
-    Gains all 9.6 s in each process after the first. Numba's own cache goes by the path of a function's file
+    Gains all 9.5 s in each process after the first. Numba's own cache goes by the path of a function's file
     and not by the code of what it calls, loads what it finds without a checksum, whoever wrote it, and ends a
     program that cannot write there; so that without this part there is none.
     """
@@ -535,6 +634,7 @@ PARTS: dict[str, Callable[[], _Changes]] = {
     "wrappers": _wrappers,
     "inlining": _inlining,
     "machineCode": _machine_code,
+    "tracing": _tracing,
     "arithmetic": _arithmetic,
     "integers": _integers,
     "needless": _needless,
@@ -618,7 +718,7 @@ def _with(*parts: str) -> Internals:
     options: dict[Role, dict[str, Any]] = {role: {} for role in _ROLES}
     passes: dict[Role, dict[type, type | None]] = {role: {} for role in _ROLES}
     rebuild: dict[Role, Callable[..., Any]] = {}
-    use_cache, prepared = None, []
+    use_cache, called, shortcut, prepared = None, None, None, []
     for name in parts:
         changes = _changes(name)
         assert changes is not None
@@ -629,19 +729,29 @@ def _with(*parts: str) -> Internals:
             passes[role] |= changes.passes.get(role, {})
         rebuild |= changes.rebuild
         use_cache = changes.use_cache or use_cache
+        called, shortcut = changes.called or called, changes.shortcut or shortcut
     for role in _ROLES:
-        options[role] |= _pipeline(role, passes[role])
+        short = partial(shortcut, called) if shortcut and called and role == "separate" else None
+        options[role] |= _pipeline(role, passes[role], short)
     return Internals(parts, options, rebuild, use_cache, tuple(prepared))
 
 
-def _pipeline(role: Role, replaced: Mapping[type, type | None]) -> dict[str, Any]:
-    """The option that makes numba's compiler go through other passes."""
-    if not replaced:
+def _pipeline(
+    role: Role,
+    replaced: Mapping[type, type | None],
+    shortcut: Callable[[Any, Any], Any] | None = None,
+) -> dict[str, Any]:
+    """The option that makes numba's compiler go through other passes, or through none."""
+    if not replaced and shortcut is None:
         return {}
     from numba.core.compiler import CompilerBase, DefaultPassBuilder
     from numba.core.compiler_machinery import PassManager
 
     class Compiler(CompilerBase):  # type: ignore[misc]
+        def compile_extra(self, function: Any) -> Any:
+            found = None if shortcut is None else shortcut(self.state, function)
+            return super().compile_extra(function) if found is None else found
+
         def define_pipelines(self) -> list[Any]:
             passes = PassManager(f"foamprb_{role}")
             for step, description in DefaultPassBuilder.define_nopython_pipeline(self.state).passes:

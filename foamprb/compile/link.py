@@ -28,6 +28,7 @@ from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
 from foamprb.compile import internals as inner
+from foamprb.compile import trace
 from foamprb.compile.cache import Store
 from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals, use_cache_for_cuda
 
@@ -90,7 +91,7 @@ def compile_part(
     arguments: Mapping[str, Any],
     bindings: Mapping[str, Any],
     separate: Collection[Callable[..., Any]],
-) -> bool:
+) -> None:
     """Compile a callee of an entry before that is compiled, here or by another process.
 
     Parameters
@@ -99,18 +100,11 @@ def compile_part(
         An example of each argument, by the names of the parameters; there may be others.
     bindings, separate
         As the entry will have them. Only separate callees are saved in the cache, for others to find.
-
-    Returns
-    -------
-    Whether it had not been compiled before.
     """
     role: Role = "separate" if function in separate else "inlined"
     part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
-    if is_compiled(part.dispatcher):
-        return False
     names = inspect.signature(function).parameters
     part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
-    return True
 
 
 def is_compiled(dispatcher: Any) -> bool:
@@ -134,7 +128,8 @@ class _Part(NamedTuple):
 
 
 # How functions are linked is a part of what makes their code.
-_LINKING = hashlib.sha256(Path(inner.__file__).read_bytes() + Path(__file__).read_bytes()).hexdigest()[:8]
+_HOW = (inner.__file__, trace.__file__, __file__)
+_LINKING = hashlib.sha256(b"".join(Path(file).read_bytes() for file in _HOW)).hexdigest()[:8]
 
 
 def _branch(condition: Any, a: Any, b: Any) -> Any:

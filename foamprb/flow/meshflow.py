@@ -13,7 +13,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
-from foamprb.flow.mesh.folds import FOLDED, grade, is_there, trace
+from foamprb.flow.mesh.folds import FOLDED, grade, is_there, nearby, trace
 from foamprb.flow.mesh.interfaces import overlaps
 from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
@@ -38,6 +38,7 @@ LONG: tuple[Callable[..., Any], ...] = (
     follow,
     trace,
     is_there,
+    nearby,
     nearest_wall,
     nearest_in_tree,
     planes_among,
@@ -321,7 +322,7 @@ class MeshFlow:
         """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         hosts = np.empty(len(points), dtype=np.int32)
-        link(_locate_all)(self._arrays, points, hosts)
+        link(_locate_all, separate=LONG)(self._arrays, points, hosts)
         return hosts
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:

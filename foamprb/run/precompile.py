@@ -1,9 +1,8 @@
 """Compilation before the code is wanted: of one run, and of all that most runs need.
 
 Where the particle loop has never been compiled and there is a processor to spare, another process compiles it
-while the first compiles some of its stages, reads the flow, and then compiles what the other has not come to.
-Each finds in the cache what the other has made; if the other process fails, or made what is not wanted, the
-first compiles.
+while the first compiles some of its parts and reads the flow. Each finds in the cache what the other has
+made; if the other process fails, or made what is not wanted, the first compiles.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ class Precompiler:
     def __init__(
         self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow], helper: Helper | None = None
     ) -> None:
-        self._tracker, self._helper = tracker, helper
+        self._tracker, self._flow, self._helper = tracker, flow, helper
         if tracker.compiled or available_threads() == 1:
             self.stop()
             self._helper = None
@@ -63,21 +62,19 @@ class Precompiler:
         return self._helper is not None
 
     def help(self) -> None:
-        """Compile the second half of the stages in this process, and what measures particles.
+        """Compile in this process what the other comes to last, and what measures particles.
 
         With it, and with what reads a flow, there is about as much to compile as without it in the loop.
         """
         if self._helper is not None:
-            self._tracker.compile_stages(len(self._tracker.integrator.stages) // 2)
+            self._tracker.compile_contact(self._flow.nothing())
+            self._tracker.compile_stages()
             context(empty(0), Gradients(np.empty((0, 9))), 1.0, 0.0)
 
     def wait(self) -> None:
-        """Wait until the process has ended; compile what it has not come to meanwhile."""
-        if self._helper is None:
-            return
-        if not self._helper.ended:
-            self._tracker.compile_stages()
-        self._helper.wait()
+        """Wait until the process has ended."""
+        if self._helper is not None:
+            self._helper.wait()
 
     def stop(self) -> None:
         """End the process; what it has made so far stays in the cache."""

@@ -6,6 +6,7 @@ loop gets faster, lower the number in COST: the message of a failing test tells 
 
 from __future__ import annotations
 
+import logging
 import platform
 import re
 import time
@@ -23,6 +24,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.integrators.rosenbrock import predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.brownian import know_force, push
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.total import compose as surrounding
 from foamprb.cloud.surroundings.total import with_rows
@@ -41,6 +43,8 @@ SLOWER = 2.5
 FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm=0.5))
 # It goes through a single lane.
 _NO_VECTORS = (dense_newton,)
+# These ask first whether any lane needs it, or whether it is selected.
+_NOT_TRACED = (lift, know_force, push)
 AROUND = (FaxenCorrection(), WallLift(), foamprb.BrownianMotion(T=300.0))
 STAGES = {stage: INTEGRATORS["stokes"] for model in AROUND for stage in model.stages()}
 STAGES |= {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}
@@ -109,6 +113,14 @@ def arithmetic(assembly):
     return found.count("p"), found.count("s")
 
 
+def called(*_arguments):
+    """Stands for a stage."""
+
+
+def caller(*arguments):
+    called(*arguments)
+
+
 def assembly_of(stage, integrator, monkeypatch, folder, more=()):
     """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected.
 
@@ -120,7 +132,8 @@ def assembly_of(stage, integrator, monkeypatch, folder, more=()):
     models = more or tuple(model for model in AROUND if stage in model.stages())
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
     around = surrounding(integrator.layout, models, integrator.inertia)
-    dispatcher = link(stage, compose(FORCES) | integrator.bindings | around)
+    bindings = compose(FORCES) | integrator.bindings | around
+    dispatcher = link(caller, bindings | {"called": stage}, separate=(stage,))
     values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22, "share": 1.0, "dt": 1e-4}
     for model in models:
         values["coefficients"] = model.coefficients([])
@@ -141,8 +154,11 @@ def test_hindering_walls_leave_stages_with_inertia_vectorised(stage, monkeypatch
 
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.__name__)
-def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
+def test_stage_is_traced_and_vectorised(stage, monkeypatch, tmp_path, caplog):
+    """One that is not traced takes a hundred times as long to compile."""
+    caplog.set_level(logging.DEBUG, logger="foamprb")
     assembly = assembly_of(stage, STAGES[stage], monkeypatch, tmp_path)
+    assert ("is not traced" in caplog.text) == (stage in _NOT_TRACED)
     packed, scalar = arithmetic(assembly)
     assert packed > 15
     # Constants may be prepared before a loop; around a particle there are many, and one counts walls.

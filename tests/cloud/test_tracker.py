@@ -31,7 +31,6 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     def note(function, arguments, *_):
         names = inspect.signature(function).parameters
         found[function.__name__] = {name: numba.typeof(arguments[name]) for name in names}
-        return True
 
     monkeypatch.setattr("foamprb.cloud.tracker.compile_part", note)
     medium = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
@@ -40,31 +39,12 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     )
     tracker.compile_moves(MeshFlow.nothing())
     assert list(found) == ["reach_end"]
+    tracker.compile_contact(MeshFlow.nothing())
     tracker.compile_stages()
-    assert len(found) > 10
-    expected = {"i": numba.int64, "goal": numba.types.UniTuple(numba.float64, 3)}
+    assert len(found) == 3 + len(tracker.integrator.stages)
+    expected = dict.fromkeys(("i", "code", "triangle"), numba.int64)
+    expected |= dict.fromkeys(("goal", "x0", "x1"), numba.types.UniTuple(numba.float64, 3))
     expected |= dict.fromkeys(("t_end", "h", "tolerance", "allowed"), numba.float64)
     for types in found.values():
         for name in types.keys() & expected:
             assert types[name] == expected[name], name
-
-
-def test_stages_are_compiled_back_to_one_that_another_process_has_made(monkeypatch):
-    """The two meet in the middle; how many there are from a number on is what one begins with."""
-    medium = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
-    tracker = Tracker(
-        Models(integrator="stokes"), MeshFlow.kernels, medium, [], 1e-3, 0.0, shaped=False, tense=False
-    )
-    stages = tracker.integrator.stages
-    asked = []
-
-    def compiled_after(function, *_):
-        asked.append(function)
-        return function not in stages[:3]
-
-    monkeypatch.setattr("foamprb.cloud.tracker.compile_part", compiled_after)
-    tracker.compile_stages()
-    assert asked == list(reversed(stages[2:]))
-    asked.clear()
-    tracker.compile_stages(5)
-    assert asked == list(reversed(stages[5:]))

@@ -29,7 +29,7 @@ from foamprb.body.tensor import Vector
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, next_leaf, weights
 
-__all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_there", "settle", "trace"]
+__all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_there", "nearby", "settle", "trace"]
 
 SOUND, FLAT, FOLDED = 0, 1, 2
 """A cell where :func:`foamprb.flow.walk.follow` is exact; one with a flat tetrahedron; one whose box meets
@@ -108,7 +108,7 @@ def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
 
     A place in a flat tetrahedron is as near to one beside it as that is thin.
     """
-    return _nearby(flow, tet, x) if is_flat(flow, tet) else tet
+    return nearby(flow, tet, x) if is_flat(flow, tet) else tet
 
 
 def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
@@ -118,10 +118,10 @@ def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
     early; then the tetrahedron does not hold it.
     """
     host = settle(flow, tet, x)
-    return host if _depth(flow, host, x) >= -_ASTRAY else _nearby(flow, host, x)
+    return host if _depth(flow, host, x) >= -_ASTRAY else nearby(flow, host, x)
 
 
-def _nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
+def nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
     """The tetrahedron that comes nearest to holding x, flat ones excepted.
 
     It is sought in the cell, in those that share faces with it, and in those that share faces with these;

@@ -1,0 +1,385 @@
+"""Stages as straight-line code: the text of a loop over lanes, executed once with symbols for its numbers.
+
+The formulas branch on no value, so that one pass through them meets every operation there is. Of these,
+equal ones are written down once, as LLVM's operations on registers full of lanes: neither the types of some
+thousand expressions have to be found out, nor loops to be recognised as those over lanes.
+
+A stage is traced if it is nothing but loops ``for i in range(LANES)``, by this name, over a block: rows of so
+many numbers, addressed as ``block[row * LANES + i]``.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from types import CellType, FunctionType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+__all__ = ["Code", "UntraceableError", "trace"]
+
+_LANES = "LANES"
+
+
+class UntraceableError(Exception):
+    """Another text than that of a stage."""
+
+
+class Code:
+    """The operations of a stage, in LLVM's language.
+
+    Parameters
+    ----------
+    lanes
+        Lanes of a block.
+    together
+        How many of them go through an operation together; the number of lanes is a multiple of it.
+    flags
+        LLVM's flags of operations on floats.
+    """
+
+    def __init__(self, lanes: int, together: int, flags: str) -> None:
+        self.lanes, self._together, self._flags = lanes, together, flags
+        self._numbers, self._conditions = f"<{together} x double>", f"<{together} x i1>"
+        self._lines: list[str] = []
+        self._known: dict[str, Any] = {}
+        self._functions: set[str] = set()
+        self._origins: list[Any] = []
+        self.block = _Block(self)
+        """Stands for the block."""
+
+    def argument(self, origin: Any) -> Symbol:
+        """Stand for a number that is the same in all lanes; ``origin`` tells the caller where it is from."""
+        self._origins.append(origin)
+        return Symbol(self, f"%all{len(self._origins) - 1}")
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The origins of the arguments that come after the block."""
+        return tuple(self._origins)
+
+    def function(self, name: str) -> str:
+        """LLVM's text of a function of the block and the arguments: all operations, in all lanes."""
+        each = range(len(self._origins))
+        parameters = ", ".join(["ptr %block", *(f"double %one{k}" for k in each)])
+        spread = "".join(
+            f"%first{k} = insertelement {self._numbers} poison, double %one{k}, i64 0\n"
+            f"%all{k} = shufflevector {self._numbers} %first{k}, {self._numbers} poison, "
+            f"<{self._together} x i32> zeroinitializer\n"
+            for k in each
+        )
+        declared = "".join(f"declare {self._numbers} {f}({self._numbers})\n" for f in sorted(self._functions))
+        operations = "\n".join(filter(None, self._lines))
+        return (
+            f"{declared}"
+            f'define linkonce_odr void @"{name}"({parameters}) alwaysinline {{\n'
+            "entry:\n"
+            f"{spread}"
+            "br label %some\n"
+            "some:\n"
+            "%lane = phi i64 [0, %entry], [%next, %some]\n"
+            "%here = getelementptr double, ptr %block, i64 %lane\n"
+            f"{operations}\n"
+            f"%next = add nuw nsw i64 %lane, {self._together}\n"
+            f"%more = icmp ult i64 %next, {self.lanes}\n"
+            "br i1 %more, label %some, label %done\n"
+            "done:\n"
+            "ret void\n"
+            "}\n"
+        )
+
+    def load(self, offset: int) -> Symbol:
+        """The numbers that are so far from the block's beginning."""
+        return Symbol(self, self._write(f"load {self._numbers}, ptr {self._address(offset)}, align 8"))
+
+    def store(self, offset: int, value: Any) -> int:
+        """Put numbers there; the line that does it."""
+        self._lines.append(
+            f"store {self._numbers} {self._operand(value)}, ptr {self._address(offset)}, align 8"
+        )
+        return len(self._lines) - 1
+
+    def leave_out(self, line: int) -> None:
+        """Do not do what a line does."""
+        self._lines[line] = ""
+
+    def unary(self, operation: str, a: Any) -> Symbol:
+        """An operation on numbers."""
+        return Symbol(self, self._once(f"{operation} {self._flags} {self._numbers} {self._operand(a)}"))
+
+    def binary(self, operation: str, a: Any, b: Any) -> Symbol:
+        """An operation on two numbers."""
+        start = f"{operation} {self._flags} {self._numbers}"
+        text, turned = f"{start} {self._operand(a)}, {self._operand(b)}", ""
+        if operation in ("fadd", "fmul"):
+            turned = f"{start} {self._operand(b)}, {self._operand(a)}"
+        return Symbol(self, self._once(turned if turned in self._known else text))
+
+    def call(self, function: str, a: Any) -> Symbol:
+        """A function that LLVM has."""
+        name = f"@llvm.{function}.v{self._together}f64"
+        self._functions.add(name)
+        operand = f"{self._numbers} {self._operand(a)}"
+        return Symbol(self, self._once(f"call {self._flags} {self._numbers} {name}({operand})"))
+
+    def compare(self, relation: str, a: Any, b: Any) -> Condition:
+        """Whether a relation holds."""
+        operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
+        return Condition(self, self._once(f"fcmp {self._flags} {relation} {operands}"))
+
+    def combine(self, operation: str, a: Any, b: Any) -> Condition:
+        """Whether both conditions hold, or one of them."""
+        if not (isinstance(a, Condition) and isinstance(b, Condition)):
+            raise UntraceableError(f"a condition and {b!r}")
+        return Condition(self, self._once(f"{operation} {self._conditions} {a.name}, {b.name}"))
+
+    def select(self, condition: Any, a: Any, b: Any) -> Any:
+        """``a`` where a condition holds, else ``b``."""
+        if isinstance(condition, bool | np.bool_):
+            return a if condition else b
+        if not isinstance(condition, Condition):
+            raise UntraceableError(f"a choice by {condition!r}")
+        operands = f"{self._numbers} {self._operand(a)}, {self._numbers} {self._operand(b)}"
+        return Symbol(self, self._once(f"select {self._conditions} {condition.name}, {operands}"))
+
+    def extreme(self, relation: str, a: Any, b: Any) -> Any:
+        """The number that is in a relation to the other; no number if one is none, as numpy has it."""
+        if not isinstance(a, Symbol):
+            a, b = b, a
+        if not isinstance(a, Symbol):
+            return max(a, b) if relation == "oge" else min(a, b)
+        chosen = self.combine("or", self.compare(relation, a, b), self.compare("uno", a, a))
+        return self.select(chosen, a, b)
+
+    def _address(self, offset: int) -> str:
+        return self._once(f"getelementptr double, ptr %here, i64 {offset}")
+
+    def _operand(self, value: Any) -> str:
+        if type(value) is Symbol:
+            return value.name
+        if not isinstance(value, int | float):
+            raise UntraceableError(f"a number and {value!r}")
+        return f"splat (double 0x{struct.pack('>d', value).hex()})"
+
+    def _once(self, text: str) -> str:
+        if text not in self._known:
+            self._known[text] = self._write(text)
+        return self._known[text]  # type: ignore[no-any-return]
+
+    def _write(self, text: str) -> str:
+        name = f"%v{len(self._lines)}"
+        self._lines.append(f"{name} = {text}")
+        return name
+
+
+class Symbol:
+    """Stands for a number of each lane."""
+
+    __slots__ = ("code", "name")
+    __hash__ = None  # type: ignore[assignment]
+    # Numbers of numpy leave operations with it to it.
+    __array_ufunc__ = None
+
+    def __init__(self, code: Code, name: str) -> None:
+        self.code, self.name = code, name
+
+    def __bool__(self) -> bool:
+        raise UntraceableError("a branch on a value")
+
+    def __neg__(self) -> Symbol:
+        return self.code.unary("fneg", self)
+
+    def __abs__(self) -> Symbol:
+        return self.code.call("fabs", self)
+
+    def __add__(self, other: Any) -> Symbol:
+        return self if _is(0.0, other) else self.code.binary("fadd", self, other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Symbol:
+        return self if _is(0.0, other) else self.code.binary("fsub", self, other)
+
+    def __rsub__(self, other: Any) -> Symbol:
+        return -self if _is(0.0, other) else self.code.binary("fsub", other, self)
+
+    def __mul__(self, other: Any) -> Symbol:
+        return self if _is(1.0, other) else self.code.binary("fmul", self, other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Symbol:
+        return self.code.binary("fdiv", self, other)
+
+    def __rtruediv__(self, other: Any) -> Symbol:
+        return self.code.binary("fdiv", other, self)
+
+    def __pow__(self, n: Any) -> Symbol:
+        if type(n) is not int or n < 1:
+            raise UntraceableError(f"a power {n!r}")
+        if n == 1:
+            return self
+        half = self ** (n // 2)
+        return half * half * self if n % 2 else half * half
+
+    def __lt__(self, other: Any) -> Condition:
+        return self.code.compare("olt", self, other)
+
+    def __le__(self, other: Any) -> Condition:
+        return self.code.compare("ole", self, other)
+
+    def __gt__(self, other: Any) -> Condition:
+        return self.code.compare("ogt", self, other)
+
+    def __ge__(self, other: Any) -> Condition:
+        return self.code.compare("oge", self, other)
+
+    def __eq__(self, other: Any) -> Condition:  # type: ignore[override]
+        return self.code.compare("oeq", self, other)
+
+    def __ne__(self, other: Any) -> Condition:  # type: ignore[override]
+        return self.code.compare("une", self, other)
+
+
+class Condition(Symbol):
+    """Stands for whether something holds in each lane."""
+
+    __slots__ = ()
+    __hash__ = None
+
+    def __and__(self, other: Any) -> Condition:
+        return self.code.combine("and", self, other)
+
+    def __or__(self, other: Any) -> Condition:
+        return self.code.combine("or", self, other)
+
+
+def _is(number: float, value: Any) -> bool:
+    # Without LLVM's flag for it, what is not finite times nothing is not nothing; the sign of zero is free.
+    return isinstance(value, int | float) and value == number
+
+
+class _Block:
+    """Stands for a block, and knows what is in it: what is loaded, once, and what was stored last."""
+
+    def __init__(self, code: Code) -> None:
+        self._code = code
+        self._known: dict[int, Any] = {}
+        self._stored: dict[int, int] = {}
+
+    def __getitem__(self, place: Any) -> Any:
+        offset = self._offset(place)
+        if offset not in self._known:
+            self._known[offset] = self._code.load(offset)
+        return self._known[offset]
+
+    def __setitem__(self, place: Any, value: Any) -> None:
+        offset = self._offset(place)
+        if offset in self._stored:
+            self._code.leave_out(self._stored[offset])
+        self._stored[offset] = self._code.store(offset, value)
+        self._known[offset] = value
+
+    def _offset(self, place: Any) -> int:
+        if not isinstance(place, _Place) or place.offset % self._code.lanes:
+            raise UntraceableError(f"a number at {place!r}")
+        return place.offset
+
+
+class _Place:
+    """Stands for the number of a lane, and what is added to it: only good to say where a number is."""
+
+    def __init__(self, offset: int) -> None:
+        self.offset = offset
+
+    def __add__(self, further: int) -> _Place:
+        return _Place(self.offset + further)
+
+    __radd__ = __add__
+
+
+class _Lanes(int):
+    """The number of lanes, through which a range goes at once."""
+
+
+def _range(*bounds: int) -> Iterator[Any]:
+    return iter((_Place(0),)) if isinstance(bounds[0], _Lanes) else iter(range(*bounds))
+
+
+def trace(
+    function: Callable[..., Any],
+    together: int,
+    flags: str,
+    arguments: Callable[[Code], Sequence[Any]],
+) -> Code:
+    """The operations of a stage.
+
+    Parameters
+    ----------
+    function
+        The stage, in whose globals are constants, and compiled functions that know their text.
+    together, flags
+        As of :class:`Code`, at most.
+    arguments
+        Makes what the stage is called with: the code's block first, then its arguments.
+
+    Raises
+    ------
+    UntraceableError
+        If the function is no stage.
+    """
+    if _LANES not in function.__code__.co_names:
+        raise UntraceableError("no lanes")
+    lanes = int(function.__globals__[_LANES])
+    code = Code(lanes, math.gcd(lanes, together), flags)
+    try:
+        _plain(function, code, {})(*arguments(code))
+    except UntraceableError:
+        raise
+    except Exception as error:
+        # A text that does other things with its arguments than a stage does may go wrong in any way.
+        raise UntraceableError(repr(error)) from error
+    return code
+
+
+def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) -> Any:
+    """The function that goes on symbols; ``made`` are those that there are already."""
+    text = function.__code__
+    if function not in made:
+        scope: dict[str, Any] = {"range": _range}
+        cells = tuple(CellType(cell.cell_contents) for cell in function.__closure__ or ())
+        made[function] = FunctionType(text, scope, function.__name__, function.__defaults__, cells)
+        for name in text.co_names:
+            if name in function.__globals__:
+                scope[name] = _stand_in(name, function.__globals__[name], code, made)
+    return made[function]
+
+
+def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> Any:
+    """What stands for a global."""
+    if value is np or value is math:
+        return _functions(code)
+    if isinstance(value, np.integer):
+        return _Lanes(value) if name == _LANES else int(value)
+    text = getattr(value, "py_func", None)
+    if text is None:
+        return value
+    return code.select if text.__name__ == "_branch" else _plain(text, code, made)
+
+
+def _functions(code: Code) -> SimpleNamespace:
+    """What stands for numpy and math: what formulas use of them."""
+
+    def of_one(name: str) -> Callable[[Any], Any]:
+        plain = getattr(math, name)
+        return lambda x: code.call(name, x) if isinstance(x, Symbol) else plain(x)
+
+    return SimpleNamespace(
+        **{name: of_one(name) for name in ("sqrt", "exp", "log")},
+        maximum=lambda a, b: code.extreme("oge", a, b),
+        minimum=lambda a, b: code.extreme("ole", a, b),
+        inf=math.inf,
+        pi=math.pi,
+    )

@@ -1,0 +1,174 @@
+"""Stages are traced: one pass through their text with symbols makes the code that numbers go through."""
+
+import logging
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import foamprb
+from foamprb.body.tensor import select
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.tracker import Tracker
+from foamprb.compile import link as compiling
+from foamprb.compile.link import link, side_by_side
+from foamprb.compile.trace import UntraceableError, trace
+from foamprb.flow.meshflow import MeshFlow
+
+ROWS = 4
+FLAGS = "contract nsz"
+# It goes through a single lane.
+NOT_TRACED = {"dense_newton"}
+
+
+@pytest.fixture
+def fresh(tmp_path, monkeypatch, caplog):
+    """Nothing compiled in this process nor in an earlier one; what is not traced is in the log."""
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(compiling, "_parts", {})
+    caplog.set_level(logging.DEBUG, logger="foamprb")
+    return caplog
+
+
+def not_traced(caplog):
+    """Names of functions, without the keys at their ends."""
+    said = [record.getMessage() for record in caplog.records]
+    return {text.split()[0].rpartition("_")[0] for text in said if "is not traced" in text}
+
+
+def everything(block, shift):
+    for i in range(LANES):
+        x, y = block[i], block[LANES + i]
+        quotient = (x - 2.0 * y) / (1.0 + y * y) - 0.0
+        power = (-x) ** 3 + 0.0 * y + (shift[0] - 1 * x) ** 2 / 4
+        for n in range(1, 3):
+            power = n * power + shift[1]
+        size = np.sqrt(abs(quotient)) + math.sqrt(2.0) * np.exp(-np.sqrt(x * x))
+        size = size + np.maximum(x, 0.25) * np.minimum(x, y)
+        between = (x < y) & (y <= 3.0) | (x >= 2.0) & (x != 2.5) | (y == 1.0)
+        chosen = select(between, power, 0.0 - size)
+        block[2 * LANES + i] = 0.0
+        block[2 * LANES + i] = select(x > 1e3, np.inf, chosen)
+        block[3 * LANES + i] += block[2 * LANES + i] + 1.0
+
+
+@side_by_side
+def everything_at_once(block, shift):
+    for i in range(LANES):
+        x, y = block[i], block[LANES + i]
+        block[2 * LANES + i] = (1.0 - np.sqrt(x)) / y + shift[0]
+
+
+def with_a_branch(block, shift):
+    for i in range(LANES):
+        if block[i] > shift[0]:
+            block[LANES + i] = shift[1]
+
+
+def neighbours(block, shift):
+    for i in range(LANES - 1):
+        block[LANES + i] = block[i + 1] * shift[0]
+
+
+def stage(block, shift):
+    """Stands for one of those above."""
+
+
+def entry(block, shift):
+    stage(block, shift)
+
+
+def after(function, block, shift):
+    """The block after a plain and after a compiled pass."""
+    plain, compiled = block.copy(), block.copy()
+    with np.errstate(all="ignore"):
+        function(plain, shift)
+    link(entry, {"stage": function}, separate=(function,))(compiled, shift)
+    return plain.reshape(ROWS, LANES), compiled.reshape(ROWS, LANES)
+
+
+numbers = st.one_of(
+    st.floats(-4.0, 4.0), st.sampled_from([0.0, -0.0, 1.0, 2.0, 2.5, 3.0, np.inf, -np.inf, np.nan])
+)
+
+
+@given(st.lists(numbers, min_size=2 * LANES, max_size=2 * LANES), st.tuples(numbers, numbers))
+def test_traced_code_does_what_the_text_does(values, shift):
+    """In every lane, with numbers that are none as well; sums of products are rounded otherwise."""
+    block = np.concatenate([values, np.linspace(-1.0, 1.0, 2 * LANES)])
+    plain, compiled = after(everything, block, shift)
+    np.testing.assert_allclose(compiled, plain, rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("function", "traced"),
+    [(everything, True), (everything_at_once, True), (with_a_branch, False), (neighbours, False)],
+)
+def test_what_cannot_be_traced_is_compiled_as_it_stands(function, traced, fresh):
+    block = np.linspace(0.5, 2.0, ROWS * LANES)
+    plain, compiled = after(function, block, (1.0, -1.0))
+    np.testing.assert_allclose(compiled, plain, rtol=1e-14)
+    assert not_traced(fresh) == (set() if traced else {function.__name__})
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_stages_are_traced(integrator, fresh):
+    """A stage that is not takes seconds to compile."""
+    models = foamprb.Models(integrator=integrator)
+    medium = foamprb.Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+    tracker = Tracker(models, MeshFlow.kernels, medium, [], 1e-3, 0.0, shaped=True, tense=False)
+    tracker.compile_stages()
+    assert not_traced(fresh) <= NOT_TRACED
+
+
+def operations(function, *arguments):
+    """Lines of the code of a plain function, each an operation."""
+
+    def symbols(code):
+        return [code.block, *(code.argument(k) for k in range(len(arguments)))]
+
+    return trace(function, LANES, FLAGS, symbols).function("f").splitlines()
+
+
+def twice_the_same(block):
+    for i in range(LANES):
+        x, y = block[i], block[LANES + i]
+        block[i] = 0.0
+        block[LANES + i] = (x + y) / (x * y) + np.sqrt(x * y)
+        block[i] = (y + x) / (y * x) - np.sqrt(x * y)
+
+
+def test_equal_operations_are_written_once_and_what_is_overwritten_never():
+    linked = link(entry, {"stage": twice_the_same}, separate=(twice_the_same,)).py_func.__globals__["stage"]
+    text = "\n".join(operations(linked.py_func))
+    for name, count in (("fdiv", 1), ("fadd", 2), ("fmul", 1), ("fsub", 1), ("call", 1), ("load", 2)):
+        assert text.count(f"= {name} ") == count, name
+    assert text.count("store ") == 2
+
+
+def not_a_row(block):
+    for i in range(LANES):
+        block[3 + i] = 1.0
+
+
+def whole_numbers(block):
+    for i in range(LANES):
+        block[i] = float(i)
+
+
+def any_power(block):
+    for i in range(LANES):
+        block[i] = block[i] ** 0.5
+
+
+def no_lanes(block):
+    block[0] = 1.0
+
+
+@pytest.mark.parametrize("function", [not_a_row, whole_numbers, any_power, no_lanes, with_a_branch])
+def test_a_text_that_is_no_stage_is_known_as_such(function):
+    with pytest.raises(UntraceableError):
+        operations(function, *(["shift"] if function is with_a_branch else []))
