@@ -132,10 +132,6 @@ _HOW = (inner.__file__, trace.__file__, __file__)
 _LINKING = hashlib.sha256(b"".join(Path(file).read_bytes() for file in _HOW)).hexdigest()[:8]
 
 
-def _branch(condition: Any, a: Any, b: Any) -> Any:
-    return a if condition else b
-
-
 _parts: dict[str, _Part] = {}
 _stores: dict[int, Store | None] = {}
 
@@ -205,7 +201,7 @@ def _link_select(target: Target) -> _Part:
     if key not in _parts:
         cpu = target == "cpu"
         inlined = numba.njit(inline="always") if cpu else partial(_compile_for_cuda, role="inlined", key=key)
-        _parts[key] = _Part(inlined(_branch), key)
+        _parts[key] = _Part(inlined(trace.branch), key)
     return _parts[key]
 
 

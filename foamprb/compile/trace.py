@@ -13,18 +13,24 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Callable, Hashable, Iterator, Sequence
+from functools import partial
 from types import CellType, FunctionType, SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-__all__ = ["Code", "UntraceableError", "trace"]
+__all__ = ["Code", "UntraceableError", "branch", "trace"]
 
 _LANES = "LANES"
 
 
 class UntraceableError(Exception):
     """Another text than that of a stage."""
+
+
+def branch(condition: Any, a: Any, b: Any) -> Any:
+    """What :func:`foamprb.body.tensor.select` is of numbers: the one branch that can be traced."""
+    return a if condition else b
 
 
 class Code:
@@ -44,7 +50,8 @@ class Code:
         self.lanes, self._together, self._flags = lanes, together, flags
         self._numbers, self._conditions = f"<{together} x double>", f"<{together} x i1>"
         self._lines: list[str] = []
-        self._known: dict[str, Any] = {}
+        self._known: dict[str, str] = {}
+        self._loops = self._loop = 0
         self._functions: set[str] = set()
         self._origins: list[Any] = []
         self.block = _Block(self)
@@ -53,7 +60,7 @@ class Code:
     def argument(self, origin: Any) -> Symbol:
         """Stand for a number that is the same in all lanes; ``origin`` tells the caller where it is from."""
         self._origins.append(origin)
-        return Symbol(self, f"%all{len(self._origins) - 1}")
+        return Symbol(self, f"%all{len(self._origins) - 1}", None)
 
     @property
     def arguments(self) -> tuple[Any, ...]:
@@ -90,24 +97,44 @@ class Code:
             "}\n"
         )
 
+    def each_lane(self) -> Iterator[_Place]:
+        """Go through all lanes at once."""
+        self._loops += 1
+        self._loop = self._loops
+        yield _Place(0)
+        self._loop = 0
+
     def load(self, offset: int) -> Symbol:
         """The numbers that are so far from the block's beginning."""
-        return Symbol(self, self._write(f"load {self._numbers}, ptr {self._address(offset)}, align 8"))
+        text = f"load {self._numbers}, ptr {self._address(offset)}, align 8"
+        return Symbol(self, self._write(text), self.loop)
 
     def store(self, offset: int, value: Any) -> int:
         """Put numbers there; the line that does it."""
-        self._lines.append(
-            f"store {self._numbers} {self._operand(value)}, ptr {self._address(offset)}, align 8"
-        )
+        operand = self._operand(value)
+        self._lines.append(f"store {self._numbers} {operand}, ptr {self._address(offset)}, align 8")
         return len(self._lines) - 1
 
     def leave_out(self, line: int) -> None:
         """Do not do what a line does."""
         self._lines[line] = ""
 
+    @property
+    def loop(self) -> int:
+        """The number of the loop over lanes that is gone through.
+
+        Raises
+        ------
+        UntraceableError
+            If there is none: a lane's number is wanted after all lanes.
+        """
+        if self._loop == 0:
+            raise UntraceableError("a number of one lane after all")
+        return self._loop
+
     def unary(self, operation: str, a: Any) -> Symbol:
         """An operation on numbers."""
-        return Symbol(self, self._once(f"{operation} {self._flags} {self._numbers} {self._operand(a)}"))
+        return Symbol(*self._result(f"{operation} {self._flags} {self._numbers} {self._operand(a)}", a))
 
     def binary(self, operation: str, a: Any, b: Any) -> Symbol:
         """An operation on two numbers."""
@@ -115,34 +142,32 @@ class Code:
         text, turned = f"{start} {self._operand(a)}, {self._operand(b)}", ""
         if operation in ("fadd", "fmul"):
             turned = f"{start} {self._operand(b)}, {self._operand(a)}"
-        return Symbol(self, self._once(turned if turned in self._known else text))
+        return Symbol(*self._result(turned if turned in self._known else text, a, b))
 
     def call(self, function: str, a: Any) -> Symbol:
         """A function that LLVM has."""
         name = f"@llvm.{function}.v{self._together}f64"
         self._functions.add(name)
-        operand = f"{self._numbers} {self._operand(a)}"
-        return Symbol(self, self._once(f"call {self._flags} {self._numbers} {name}({operand})"))
+        text = f"call {self._flags} {self._numbers} {name}({self._numbers} {self._operand(a)})"
+        return Symbol(*self._result(text, a))
 
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
         """Whether a relation holds."""
         operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
-        return Condition(self, self._once(f"fcmp {self._flags} {relation} {operands}"))
+        return Condition(*self._result(f"fcmp {self._flags} {relation} {operands}", a, b))
 
     def combine(self, operation: str, a: Any, b: Any) -> Condition:
         """Whether both conditions hold, or one of them."""
-        if not (isinstance(a, Condition) and isinstance(b, Condition)):
-            raise UntraceableError(f"a condition and {b!r}")
-        return Condition(self, self._once(f"{operation} {self._conditions} {a.name}, {b.name}"))
+        operands = f"{self._conditions} {self._condition(a)}, {self._condition(b)}"
+        return Condition(*self._result(f"{operation} {operands}", a, b))
 
     def select(self, condition: Any, a: Any, b: Any) -> Any:
         """``a`` where a condition holds, else ``b``."""
         if isinstance(condition, bool | np.bool_):
             return a if condition else b
-        if not isinstance(condition, Condition):
-            raise UntraceableError(f"a choice by {condition!r}")
         operands = f"{self._numbers} {self._operand(a)}, {self._numbers} {self._operand(b)}"
-        return Symbol(self, self._once(f"select {self._conditions} {condition.name}, {operands}"))
+        text = f"select {self._conditions} {self._condition(condition)}, {operands}"
+        return Symbol(*self._result(text, condition, a, b))
 
     def extreme(self, relation: str, a: Any, b: Any) -> Any:
         """The number that is in a relation to the other; no number if one is none, as numpy has it."""
@@ -158,15 +183,29 @@ class Code:
 
     def _operand(self, value: Any) -> str:
         if type(value) is Symbol:
-            return value.name
+            return self._name(value)
         if not isinstance(value, int | float):
             raise UntraceableError(f"a number and {value!r}")
         return f"splat (double 0x{struct.pack('>d', value).hex()})"
 
+    def _condition(self, value: Any) -> str:
+        if not isinstance(value, Condition):
+            raise UntraceableError(f"a condition and {value!r}")
+        return self._name(value)
+
+    def _name(self, symbol: Symbol) -> str:
+        if symbol.loop not in (None, self._loop):
+            raise UntraceableError("a number of one lane in another")
+        return symbol.name
+
+    def _result(self, text: str, *operands: Any) -> tuple[Code, str, int | None]:
+        of_lane = any(isinstance(a, Symbol) and a.loop is not None for a in operands)
+        return self, self._once(text), self.loop if of_lane else None
+
     def _once(self, text: str) -> str:
         if text not in self._known:
             self._known[text] = self._write(text)
-        return self._known[text]  # type: ignore[no-any-return]
+        return self._known[text]
 
     def _write(self, text: str) -> str:
         name = f"%v{len(self._lines)}"
@@ -175,15 +214,15 @@ class Code:
 
 
 class Symbol:
-    """Stands for a number of each lane."""
+    """Stands for a number of each lane, in a loop over lanes, or for one that is the same in all."""
 
-    __slots__ = ("code", "name")
+    __slots__ = ("code", "loop", "name")
     __hash__ = None  # type: ignore[assignment]
     # Numbers of numpy leave operations with it to it.
     __array_ufunc__ = None
 
-    def __init__(self, code: Code, name: str) -> None:
-        self.code, self.name = code, name
+    def __init__(self, code: Code, name: str, loop: int | None) -> None:
+        self.code, self.name, self.loop = code, name, loop
 
     def __bool__(self) -> bool:
         raise UntraceableError("a branch on a value")
@@ -273,7 +312,9 @@ class _Block:
         offset = self._offset(place)
         if offset not in self._known:
             self._known[offset] = self._code.load(offset)
-        return self._known[offset]
+        value = self._known[offset]
+        # It may have been put there in an earlier loop.
+        return Symbol(self._code, value.name, self._code.loop) if isinstance(value, Symbol) else value
 
     def __setitem__(self, place: Any, value: Any) -> None:
         offset = self._offset(place)
@@ -283,7 +324,7 @@ class _Block:
         self._known[offset] = value
 
     def _offset(self, place: Any) -> int:
-        if not isinstance(place, _Place) or place.offset % self._code.lanes:
+        if not (self._code.loop and isinstance(place, _Place)) or place.offset % self._code.lanes:
             raise UntraceableError(f"a number at {place!r}")
         return place.offset
 
@@ -304,8 +345,8 @@ class _Lanes(int):
     """The number of lanes, through which a range goes at once."""
 
 
-def _range(*bounds: int) -> Iterator[Any]:
-    return iter((_Place(0),)) if isinstance(bounds[0], _Lanes) else iter(range(*bounds))
+def _range(code: Code, *bounds: int) -> Iterator[Any]:
+    return code.each_lane() if isinstance(bounds[0], _Lanes) else iter(range(*bounds))
 
 
 def trace(
@@ -335,12 +376,14 @@ def trace(
     lanes = int(function.__globals__[_LANES])
     code = Code(lanes, math.gcd(lanes, together), flags)
     try:
-        _plain(function, code, {})(*arguments(code))
+        result = _plain(function, code, {})(*arguments(code))
     except UntraceableError:
         raise
     except Exception as error:
         # A text that does other things with its arguments than a stage does may go wrong in any way.
         raise UntraceableError(repr(error)) from error
+    if result is not None:
+        raise UntraceableError("a result")
     return code
 
 
@@ -348,7 +391,7 @@ def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) 
     """The function that goes on symbols; ``made`` are those that there are already."""
     text = function.__code__
     if function not in made:
-        scope: dict[str, Any] = {"range": _range}
+        scope: dict[str, Any] = {"range": partial(_range, code)}
         cells = tuple(CellType(cell.cell_contents) for cell in function.__closure__ or ())
         made[function] = FunctionType(text, scope, function.__name__, function.__defaults__, cells)
         for name in text.co_names:
@@ -366,7 +409,7 @@ def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> A
     text = getattr(value, "py_func", None)
     if text is None:
         return value
-    return code.select if text.__name__ == "_branch" else _plain(text, code, made)
+    return code.select if text is branch else _plain(text, code, made)
 
 
 def _functions(code: Code) -> SimpleNamespace:

@@ -62,6 +62,15 @@ def everything_at_once(block, shift):
         block[2 * LANES + i] = (1.0 - np.sqrt(x)) / y + shift[0]
 
 
+def in_two_loops(block, shift):
+    factor = shift[0] / shift[1]
+    for i in range(LANES):
+        block[2 * LANES + i] = factor * block[i]
+        block[3 * LANES + i] = factor
+    for i in range(LANES):
+        block[3 * LANES + i] += block[2 * LANES + i] * factor
+
+
 def with_a_branch(block, shift):
     for i in range(LANES):
         if block[i] > shift[0]:
@@ -105,7 +114,13 @@ def test_traced_code_does_what_the_text_does(values, shift):
 
 @pytest.mark.parametrize(
     ("function", "traced"),
-    [(everything, True), (everything_at_once, True), (with_a_branch, False), (neighbours, False)],
+    [
+        (everything, True),
+        (everything_at_once, True),
+        (in_two_loops, True),
+        (with_a_branch, False),
+        (neighbours, False),
+    ],
 )
 def test_what_cannot_be_traced_is_compiled_as_it_stands(function, traced, fresh):
     block = np.linspace(0.5, 2.0, ROWS * LANES)
@@ -125,12 +140,13 @@ def test_stages_are_traced(integrator, fresh):
 
 
 def operations(function, *arguments):
-    """Lines of the code of a plain function, each an operation."""
+    """Lines of the code of a function, each an operation."""
+    linked = link(entry, {"stage": function}, separate=(function,)).py_func.__globals__["stage"]
 
     def symbols(code):
         return [code.block, *(code.argument(k) for k in range(len(arguments)))]
 
-    return trace(function, LANES, FLAGS, symbols).function("f").splitlines()
+    return trace(linked.py_func, LANES, FLAGS, symbols).function("f").splitlines()
 
 
 def twice_the_same(block):
@@ -142,8 +158,7 @@ def twice_the_same(block):
 
 
 def test_equal_operations_are_written_once_and_what_is_overwritten_never():
-    linked = link(entry, {"stage": twice_the_same}, separate=(twice_the_same,)).py_func.__globals__["stage"]
-    text = "\n".join(operations(linked.py_func))
+    text = "\n".join(operations(twice_the_same))
     for name, count in (("fdiv", 1), ("fadd", 2), ("fmul", 1), ("fsub", 1), ("call", 1), ("load", 2)):
         assert text.count(f"= {name} ") == count, name
     assert text.count("store ") == 2
@@ -168,7 +183,39 @@ def no_lanes(block):
     block[0] = 1.0
 
 
-@pytest.mark.parametrize("function", [not_a_row, whole_numbers, any_power, no_lanes, with_a_branch])
+def with_a_sum(block):
+    total = 0.0
+    for i in range(LANES):
+        total += block[i]
+    for i in range(LANES):
+        block[i] -= total / LANES
+
+
+def with_the_last_lane(block):
+    for i in range(LANES):
+        block[i] += 1.0
+    block[LANES + i] = 1.0
+
+
+def with_a_result(block):
+    for i in range(LANES):
+        block[i] += 1.0
+    return 1.0
+
+
+NO_STAGES = (
+    not_a_row,
+    whole_numbers,
+    any_power,
+    no_lanes,
+    with_a_branch,
+    with_a_sum,
+    with_the_last_lane,
+    with_a_result,
+)
+
+
+@pytest.mark.parametrize("function", NO_STAGES)
 def test_a_text_that_is_no_stage_is_known_as_such(function):
     with pytest.raises(UntraceableError):
         operations(function, *(["shift"] if function is with_a_branch else []))
