@@ -52,7 +52,7 @@ class Code:
         self._lines: list[str] = []
         self._known: dict[str, str] = {}
         self._loops = self._loop = 0
-        self._functions: set[str] = set()
+        self._functions: dict[str, int] = {}
         self._origins: list[Any] = []
         self.block = _Block(self)
         """Stands for the block."""
@@ -77,7 +77,10 @@ class Code:
             f"<{self._together} x i32> zeroinitializer\n"
             for k in each
         )
-        declared = "".join(f"declare {self._numbers} {f}({self._numbers})\n" for f in sorted(self._functions))
+        declared = "".join(
+            f"declare {self._numbers} {called}({', '.join(n * [self._numbers])})\n"
+            for called, n in self._functions.items()
+        )
         operations = "\n".join(filter(None, self._lines))
         return (
             f"{declared}"
@@ -144,12 +147,12 @@ class Code:
             turned = f"{start} {self._operand(b)}, {self._operand(a)}"
         return Symbol(*self._result(turned if turned in self._known else text, a, b))
 
-    def call(self, function: str, a: Any) -> Symbol:
+    def call(self, function: str, *operands: Any) -> Symbol:
         """A function that LLVM has."""
         name = f"@llvm.{function}.v{self._together}f64"
-        self._functions.add(name)
-        text = f"call {self._flags} {self._numbers} {name}({self._numbers} {self._operand(a)})"
-        return Symbol(*self._result(text, a))
+        self._functions[name] = len(operands)
+        given = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
+        return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({given})", *operands))
 
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
         """Whether a relation holds."""
@@ -168,15 +171,6 @@ class Code:
         operands = f"{self._numbers} {self._operand(a)}, {self._numbers} {self._operand(b)}"
         text = f"select {self._conditions} {self._condition(condition)}, {operands}"
         return Symbol(*self._result(text, condition, a, b))
-
-    def extreme(self, relation: str, a: Any, b: Any) -> Any:
-        """The number that is in a relation to the other; no number if one is none, as numpy has it."""
-        if not isinstance(a, Symbol):
-            a, b = b, a
-        if not isinstance(a, Symbol):
-            return max(a, b) if relation == "oge" else min(a, b)
-        chosen = self.combine("or", self.compare(relation, a, b), self.compare("uno", a, a))
-        return self.select(chosen, a, b)
 
     def _address(self, offset: int) -> str:
         return self._once(f"getelementptr double, ptr %here, i64 {offset}")
@@ -415,14 +409,18 @@ def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> A
 def _functions(code: Code) -> SimpleNamespace:
     """What stands for numpy and math: what formulas use of them."""
 
-    def of_one(name: str) -> Callable[[Any], Any]:
-        plain = getattr(math, name)
-        return lambda x: code.call(name, x) if isinstance(x, Symbol) else plain(x)
+    def function(name: str, plain: Callable[..., Any]) -> Callable[..., Any]:
+        def of(*operands: Any) -> Any:
+            traced = any(isinstance(a, Symbol) for a in operands)
+            return code.call(name, *operands) if traced else plain(*operands)
+
+        return of
 
     return SimpleNamespace(
-        **{name: of_one(name) for name in ("sqrt", "exp", "log")},
-        maximum=lambda a, b: code.extreme("oge", a, b),
-        minimum=lambda a, b: code.extreme("ole", a, b),
+        **{name: function(name, getattr(math, name)) for name in ("sqrt", "exp", "log")},
+        # Of no number and another LLVM's functions make no number, as numpy's do.
+        maximum=function("maximum", max),
+        minimum=function("minimum", min),
         inf=math.inf,
         pi=math.pi,
     )
