@@ -80,7 +80,8 @@ def link(
 def side_by_side(function: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a stage in which each operation waits for the one before: two registers full of lanes go together.
 
-    It holds for separate callees. Where much is at hand to be computed there are not enough registers.
+    It holds for separate callees that are traced (:mod:`foamprb.compile.trace`). Where much is at hand to be
+    computed there are not enough registers.
     """
     setattr(function, SIDE_BY_SIDE, True)
     return function

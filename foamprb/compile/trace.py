@@ -44,10 +44,12 @@ class Code:
         How many of them go through an operation together; the number of lanes is a multiple of it.
     flags
         LLVM's flags of operations on floats.
+    passes
+        How often a loop over lanes is gone through, each time as by another lane.
     """
 
-    def __init__(self, lanes: int, together: int, flags: str) -> None:
-        self.lanes, self._together, self._flags = lanes, together, flags
+    def __init__(self, lanes: int, together: int, flags: str, passes: int = 1) -> None:
+        self.lanes, self._together, self._flags, self._passes = lanes, together, flags, passes
         self._numbers, self._conditions = f"<{together} x double>", f"<{together} x i1>"
         self._lines: list[str] = []
         self._known: dict[str, str] = {}
@@ -102,15 +104,23 @@ class Code:
 
     def each_lane(self) -> Iterator[_Place]:
         """Go through all lanes at once."""
-        self._loops += 1
-        self._loop = self._loops
-        yield _Place(0)
+        before = self.block.known
+        for _ in range(self._passes):
+            self.block.known = dict(before)
+            self._loops += 1
+            self._loop = self._loops
+            yield _Place(0)
         self._loop = 0
 
+    def does_as(self, other: Code) -> bool:
+        """Whether another code has the same operations, and leaves the same in the block."""
+        mine, its = ({k: _text(v) for k, v in code.block.known.items()} for code in (self, other))
+        return self._known == other._known and mine == its
+
     def load(self, offset: int) -> Symbol:
-        """The numbers that are so far from the block's beginning."""
+        """The numbers that were so far from the block's beginning before anything was stored there."""
         text = f"load {self._numbers}, ptr {self._address(offset)}, align 8"
-        return Symbol(self, self._write(text), self.loop)
+        return Symbol(self, self._once(text), self.loop)
 
     def store(self, offset: int, value: Any) -> int:
         """Put numbers there; the line that does it."""
@@ -198,13 +208,10 @@ class Code:
 
     def _once(self, text: str) -> str:
         if text not in self._known:
-            self._known[text] = self._write(text)
+            name = f"%v{len(self._known)}"
+            self._lines.append(f"{name} = {text}")
+            self._known[text] = name
         return self._known[text]
-
-    def _write(self, text: str) -> str:
-        name = f"%v{len(self._lines)}"
-        self._lines.append(f"{name} = {text}")
-        return name
 
 
 class Symbol:
@@ -289,6 +296,10 @@ class Condition(Symbol):
         return self.code.combine("or", self, other)
 
 
+def _text(value: Any) -> str:
+    return value.name if isinstance(value, Symbol) else repr(value)
+
+
 def _is(number: float, value: Any) -> bool:
     # Without LLVM's flag for it, what is not finite times nothing is not nothing; the sign of zero is free.
     return isinstance(value, int | float) and value == number
@@ -299,14 +310,15 @@ class _Block:
 
     def __init__(self, code: Code) -> None:
         self._code = code
-        self._known: dict[int, Any] = {}
+        self.known: dict[int, Any] = {}
+        """The symbols or numbers at offsets."""
         self._stored: dict[int, int] = {}
 
     def __getitem__(self, place: Any) -> Any:
         offset = self._offset(place)
-        if offset not in self._known:
-            self._known[offset] = self._code.load(offset)
-        value = self._known[offset]
+        if offset not in self.known:
+            self.known[offset] = self._code.load(offset)
+        value = self.known[offset]
         # It may have been put there in an earlier loop.
         return Symbol(self._code, value.name, self._code.loop) if isinstance(value, Symbol) else value
 
@@ -315,7 +327,7 @@ class _Block:
         if offset in self._stored:
             self._code.leave_out(self._stored[offset])
         self._stored[offset] = self._code.store(offset, value)
-        self._known[offset] = value
+        self.known[offset] = value if isinstance(value, Symbol) else float(value)
 
     def _offset(self, place: Any) -> int:
         if not (self._code.loop and isinstance(place, _Place)) or place.offset % self._code.lanes:
@@ -368,16 +380,19 @@ def trace(
     if _LANES not in function.__code__.co_names:
         raise UntraceableError("no lanes")
     lanes = int(function.__globals__[_LANES])
-    code = Code(lanes, math.gcd(lanes, together), flags)
-    try:
-        result = _plain(function, code, {})(*arguments(code))
-    except UntraceableError:
-        raise
-    except Exception as error:
-        # A text that does other things with its arguments than a stage does may go wrong in any way.
-        raise UntraceableError(repr(error)) from error
-    if result is not None:
-        raise UntraceableError("a result")
+    code, again = (Code(lanes, math.gcd(lanes, together), flags, passes) for passes in (1, 2))
+    for each in (code, again):
+        try:
+            result = _plain(function, each, {})(*arguments(each))
+        except UntraceableError:
+            raise
+        except Exception as error:
+            # A text that does other things with its arguments than a stage does may go wrong in any way.
+            raise UntraceableError(repr(error)) from error
+        if result is not None:
+            raise UntraceableError("a result")
+    if not code.does_as(again):
+        raise UntraceableError("a number that counts lanes")
     return code
 
 

@@ -155,7 +155,7 @@ def test_hindering_walls_leave_stages_with_inertia_vectorised(stage, monkeypatch
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
 @pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.__name__)
 def test_stage_is_traced_and_vectorised(stage, monkeypatch, tmp_path, caplog):
-    """One that is not traced takes a hundred times as long to compile."""
+    """One that is not traced takes thirty times as long to compile."""
     caplog.set_level(logging.DEBUG, logger="foamprb")
     assembly = assembly_of(stage, STAGES[stage], monkeypatch, tmp_path)
     assert ("is not traced" in caplog.text) == (stage in _NOT_TRACED)

@@ -191,6 +191,21 @@ def with_a_sum(block):
         block[i] -= total / LANES
 
 
+def with_a_count(block):
+    n = 0
+    for _ in range(LANES):
+        n += 1
+    for i in range(LANES):
+        block[i] = block[i] / n
+
+
+def with_places(block):
+    n = 0.0
+    for i in range(LANES):
+        n += 1.0
+        block[i] = n
+
+
 def with_the_last_lane(block):
     for i in range(LANES):
         block[i] += 1.0
@@ -210,6 +225,8 @@ NO_STAGES = (
     no_lanes,
     with_a_branch,
     with_a_sum,
+    with_a_count,
+    with_places,
     with_the_last_lane,
     with_a_result,
 )

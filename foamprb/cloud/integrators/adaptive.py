@@ -198,8 +198,8 @@ def learn(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> 
     share = learned_share(difference, judged)
     learns = third & (block[at.moving * LANES + i] > 0.0)
     block[during.discount * LANES + i] = select(learns, 1.0 - share, block[during.discount * LANES + i])
-    content = learns & (counted(block, i, judged) <= tolerance)
-    block[during.demanding * LANES + i] = select(content, 0.0, block[during.demanding * LANES + i])
+    satisfied = learns & (counted(block, i, judged) <= tolerance)
+    block[during.demanding * LANES + i] = select(satisfied, 0.0, block[during.demanding * LANES + i])
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:
