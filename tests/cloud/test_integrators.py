@@ -359,10 +359,10 @@ def test_a_body_learns_how_much_less_its_errors_are_than_they_might_be(integrato
     assert np.max(errors) < 1e-4
     assert (clouds[0].particles.discount > 0.0).any()
     # What is known of the next step, but for those in which it is found out again.
-    foretold = np.array([n for n in range(20, 59) if (n + 1) % LEARNED_FOR])
-    right = demanding[foretold] == thirds[0, foretold + 1]
-    assert right.mean() > 0.9
-    assert 0.0 < demanding[foretold].mean() < 1.0
+    foretold = np.array([n for n in range(59) if (n + 1) % LEARNED_FOR])
+    expected, found = demanding[foretold] > 0.0, thirds[0, foretold + 1]
+    assert found[expected].mean() > 0.5
+    assert found[~expected].mean() < 0.1
 
 
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])

@@ -42,7 +42,7 @@ def not_traced(caplog):
 def everything(block, shift):
     for i in range(LANES):
         x, y = block[i], block[LANES + i]
-        quotient = (x - 2.0 * y) / (1.0 + y * y) - 0.0
+        quotient = (x - 2.0 * y) / (1.0 + y * y) - 0.0 + (x - y) * (y - x)
         power = (-x) ** 3 + 0.0 * y + (shift[0] - 1 * x) ** 2 / 4
         for n in range(1, 3):
             power = n * power + shift[1]
@@ -51,7 +51,7 @@ def everything(block, shift):
         between = (x < y) & (y <= 3.0) | (x >= 2.0) & (x != 2.5) | (y == 1.0)
         chosen = select(between, power, 0.0 - size)
         block[2 * LANES + i] = 0.0
-        block[2 * LANES + i] = select(x > 1e3, np.inf, chosen)
+        block[2 * LANES + i] = select(x > 2.0, 0.125 * chosen, chosen)
         block[3 * LANES + i] += block[2 * LANES + i] + 1.0
 
 
@@ -191,6 +191,14 @@ def with_a_sum(block):
         block[i] -= total / LANES
 
 
+def with_a_left_over(block):
+    last = 0.0
+    for i in range(LANES):
+        last = block[i]
+    for i in range(LANES):
+        block[i] = last
+
+
 def with_a_count(block):
     n = 0
     for _ in range(LANES):
@@ -225,6 +233,7 @@ NO_STAGES = (
     no_lanes,
     with_a_branch,
     with_a_sum,
+    with_a_left_over,
     with_a_count,
     with_places,
     with_the_last_lane,
