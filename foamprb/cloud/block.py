@@ -133,6 +133,8 @@ class Scratch(NamedTuple):
     reason: Any
     patch: Any
     host: Any
+    ahead: Any
+    """The host to which the step of each leads."""
     step: Any
     """The step at which each particle is."""
     matrix: Any
@@ -166,11 +168,11 @@ def new_scratch(
     room
         How many rebounds it can take.
     """
-    a, b, c, d, e, f = np.empty((6, LANES), dtype=np.int64)
+    a, b, c, d, e, f, g = np.empty((7, LANES), dtype=np.int64)
     nothing = np.zeros((2, 1), dtype=np.int64)
     return Scratch(
-        new_block(rows), a, b, c, d, e, np.empty((9, 10)),
-        nothing[0] if stop is None else stop, f, nothing[1],
+        new_block(rows), a, b, c, d, e, f, np.empty((9, 10)),
+        nothing[0] if stop is None else stop, g, nothing[1],
         np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
     )  # fmt: skip
 

@@ -1,8 +1,8 @@
 """What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
-those of the flow that was chosen when the loop is compiled, ``turn_along`` and ``bounce_along`` to a model of
-the surroundings.
+those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
+``turn_along`` and ``bounce_along`` are bound to a model of the surroundings.
 """
 
 from __future__ import annotations
@@ -132,16 +132,19 @@ def reach_end(
     s: Scratch,
     i: int,
     goal: Vector,
+    ahead: int,
     t_end: float,
     h: float,
 ) -> int:
     """Move the particle in lane i to its goal, which it would reach at t_end after a step h, and touch walls.
 
+    ``ahead`` is the host that probably holds the goal.
+
     Returns
     -------
     The number of walks that the tree had to mend.
     """
-    end, start, spent, mended = move_centre(flow, patches, s, i, goal, h)
+    end, start, spent, mended = move_centre(flow, patches, s, i, goal, ahead, h)
     store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
         spent *= touch(flow, patches, s, i, start, t_end - h, spent)
@@ -254,13 +257,19 @@ def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
     return host, low
 
 
+def walk_on(flow: Any, host: int, _ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Walk from x0 in its host to x1; which host probably holds x1 is no help here."""
+    return walk(flow, host, x0, x1)
+
+
 def move_centre(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, dt: float
+    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, dt: float
 ) -> tuple[Vector, Vector, float, int]:
     """Carry the centre to its goal in Δt, through the mesh and off, onto or across the patches that it meets.
 
     Where a walk fails it begins anew from the last place on its way that the tree finds in the mesh; if it
-    fails from there as well the centre stays there for the rest of the step.
+    fails from there as well the centre stays there for the rest of the step. ``ahead`` is as of
+    :func:`reach_end`.
 
     Returns
     -------
@@ -274,7 +283,7 @@ def move_centre(
     start = x0
     for _ in range(_MAX_PATCHES):
         rest = dt - spent
-        host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
+        host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, x1)
         if patch == -2:
             recovered += 1
             host, done = last_inside(flow, x0, x1)
@@ -304,7 +313,7 @@ def move_centre(
             break
         if code in (MIRROR, CYCLIC):
             x0, x1, turn, shift = beyond(flow, s, i, code, triangle, x0, x1)
-            start = moved(turn, shift, start)
+            start, ahead = moved(turn, shift, start), s.host[i]
             continue
         n = normal(flow, triangle, x0)
         note_rebound(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
@@ -312,7 +321,7 @@ def move_centre(
         store3(block, at.v, i, v)
         bounce_along(block, i, n)
         rest = dt - spent
-        x1 = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2])
+        x1, ahead = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2]), s.host[i]
     return x0, start, dt, recovered
 
 

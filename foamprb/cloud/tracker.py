@@ -215,7 +215,7 @@ class Tracker:
         scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix}
-        arguments |= dict.fromkeys(("i", "code", "triangle"), np.int64(0))
+        arguments |= dict.fromkeys(("i", "code", "triangle", "ahead"), np.int64(0))
         arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt"), 0.0)
         compile_part(function, arguments, self.bindings, self.separate)

@@ -30,6 +30,7 @@ from foamprb.flow.walk import (
     sample_ahead,
     turbulence,
     walk,
+    walk_on,
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
 from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, pairs_near
@@ -145,6 +146,7 @@ class MeshFlow:
         "sample_ahead": sample_ahead,
         "curvature": curvature,
         "walk": walk,
+        "walk_on": walk_on,
         "gap": gap,
         "walls": walls,
         "normal": normal,

@@ -19,7 +19,7 @@ from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walls
+from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walk_on, walls
 from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import sample as sample_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
@@ -100,6 +100,7 @@ class RotatingFlow(MeshFlow):
         "sample": sample,
         "curvature": curvature,
         "walk": walk,
+        "walk_on": walk_on,
         "gap": gap,
         "walls": walls,
         "normal": normal,

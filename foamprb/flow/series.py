@@ -29,6 +29,7 @@ from foamprb.flow.walk import blend_turbulence, corners, curvature_in, interpola
 from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
+from foamprb.flow.walk import walk_on as walk_on_mesh
 from foamprb.flow.walls import gap as gap_mesh
 
 _SLACK = 1e-6
@@ -122,6 +123,11 @@ def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
     return walk_mesh(flow.mesh, host, x0, x1)
 
 
+def walk_on(flow: SeriesArrays, host: int, ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """:func:`foamprb.flow.walk.walk_on`."""
+    return walk_on_mesh(flow.mesh, host, ahead, x0, x1)
+
+
 def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """:func:`foamprb.flow.walk.gap`."""
     return gap_mesh(flow.mesh, host, x, F, R)
@@ -187,6 +193,7 @@ class SeriesFlow:
         "sample": sample,
         "curvature": curvature,
         "walk": walk,
+        "walk_on": walk_on,
         "gap": gap,
         "walls": walls,
         "normal": normal,

@@ -14,7 +14,7 @@ import numpy as np
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, dot_vector
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, nodes_of, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -30,6 +30,8 @@ _ATTEMPTS = 4
 _APART = 1e-6
 # A point off the middle of a tetrahedron and of its faces.
 _INSIDE = (0.1, 0.2, 0.3, 0.4)
+STEADY: Vector = (0.0, 0.0, 0.0)
+"""∂u/∂t of a steady flow, m/s²."""
 
 Corners: TypeAlias = tuple[int, int, int, int]
 Weights: TypeAlias = tuple[float, float, float, float]
@@ -40,29 +42,27 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
 
     The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
     """
-    return _sample_by(flow, host, shape(flow, host, x))
+    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
+    return u, l, STEADY
 
 
 def sample_ahead(
     flow: MeshArrays, host: int, x0: Vector, x1: Vector, t: float
-) -> tuple[Vector, Tensor, Vector]:
-    """:func:`sample` at x1, to which a way leads from x0 in ``host``, as the last tetrahedron on it has it.
+) -> tuple[int, Vector, Tensor, Vector]:
+    """The last tetrahedron on a way from x0 in ``host`` to x1, and :func:`sample` at x1 as that has it.
 
-    Mostly that is ``host``, and what says so are the shares of its nodes.
+    Mostly it is ``host``, and what says so are the shares of its nodes.
     """
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
     if min(w0, w1, w2, w3) >= -TOLERANCE * volume and is_sound(flow, host):
         s = 1.0 / volume
-        return _sample_by(flow, host, (s * w0, s * w1, s * w2, s * w3))
+        u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), (s * w0, s * w1, s * w2, s * w3))
+        return host, u, l, STEADY
     found, _, patch, _ = follow(flow, host, x0, x1)
-    return sample(flow, host if patch == FAILED else found, x1, t)
-
-
-def _sample_by(flow: MeshArrays, host: int, w: Weights) -> tuple[Vector, Tensor, Vector]:
-    """:func:`sample` where the nodes of the tetrahedron have these shares."""
-    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), w)
-    return u, l, (0.0, 0.0, 0.0)
+    last = host if patch == FAILED else found
+    u, l, _ = sample(flow, last, x1, t)
+    return last, u, l, STEADY
 
 
 def turbulence(flow: MeshArrays, host: int, x: Vector, t: float) -> Turbulence:  # noqa: ARG001
@@ -84,8 +84,8 @@ def blend_turbulence(f: Floats, k: int, nodes: Corners, w: Weights) -> Turbulenc
 
 def corners(flow: MeshArrays, host: int, first: int) -> Corners:
     """Rows of the nodes of a tetrahedron in a table where node 0 has the row ``first``."""
-    tets = flow.tets
-    return first + tets[host, 0], first + tets[host, 1], first + tets[host, 2], first + tets[host, 3]
+    a, b, c, d = nodes_of(flow, host)
+    return first + a, first + b, first + c, first + d
 
 
 def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
@@ -157,8 +157,22 @@ def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, floa
         ``(tetrahedron of x1, 1, −1, −1)`` when x1 was reached; ``(last tetrahedron, fraction of the segment,
         patch, boundary triangle)`` when the boundary was crossed there; patch −2 when the walk failed.
     """
-    if holds(flow, host, x1) and is_sound(flow, host):
-        return host, 1.0, REACHED, NO_TRIANGLE
+    return _look_and_follow(flow, host, host, x0, x1)
+
+
+def walk_on(flow: MeshArrays, host: int, ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """:func:`walk`, where a way from x0 to a place near x1 led to the tetrahedron ``ahead``.
+
+    If that one holds x1 the way to it is not followed again.
+    """
+    return _look_and_follow(flow, host, ahead, x0, x1)
+
+
+def _look_and_follow(
+    flow: MeshArrays, host: int, ahead: int, x0: Vector, x1: Vector
+) -> tuple[int, float, int, int]:
+    if holds(flow, ahead, x1) and is_sound(flow, ahead):
+        return ahead, 1.0, REACHED, NO_TRIANGLE
     return follow(flow, host, x0, x1)
 
 

@@ -85,6 +85,7 @@ def track_each(
             cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
             cuda.local.array((9, 10), np.float64),
             cuda.local.array(1, np.int64),
             cuda.local.array(1, np.int64),

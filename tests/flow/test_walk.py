@@ -41,6 +41,7 @@ from foamprb.flow.walk import (
     sample_ahead,
     turbulence,
     walk,
+    walk_on,
 )
 from foamprb.flow.wall_lists import near_walls, wall_tree
 from foamprb.flow.walls import gap
@@ -148,7 +149,7 @@ def test_walks_end_where_the_tree_finds_them(kind, random):
 def look_ahead(flow, hosts, start, end, u, l):
     for i in range(start.shape[0]):
         x0, x1 = (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
+        _, velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
         for k in range(3):
             u[i, k] = velocity[k]
         for k in range(9):
@@ -172,6 +173,32 @@ def test_ahead_the_flow_is_that_of_the_last_tetrahedron_on_the_way(reach, random
     expected_u, expected_l = flow.sample(end, last, 0.0)
     np.testing.assert_allclose(u, expected_u, atol=1e-11 * np.abs(expected_u).max())
     np.testing.assert_allclose(l, expected_l.reshape(-1, 9), atol=1e-11 * np.abs(expected_l).max())
+
+
+def go_on(flow, hosts, ahead, start, end, found):
+    for i in range(start.shape[0]):
+        x0, x1 = (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
+        found[i], _, _, _ = walk_on(flow, hosts[i], ahead[i], x0, x1)
+
+
+def test_a_way_is_not_followed_again_to_where_one_near_it_led(random):
+    """Where no face leads on it is found there, and only there; else wherever one looks first."""
+    flow = flow_on("hexahedra")
+    start = random.random((2000, 3))
+    end = start + random.uniform(-0.2, 0.2, start.shape)
+    inside = np.all((end > 0.0) & (end < 1.0), axis=1)
+    start, end = start[inside], end[inside]
+    first, last, found = flow.locate(start), flow.locate(end), np.empty(len(end), dtype=np.int32)
+    arrays, moved = flow.arrays(), first != last
+    assert moved.mean() > 0.3
+    for looked_at in (first, last, np.zeros_like(first)):
+        link(go_on)(arrays, first, looked_at, start, end, found)
+        assert np.array_equal(found, last)
+    walled = arrays._replace(neighbours=np.full_like(arrays.neighbours, -1))
+    link(go_on)(walled, first, first, start, end, found)
+    assert np.array_equal(found, first)
+    link(go_on)(walled, first, last, start, end, found)
+    assert np.array_equal(found, last)
 
 
 @pytest.mark.parametrize("kind", KINDS)

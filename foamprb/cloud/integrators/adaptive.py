@@ -259,17 +259,25 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     surround(block, medium, share)
 
 
-def sample_ahead(flow: Any, host: int, x: Vector, goal: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """The flow at a place to which the step leads from x, as its host has it, or the last one on the way."""
+def sample_ahead(
+    flow: Any, host: int, x: Vector, goal: Vector, t: float
+) -> tuple[int, Vector, Tensor, Vector]:
+    """The flow at a place to which the step leads from x, as its host has it, or the last one on the way.
+
+    That host comes first.
+    """
     found, _, patch, _ = walk(flow, host, x, goal)
-    return sample(flow, host if patch == -2 else found, goal, t)
+    last = host if patch == -2 else found
+    u, l_f, u_t = sample(flow, last, goal, t)
+    return last, u, l_f, u_t
 
 
-def _sample_end(flow: Any, host: int, block: Any, i: int) -> None:
-    """The flow where the step of lane i leads."""
+def _sample_end(flow: Any, s: Scratch, i: int) -> None:
+    """The flow where the step of lane i leads, and which host that is."""
+    block = s.block
     place = load3(block, at.new_x, i)
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    u, l_f, u_t = sample_ahead(flow, host, load3(block, at.x, i), place, t)
+    s.ahead[i], u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
@@ -285,7 +293,7 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
         x[1] + half * v[1] + f * a[1],
         x[2] + half * v[2] + f * a[2],
     )
-    _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
+    _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
     store9(block, during.middle_l, i, l_f)
 
 
@@ -363,7 +371,7 @@ def track_adaptive(
         predict(block, medium)
         for i in range(len(members)):
             if block[at.moving * LANES + i] > 0.0:
-                _sample_end(flow, scratch.host[i], block, i)
+                _sample_end(flow, scratch, i)
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
@@ -404,7 +412,7 @@ def track_adaptive(
                 allowed = max(allowed, size)
             block[at.h * LANES + i] = min(dt, allowed)
             goal = load3(block, at.new_x, i)
-            recovered += reach_end(flow, patches, scratch, i, goal, t_new, h)
+            recovered += reach_end(flow, patches, scratch, i, goal, scratch.ahead[i], t_new, h)
             if whole:
                 end_tracking_step(scratch, i)
     if renews_end:

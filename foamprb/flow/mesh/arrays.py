@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,13 +111,19 @@ def no_mesh() -> MeshArrays:
     )
 
 
+def nodes_of(flow: MeshArrays, tet: int) -> tuple[Any, Any, Any, Any]:
+    """Rows of the nodes of a tetrahedron; unsigned, so that none is asked whether it counts from the end."""
+    tets, row = flow.tets, np.uint64(tet)
+    return np.uint32(tets[row, 0]), np.uint32(tets[row, 1]), np.uint32(tets[row, 2]), np.uint32(tets[row, 3])
+
+
 def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, float]:
     """Origin, the three cofactor vectors and six times the signed volume of a tetrahedron.
 
     With r = x − origin, the barycentric weights of vertices 1, 2, 3 at x are r·c_k over that volume.
     """
-    nodes, tets = flow.nodes, flow.tets
-    a, b, c, d = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
+    nodes = flow.nodes
+    a, b, c, d = nodes_of(flow, tet)
     ox, oy, oz = nodes[a, 0], nodes[a, 1], nodes[a, 2]
     px, py, pz = nodes[b, 0] - ox, nodes[b, 1] - oy, nodes[b, 2] - oz
     qx, qy, qz = nodes[c, 0] - ox, nodes[c, 1] - oy, nodes[c, 2] - oz
