@@ -153,18 +153,33 @@ def _machine_code() -> _Changes:
     make one huge function of a loop and its stages, or optimise each of them in every caller again.
 
     Gains also a sixth of a step: what is called is handed no arguments that it does not use, and uses the
-    widest registers that there are.
+    widest registers that there are. What is inlined takes its arguments whole: numba would take a flow apart
+    into some two hundred numbers and put it together again in each function.
     """
     from numba import _dynfunc
+    from numba.core.callconv import CPUCallConv
     from numba.core.codegen import JITCodeLibrary
     from numba.core.compiler import CompileResult
     from numba.core.compiler_machinery import register_pass
+    from numba.core.cpu import CPUContext
     from numba.core.typed_passes import NativeLowering
 
     used = ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals", "_finalized")
-    _need(JITCodeLibrary, *used, "add_linking_library", "_get_module_for_linking")
+    _need(JITCodeLibrary, *used, "add_linking_library", "_get_module_for_linking", "_optimize_functions")
+    _need(CPUCallConv, "_get_arg_packer", "decode_arguments", "call_function")
 
-    class Inlined(JITCodeLibrary):  # type: ignore[misc]
+    class Library(JITCodeLibrary):  # type: ignore[misc]
+        """Code of which all functions go through the same passes."""
+
+        def _optimize_functions(self, ll_module: Any) -> None:
+            # Numba sets the passes up anew for each, also for those that are only declared.
+            ll_module.data_layout = self._codegen._data_layout
+            passes, builder = self._codegen._function_pass_manager()
+            for function in ll_module.functions:
+                if not function.is_declaration:
+                    passes.run(function, builder)
+
+    class Inlined(Library):
         """Intermediate code that becomes a part of others, with what it inlines itself."""
 
         def finalize(self) -> None:
@@ -175,7 +190,7 @@ def _machine_code() -> _Changes:
         def _get_module_for_linking(self) -> Any:
             return self._final_module
 
-    class Entry(JITCodeLibrary):  # type: ignore[misc]
+    class Entry(Library):
         """Machine code: what is inlined becomes a part of it before it is optimised, what it calls after."""
 
         def finalize(self) -> None:
@@ -269,16 +284,85 @@ def _machine_code() -> _Changes:
         name = fndesc.qualname.split(".")[-1]
         return _dynfunc.make_function(fndesc.lookup_module(), name, "", 0, env, (library,))
 
+    def made_anew(builder: Any, value: Any, kind: Any) -> Any:
+        """A value of another kind that has the same numbers: three are an array, or a structure."""
+        if value.type == kind:
+            return value
+        made = ir.Constant(kind, ir.Undefined)
+        for k, part in enumerate(kind.elements):
+            made = builder.insert_value(made, made_anew(builder, builder.extract_value(value, k), part), k)
+        return made
+
+    class Whole:
+        """What a function takes of which each argument stays one, whatever it is made of."""
+
+        def __init__(self, context: Any, kinds: Any) -> None:
+            self.argument_types = tuple(map(context.get_value_type, kinds))
+
+        def as_arguments(self, builder: Any, values: Any) -> Any:
+            return [made_anew(builder, *each) for each in zip(values, self.argument_types, strict=True)]
+
+        def from_arguments(self, builder: Any, values: Any) -> Any:  # noqa: ARG002
+            return values
+
+        def assign_names(self, values: Any, names: Any) -> None:
+            for value, name in zip(values, names, strict=True):
+                value.name = name
+
+    class WholeCalls(CPUCallConv):  # type: ignore[misc]
+        """How those are called."""
+
+        def _get_arg_packer(self, argtypes: Any) -> Whole:
+            return Whole(self.context, argtypes)
+
+    class Calls(CPUCallConv):  # type: ignore[misc]
+        """How functions are called: as numba has it, but for those that are inlined."""
+
+        def decode_arguments(self, builder: Any, argtypes: Any, func: Any) -> Any:
+            return self._of(func).decode_arguments(builder, argtypes, func)
+
+        def call_function(self, builder: Any, callee: Any, *rest: Any, **options: Any) -> Any:
+            return self._of(callee).call_function(builder, callee, *rest, **options)
+
+        def _of(self, function: Any) -> CPUCallConv:
+            inlined = "alwaysinline" in function.attributes
+            return (WholeCalls if inlined else CPUCallConv)(self.context)
+
+    class Context(CPUContext):  # type: ignore[misc]
+        """Numba's context of a target, with such calls."""
+
+        declaring_inlined = False
+
+        @property
+        def call_conv(self) -> Any:
+            return WholeCalls(self) if self.declaring_inlined else Calls(self)
+
+        def declare_function(self, module: Any, fndesc: Any) -> Any:
+            self.declaring_inlined = fndesc.inline
+            try:
+                return super().declare_function(module, fndesc)
+            finally:
+                self.declaring_inlined = False
+
+    # What numba itself adds to a function is inlined in ours only, where it is compiled for them.
+    added: dict[Any, Any] = {}
+
+    def with_calls(context: Any) -> Any:
+        context = copy.copy(context)
+        context.__class__ = Context
+        context.cached_internal_func = added
+        return context
+
     def for_code(context: Any) -> Any:
         """Numba's context of a target, for a function that only compiled code calls."""
-        context = copy.copy(context)
+        context = with_calls(context)
         context.get_executable = not_executable
         return context
 
-    def lower(lowering: Any, state: Any, library: Any) -> bool:
-        """Numba's last pass, into a library of another kind and without machine code."""
+    def lower(lowering: Any, state: Any, library: Any, changed: Callable[[Any], Any]) -> bool:
+        """Numba's last pass, into a library of another kind, with another context."""
         state.library = library
-        context, state.targetctx = state.targetctx, for_code(state.targetctx)
+        context, state.targetctx = state.targetctx, changed(state.targetctx)
         try:
             return bool(NativeLowering.run_pass(lowering, state))
         finally:
@@ -289,23 +373,25 @@ def _machine_code() -> _Changes:
         _name = "lowering_of_inlined"
 
         def run_pass(self, state: Any) -> bool:
-            return lower(self, state, Inlined(state.targetctx.codegen(), state.func_id.func_qualname))
+            library = Inlined(state.targetctx.codegen(), state.func_id.func_qualname)
+            return lower(self, state, library, for_code)
 
     @register_pass(mutates_CFG=True, analysis_only=False)
     class LoweringOfSeparate(NativeLowering):  # type: ignore[misc]
         _name = "lowering_of_separate"
 
         def run_pass(self, state: Any) -> bool:
-            return lower(self, state, Separate(state.targetctx.codegen(), state.func_id.func_qualname))
+            library = Separate(state.targetctx.codegen(), state.func_id.func_qualname)
+            return lower(self, state, library, for_code)
 
     @register_pass(mutates_CFG=True, analysis_only=False)
     class LoweringOfEntry(NativeLowering):  # type: ignore[misc]
         _name = "lowering_of_entry"
 
         def run_pass(self, state: Any) -> bool:
-            state.library = Entry(state.targetctx.codegen(), state.func_id.func_qualname)
-            state.library.enable_object_caching()
-            return bool(super().run_pass(state))
+            library = Entry(state.targetctx.codegen(), state.func_id.func_qualname)
+            library.enable_object_caching()
+            return lower(self, state, library, with_calls)
 
     def rebuild(context: Any, payload: Any) -> Any:
         """What numba makes of what was saved of a separate function."""
