@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,7 +9,7 @@ from foamprb.body.ellipsoid import integrals
 from foamprb.body.explicit_limit import is_stable, safe_step
 from foamprb.body.material import MATERIALS, finger, metric_at_rest
 from foamprb.body.rosenbrock import elasticity, kirchhoff
-from foamprb.body.tensor import Tensor, cofactor, det, dot, principal_frame
+from foamprb.body.tensor import Tensor, add, cofactor, ddot, det, dot, principal_frame, scale
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
@@ -20,6 +18,7 @@ __all__ = ["longest_stable_steps"]
 Floats = NDArray[np.float64]
 _HALVINGS = 12
 _CHUNK = 16_384
+_PENDING, _FAILED = int(Status.PENDING), int(Status.FAILED)
 
 
 def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
@@ -44,29 +43,36 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
 
 def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
     limits = np.full(p.size, np.inf)
-    going = (p.status != Status.PENDING) & (p.status != Status.FAILED)
     # Once it is beyond, a shape oscillates with each step, and may be within for a while: so what it was
     # before the last step, and what it would be after another such, are looked at as well.
     for steps in (0.0, -1.0, 1.0):
-        shapes = p.F + steps * dt * p.A
-        rows = np.flatnonzero(going & ~(_surely(shapes, p, mu_f) >= dt))
+        doubtful = np.zeros(p.size, dtype=bool)
+        link(_find_doubtful)(p.status, p.F, p.A, p.R, p.rho, p.eta, mu_f, dt, steps, doubtful)
+        rows = np.flatnonzero(doubtful)
         if len(rows):
             chosen, found = p.take(rows), np.empty(len(rows))
+            shapes = chosen.F + steps * dt * chosen.A
             loop = link(_find_limits, {"derivatives": MATERIALS[material].derivatives})
-            loop(shapes[rows], chosen.F0, chosen.R, chosen.rho, chosen.mu, chosen.lame, chosen.k, chosen.eta,
+            loop(shapes, chosen.F0, chosen.R, chosen.rho, chosen.mu, chosen.lame, chosen.k, chosen.eta,
                  mu_f, dt, found)  # fmt: skip
             limits[rows] = np.minimum(limits[rows], found)
     return limits
 
 
-def _surely(shapes: Floats, p: Particles, mu_f: float) -> Floats:
-    """A step, s, with which each shape, (n, 9), is stable whatever its elasticity."""
-    F: Any = tuple(shapes.T)
-    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-        J = det(F)
-        # No stretch is less than J over the norm of the cofactors.
-        least = J / np.sqrt(sum(c * c for c in cofactor(F)))
-        return np.asarray(safe_step((least, least, J / (least * least)), 5.0 / (p.rho * p.R**2), mu_f, p.eta))
+def _find_doubtful(
+    status: NDArray[np.int8], F: Floats, A: Floats, R: Floats, rho: Floats, eta: Floats,
+    mu_f: float, dt: float, steps: float, doubtful: NDArray[np.bool_],
+) -> None:  # fmt: skip
+    """Mark the particles whose shape, so many steps from now, might not be stable with every elasticity."""
+    h = steps * dt
+    for n in range(len(doubtful)):
+        if status[n] != _PENDING and status[n] != _FAILED:
+            shape = add(_tensor(F, n), scale(h, _tensor(A, n)))
+            J, c = det(shape), cofactor(shape)
+            # No stretch is less than J over the norm of the cofactors.
+            least = J / np.sqrt(ddot(c, c))
+            limit = safe_step((least, least, J / (least * least)), 5.0 / (rho[n] * R[n] * R[n]), mu_f, eta[n])
+            doubtful[n] = not limit >= dt
 
 
 def _find_limits(
