@@ -6,6 +6,7 @@ the copy ended.
 
 from __future__ import annotations
 
+import atexit
 import json
 import os
 import resource
@@ -95,6 +96,7 @@ def _ask(path: Path, step: int | None) -> int:
         _server = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )
+        atexit.register(_end, _server)
     try:
         _server.stdin.write(json.dumps([str(path.resolve()), step, _limit(path)]) + "\n")
         _server.stdin.flush()
@@ -103,6 +105,12 @@ def _ask(path: Path, step: int | None) -> int:
         raise InputError(
             f"{path}: the process that tries whether VTK can read it has ended: {error}."
         ) from None
+
+
+def _end(server: Any) -> None:
+    """End the second process, whatever it is at."""
+    with server:
+        server.kill()
 
 
 def _serve() -> None:

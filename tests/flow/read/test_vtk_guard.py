@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import pyvista
@@ -80,3 +84,17 @@ def test_files_with_and_without_times(suffix, tmp_path):
         [part] = data if isinstance(data, pyvista.MultiBlock) else [data]
         assert np.asarray(part.cell_data["k"]).tolist() == [float(step)]
         require_survival(path, step)
+
+
+def test_nothing_is_left_of_the_process_that_reads_first(tmp_path):
+    """Python's development mode tells of pipes and processes that a program leaves behind."""
+    pyvista.Sphere().save(tmp_path / "sphere.vtp")
+    read = (
+        "from pathlib import Path; from foamprb.flow.read import vtk_guard;"
+        "vtk_guard.require_survival(Path('sphere.vtp')); print(vtk_guard._server.pid)"
+    )
+    command = [sys.executable, "-W", "default::ResourceWarning", "-c", read]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(done.stdout), 0)
