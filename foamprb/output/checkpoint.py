@@ -1,18 +1,18 @@
 """Checkpoints: files of a header and arrays, with a checksum.
 
 A file is one line that names format and version, the header as one line of JSON, the arrays as numpy's
-``.npy`` one after the other in the order of the header's ``arrays``, and the SHA-256 of all that. Where all
+``.npy`` one after the other in the order of the header's ``arrays``, and the CRC-32 of all that. Where all
 rows of an array are alike, as in many of a cloud's, the file has one of them, and the header's ``rows`` says
 how many there are. The last two files stay on disk, so that a run can resume when one of them is damaged.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import logging
 import os
 import re
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,13 +26,13 @@ from foamprb.output.atomic import atomic_write, forget, remove_unfinished
 
 log = logging.getLogger("foamprb")
 
-VERSION = 5
+VERSION = 6
 MOST_FILES = 2
 """Checkpoints that stay on disk."""
 
 _FORMAT = b"foamprb checkpoint "
 _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
-_DIGEST_BYTES = hashlib.sha256().digest_size
+_SUM_BYTES = 4
 # Bytes copied at a time.
 _CHUNK = 1 << 20
 # Rows that are compared before all are.
@@ -134,12 +134,12 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
     rows = {name: len(array) for name, array in arrays.items() if _is_one_row(array)}
     header = {"time": checkpoint.time, "arrays": list(arrays), "rows": rows, **checkpoint.header}
     with atomic_write(path) as temporary, temporary.open("wb") as file:
-        digest = _Digest(file)
-        digest.write(_FORMAT + b"%d\n" % VERSION)
-        digest.write(json.dumps(header, allow_nan=False).encode() + b"\n")
+        summed = _Summed(file)
+        summed.write(_FORMAT + b"%d\n" % VERSION)
+        summed.write(json.dumps(header, allow_nan=False).encode() + b"\n")
         for name, array in arrays.items():
-            digest.write_array(array[:1] if name in rows else array)
-        file.write(digest.sha256.digest())
+            summed.write_array(array[:1] if name in rows else array)
+        file.write(_as_bytes(summed.crc))
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
@@ -176,15 +176,19 @@ def _is_one_row(array: NDArray[Any]) -> bool:
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
 
 
-class _Digest:
-    """Writes to a file, and computes the checksum of what was written."""
+class _Summed:
+    """Writes to a file, and computes the checksum of what was written.
+
+    It finds what disks and killed processes do to a file. A cryptographic one would take as long as writing
+    does, and several times as long on processors that have no instructions for it.
+    """
 
     def __init__(self, file: IO[bytes]) -> None:
         self.file = file
-        self.sha256 = hashlib.sha256()
+        self.crc = 0
 
     def write(self, data: bytes | memoryview) -> None:
-        self.sha256.update(data)
+        self.crc = zlib.crc32(data, self.crc)
         self.file.write(data)
 
     def write_array(self, array: NDArray[Any]) -> None:
@@ -195,19 +199,22 @@ class _Digest:
 
 
 def _check(file: IO[bytes]) -> None:
-    """Compare the digest at the end with the bytes before it; leave the file at its beginning."""
+    """Compare the checksum at the end with the bytes before it; leave the file at its beginning."""
     if file.read(len(_FORMAT)) != _FORMAT:
         raise DamagedError("it does not begin as a checkpoint does")
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
-    rest = size - _DIGEST_BYTES
-    sha256 = hashlib.sha256()
+    rest, crc = size - _SUM_BYTES, 0
     while rest > 0:
         data = file.read(min(rest, _CHUNK))
         if not data:
             raise DamagedError("it became shorter while it was read")
-        sha256.update(data)
+        crc = zlib.crc32(data, crc)
         rest -= len(data)
-    if file.read() != sha256.digest():
+    if file.read() != _as_bytes(crc):
         raise DamagedError("its contents do not match its checksum")
     file.seek(0)
+
+
+def _as_bytes(crc: int) -> bytes:
+    return crc.to_bytes(_SUM_BYTES, "little")

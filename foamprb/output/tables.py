@@ -24,8 +24,8 @@ Column = Sequence[object] | NDArray[Any]
 KINDS = ("csv", "parquet")
 """The kinds of tables, which are the endings of their files."""
 
-# Rows converted to text at a time: bounds the memory, costs no time.
-_CHUNK = 16_384
+# Rows converted to text at a time: their pieces stay in the cache, without which it takes half as long again.
+_CHUNK = 2048
 
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 
