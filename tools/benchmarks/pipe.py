@@ -232,13 +232,13 @@ def write_parcels(folder: Path, x: Floats) -> None:
     )
 
 
-def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int) -> None:
+def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, scheme: str = "paper") -> None:
     """Write ``softCloudProperties``: n particles enter by the inlet, evenly during the first nine tenths."""
     end = steps * dt
     _dictionary(
         folder / "constant" / "softCloudProperties",
         f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end / writes:.9g}; "
-        "integrationSchemes { shape paper; } }\n"
+        f"integrationSchemes {{ shape {scheme}; }} }}\n"
         f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; "
         "solid { type neoHooke; poissonsRatio 0.499; shearModulus 0.05; } }\n"
         "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { inlet { "

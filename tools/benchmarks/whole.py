@@ -43,7 +43,7 @@ def cost(case: Path, Ca: float, steps: int) -> float:
 
 def measure(options: Options) -> list[Row]:
     """Cost per particle-step by stiffness, and over OpenFOAM's at the same Δt."""
-    n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 3)
+    n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 7)
     case = pipe.case("40k")
     x = pipe.positions(n, reach=REACH)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
