@@ -100,6 +100,14 @@ def test_another_version_is_refused_by_its_number(tmp_path: Path, monkeypatch: p
         store.latest()
 
 
+def test_a_version_with_another_checksum_is_named(tmp_path: Path, whole: bytes) -> None:
+    for number, message in ((VERSION - 1, f"of format {VERSION - 1}, not {VERSION}"), (VERSION, "checksum")):
+        changed = whole.replace(b"checkpoint %d" % VERSION, b"checkpoint %d" % number)[:-4] + b"\0" * 32
+        (tmp_path / "a").write_bytes(changed)
+        with pytest.raises(DamagedError, match=message):
+            read_checkpoint(tmp_path / "a")
+
+
 def test_the_last_two_are_kept(tmp_path: Path) -> None:
     store = Checkpoints(tmp_path / "new")
     assert store.latest() is None
