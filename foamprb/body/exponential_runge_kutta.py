@@ -31,7 +31,7 @@ from foamprb.body.relaxation import (
     respond_to_constant,
     respond_to_slope,
 )
-from foamprb.body.tensor import Scalar, Tensor, add, add_identity, dot, inverse, scale
+from foamprb.body.tensor import Scalar, Tensor, add, add_identity, det, dot, inverse, scale, trace
 from foamprb.body.turning import commutator
 
 NODE = 0.25
@@ -46,10 +46,17 @@ def group_exponential(K: Tensor) -> Tensor:
     """Exp K to sixth order, and a rotation for a skew K: within 1e-5 for a turn of half a radian.
 
     exp K = (1 − k)⁻¹·(1 + k) = 2 (1 − k)⁻¹ − 1 with k = tanh(K/2) = K/2 − K³/24 + K⁵/240 + O(K⁷). One term
-    more than :func:`foamprb.body.tensor.exponential`, as no estimate sees the error of the exponential.
+    more than :func:`foamprb.body.tensor.exponential`, as no estimate sees the error of the exponential. The
+    powers are those of K³ = I₁K² − I₂K + I₃ (Cayley and Hamilton).
     """
     square = dot(K, K)
-    k = dot(K, add_identity(dot(square, add_identity(scale(1.0 / 240.0, square), -1.0 / 24.0)), 0.5))
+    I1, I3 = trace(K), det(K)
+    I2 = 0.5 * (I1 * I1 - trace(square))
+    a = I1 * I1 - I2
+    constant = I3 * ((1.0 / 240.0) * a - 1.0 / 24.0)
+    linear = 0.5 + (1.0 / 24.0) * I2 + (1.0 / 240.0) * (I1 * I3 - I2 * a)
+    quadratic = (1.0 / 240.0) * (I1 * (a - I2) + I3) - (1.0 / 24.0) * I1
+    k = add_identity(add(scale(linear, K), scale(quadratic, square)), constant)
     return add_identity(scale(2.0, inverse(add_identity(scale(-1.0, k), 1.0))), -1.0)
 
 
@@ -58,8 +65,13 @@ def algebra_rate(Omega: Tensor, l: Tensor) -> Tensor:
 
     What is left out is of fourth order in Ω.
     """
+    return add(l, algebra_excess(Omega, l))
+
+
+def algebra_excess(Omega: Tensor, l: Tensor) -> Tensor:
+    """What the rate of Ω has beside l: −½[Ω, l] + ¹⁄₁₂[Ω, [Ω, l]]."""
     c = commutator(Omega, l)
-    return add(l, add(scale(-0.5, c), scale(1.0 / 12.0, commutator(Omega, c))))
+    return add(scale(-0.5, c), scale(1.0 / 12.0, commutator(Omega, c)))
 
 
 def _plus(S: Tensor, k: Scalar, T: Tensor) -> Tensor:

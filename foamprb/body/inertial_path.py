@@ -32,8 +32,9 @@ def _times(u: Vector, v: Vector) -> Vector:
     return u[0] * v[0], u[1] * v[1], u[2] * v[2]
 
 
-def _mix(k: int, u: Motion, v: Motion, w: Motion) -> Motion:
-    return _both(1.0, _both(R1[k], u, R2[k], v), R3[k], w)
+def _onto(k: int, u: Motion, v: Motion, w: Motion, s: Motion) -> Motion:
+    """What the powers P^(k + 1) in r₁, r₂ and r₃ take of u, v and w, and s."""
+    return _both(R1[k], u, 1.0, _both(R2[k], v, 1.0, _both(R3[k], w, 1.0, s)))
 
 
 def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
@@ -50,11 +51,11 @@ def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
     """
     gh = GAMMA * h
     d = reciprocals((1.0 + gh * rate[0], 1.0 + gh * rate[1], 1.0 + gh * rate[2]))
-    x, y = _mix(2, u, v, w)
+    x, y = _onto(2, u, v, w, NOTHING)
     for k in (1, 0):
         y = _times(d, y)
         x = combine(1.0, x, gh, y)
-        x, y = _both(1.0, _mix(k, u, v, w), 1.0, (x, y))
+        x, y = _onto(k, u, v, w, (x, y))
     y = _times(d, y)
     x = combine(1.0, x, gh, y)
     return scale_vector(h, x), scale_vector(h, y)
@@ -79,22 +80,20 @@ def first_motion(rate: Vector, h: Scalar, start: Motion, change: Vector, bend: V
     return respond(rate, NODE * h, start, linear, (NOTHING[0], scale_vector(2.0 * NODE * NODE, bend)))
 
 
-def slope(rate: Vector, moved: Motion, at: Motion, start: Motion, change: Vector, per_step: Scalar) -> Motion:
-    """What of the rates has changed beside J and the fluid, times ``per_step``.
+def slope(rate: Vector, dv: Vector, at: Vector, start: Vector, change: Vector, per_step: Scalar) -> Motion:
+    """What of the rates has changed beside J and the fluid, times ``per_step``; nothing of dx/dt = v has.
 
     Parameters
     ----------
-    moved, at
-        Changes of x and v, and v and dv/dt there.
+    dv, at
+        Change of v, and dv/dt there.
     start
-        The same at the start.
+        dv/dt at the start.
     change
-        What the fluid's velocity has changed of dv/dt by then.
+        What the fluid's velocity has changed of it by then.
     """
-    stiff = (moved[1], _times(rate, moved[1]))
-    x = combine(1.0, combine(1.0, at[0], -1.0, start[0]), -1.0, stiff[0])
-    v = combine(1.0, combine(1.0, at[1], -1.0, start[1]), 1.0, stiff[1])
-    return scale_vector(per_step, x), scale_vector(per_step, combine(1.0, v, -1.0, change))
+    forces = combine(1.0, combine(1.0, at, -1.0, start), 1.0, _times(rate, dv))
+    return NOTHING[0], scale_vector(per_step, combine(1.0, forces, -1.0, change))
 
 
 def second_order(

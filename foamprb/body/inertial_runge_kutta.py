@@ -22,9 +22,15 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from foamprb.body.ellipsoid import Integrals
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
-from foamprb.body.rosenbrock import Shear, Stiffness, elastic_response, paired
+from foamprb.body.rosenbrock import (
+    Pull,
+    Shear,
+    Stiffness,
+    elastic_response,
+    elastic_response_to_spin,
+    paired,
+)
 from foamprb.body.tensor import (
     ZERO,
     Scalar,
@@ -36,7 +42,6 @@ from foamprb.body.tensor import (
     scale,
     skew,
 )
-from foamprb.body.traction import roscoe
 from foamprb.body.turning import shape_spin, turned
 
 GAMMA = 0.435866521508458999416
@@ -108,10 +113,10 @@ def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
     return Resolvent(gh, inverse(M), pairs)
 
 
-def _sheared(first: Scalar, second: Scalar, gh: Scalar, T: Shear, gh2: Scalar, E: Shear) -> Shear:
+def _sheared(first: Scalar, second: Scalar, gh: Scalar, T: Shear, gh2: Scalar, E: Pull) -> Shear:
     return (
         first - gh * T[0] + gh2 * E[0], gh2 * E[1] - gh * T[1],
-        gh2 * E[2] - gh * T[2], second - gh * T[3] + gh2 * E[3],
+        gh2 * E[0] - gh * T[2], second - gh * T[3] + gh2 * E[1],
     )  # fmt: skip
 
 
@@ -150,20 +155,9 @@ def combine(a: Scalar, u: Pair, b: Scalar, v: Pair) -> Pair:
     return add(scale(a, u[0]), scale(b, v[0])), add(scale(a, u[1]), scale(b, v[1]))
 
 
-def _mix(k: int, u: Pair, v: Pair) -> Pair:
-    return combine(R1[k], u, R2[k], v)
-
-
-def _mix_three(k: int, u: Pair, v: Pair, w: Pair) -> Pair:
-    return combine(1.0, _mix(k, u, v), R3[k], w)
-
-
-def _respond(n: Stiffness, r: Resolvent, h: Scalar, a: Pair, b: Pair, c: Pair) -> Pair:
-    """H (P a + P² b + P³ c)."""
-    s = _resolve(n, r, c)
-    s = _resolve(n, r, combine(1.0, b, 1.0, s))
-    s = _resolve(n, r, combine(1.0, a, 1.0, s))
-    return scale(h, s[0]), scale(h, s[1])
+def _onto(k: int, u: Pair, v: Pair, s: Pair) -> Pair:
+    """What the powers P^(k + 1) in r₁ and r₂ take of u and v, and s."""
+    return combine(R1[k], u, 1.0, combine(R2[k], v, 1.0, s))
 
 
 def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) -> Pair:
@@ -176,47 +170,54 @@ def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) ->
     u, v, w
         Rates of Ω, 1/s, and of l_s, 1/s².
     """
-    return _respond(n, r, h, _mix_three(0, u, v, w), _mix_three(1, u, v, w), _mix_three(2, u, v, w))
+    s = _resolve(n, r, combine(R3[2], w, 1.0, combine(R1[2], u, R2[2], v)))
+    s = _resolve(n, r, _onto(1, u, v, combine(R3[1], w, 1.0, s)))
+    s = _resolve(n, r, _onto(0, u, v, combine(R3[0], w, 1.0, s)))
+    return scale(h, s[0]), scale(h, s[1])
 
 
 def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> Pair:
     """:func:`respond` to rates u + v t/h."""
-    return _respond(n, r, h, _mix(0, u, v), _mix(1, u, v), _mix(2, u, v))
+    s = _resolve(n, r, combine(R1[2], u, R2[2], v))
+    s = _resolve(n, r, _onto(1, u, v, s))
+    s = _resolve(n, r, _onto(0, u, v, s))
+    return scale(h, s[0]), scale(h, s[1])
 
 
-def size_of_slope(n: Stiffness, r: Resolvent, h: Scalar, v: Pair) -> Pair:
-    """½ h P v, 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps."""
-    s = _resolve(n, r, v)
-    return scale(0.5 * h, s[0]), scale(0.5 * h, s[1])
+def size_of_slope(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
+    """P v. Times ½ h it is 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps."""
+    return _resolve(n, r, v)
 
 
-def fluid_change(stretches: Vector, g: Integrals, c: Scalar, mu_f: Scalar, dl_f: Tensor) -> Tensor:
+def fluid_change(n: Stiffness, dl_f: Tensor) -> Tensor:
     """Change of dl_s/dt, 1/s², by a change of the fluid's velocity gradient: c J μ_f σ̃(0; δl_f) b⁻¹.
+
+    But for what depends on l_s alone, 2 dev d_s − 4/3 tr(d_s) I and the solid's viscosity, the traction is a
+    function of l_f − l_s (26), so that the response to l_s says what that to l_f is.
 
     Parameters
     ----------
-    c
-        5/(ρ_s R²), m/kg.
-    mu_f
-        Viscosity of the fluid, Pa s.
     dl_f
         Change of l_f, 1/s.
     """
-    x, y, z = stretches
-    stress = scale(c * x * y * z * mu_f, roscoe(stretches, g, dl_f, ZERO))
-    return over_b((x * x, y * y, z * z), stress)
+    return over_b(n.b, _fluid_stress(n, dl_f))
+
+
+def _fluid_stress(n: Stiffness, dl_f: Tensor) -> Tensor:
+    """The same of Ȧ Fᵀ, 1/s²."""
+    T, k = _traction_response(n, dl_f), n.weight * n.own
+    third = (1.0 / 3.0) * (dl_f[0] + dl_f[4] + dl_f[8])
+    twice, dilation = 2.0 * k, (2.0 * k + 4.0 * n.weight) * third
+    p, q, r = k * (dl_f[5] + dl_f[7]), k * (dl_f[2] + dl_f[6]), k * (dl_f[1] + dl_f[3])
+    return (
+        twice * dl_f[0] - dilation - T[0], r - T[1], q - T[2],
+        r - T[3], twice * dl_f[4] - dilation - T[4], p - T[5],
+        q - T[6], p - T[7], twice * dl_f[8] - dilation - T[8],
+    )  # fmt: skip
 
 
 def turning_acceleration(
-    stretches: Vector,
-    g: Integrals,
-    n: Stiffness,
-    c: Scalar,
-    mu_f: Scalar,
-    l_s: Tensor,
-    rate: Tensor,
-    l_f: Tensor,
-    tau: Tensor,
+    stretches: Vector, n: Stiffness, c: Scalar, l_s: Tensor, rate: Tensor, l_f: Tensor, tau: Tensor
 ) -> Tensor:
     """Rate of change of dl_s/dt less its stiff part, 1/s³, along the solution, as far as the body turns.
 
@@ -226,10 +227,10 @@ def turning_acceleration(
 
     Parameters
     ----------
-    stretches, g, n
-        Shape, its integrals and stiffness.
-    c, mu_f
-        As :func:`fluid_change`.
+    stretches, n
+        λ_a, and the stiffness of that shape.
+    c
+        5/(ρ_s R²), m/kg.
     l_s, rate
         Velocity gradient of the body, 1/s, and its rate, 1/s².
     l_f
@@ -238,10 +239,10 @@ def turning_acceleration(
         Kirchhoff stress, Pa.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
-    seen = fluid_change(stretches, g, c, mu_f, turned(W, l_f))
     stress = scale(-c, turned(add(own, scale(-1.0, W)), tau))
-    stress = add(stress, add(elastic_response(n, own), scale(-1.0, _traction_response(n, turned(W, l_s)))))
-    return add(add(turned(W, rate), scale(-1.0, seen)), over_b(n.b, stress))
+    seen = add(_traction_response(n, turned(W, l_s)), _fluid_stress(n, turned(W, l_f)))
+    stress = add(stress, add(elastic_response_to_spin(n, own), scale(-1.0, seen)))
+    return add(turned(W, rate), over_b(n.b, stress))
 
 
 def first_argument(
@@ -270,17 +271,16 @@ def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step:
     Parameters
     ----------
     v, at
-        An argument, and the rates of Ω (:func:`foamprb.body.exponential_runge_kutta.algebra_rate`) and
-        l_s there.
+        An argument; what the rate of Ω has there beside l_s, in which it is J v and the rate at the start
+        (:func:`foamprb.body.exponential_runge_kutta.algebra_excess`); and the rate of l_s.
     change
         What the fluid's gradient has changed by then.
     per_step
         4 for the second evaluation, 1 for the last.
     """
-    J = stiff_rate(n, v)
-    X = add(at[0], scale(-1.0, add(J[0], rate[0])))
-    Y = add(at[1], scale(-1.0, add(add(J[1], rate[1]), change)))
-    return scale(per_step, X), scale(per_step, Y)
+    _, stiff = stiff_rate(n, v)
+    Y = add(at[1], scale(-1.0, add(add(stiff, rate[1]), change)))
+    return scale(per_step, at[0]), scale(per_step, Y)
 
 
 def second_order(
@@ -292,7 +292,7 @@ def second_order(
     slope: Pair,
     shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2; about what shares of the slope and the fluid's change have in them.
+    """Ω and change of l_s of order 2; times ½ h, about what shares of slope and fluid's change have in them.
 
     Parameters
     ----------
@@ -306,7 +306,7 @@ def second_order(
     two = respond_to_line(n, whole, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
     judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
-    return two, size_of_slope(n, whole, h, judged)
+    return two, size_of_slope(n, whole, judged)
 
 
 def last_argument(

@@ -25,6 +25,8 @@ _DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
 
 Shear: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
 """Of a matrix that takes the components ij and ji to such: its rows, one after the other."""
+Pull: TypeAlias = tuple[Scalar, Scalar]
+"""Of one whose two rows are equal, as the elastic stress is symmetric: that row."""
 
 
 class Elasticity(NamedTuple):
@@ -196,34 +198,25 @@ def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
     Columns are the responses to unit d_s,cc, its dilation with −4/3 included; σ_v is the viscous stress of a
     solid whose viscosity is ``eta`` times that of the fluid.
     """
-    p, q, r = (
-        _normal_traction(semi_axes, g, (2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0), eta),
-        _normal_traction(semi_axes, g, (-1.0 / 3.0, 2.0 / 3.0, -1.0 / 3.0), eta),
-        _normal_traction(semi_axes, g, (-1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0), eta),
-    )
-    sphere = -4.0 / 3.0
+    x, y, z = g.star
+    n = 1.0 / (6.0 * (x * y + y * z + z * x))
+    f = n * (8.0 / (semi_axes[0] * semi_axes[1] * semi_axes[2]))
+    # Of unit d_cc with its dilation, s̃_aa is −2u, v and w in a row, and what comes by the pressure
+    # 4(α₀A + β₀B + γ₀C) is the same in all; each row is then to be free of its mean.
+    u, v, w = f * x, f * y, f * z
+    total, k = g.alpha[0] + g.alpha[1] + g.alpha[2], 4.0 * n
+    p = k * x * (3.0 * g.alpha[0] - total) + u
+    q = k * y * (3.0 * g.alpha[1] - total) + v
+    r = k * z * (3.0 * g.alpha[2] - total) + w
+    shift = -(1.0 / 3.0) * (p + q + r) - 4.0 / 3.0
+    p, q, r = p + shift, q + shift, r + shift
+    own = 2.0 / 3.0 - 2.0 / 3.0 * eta
+    u, v, w = own - u, own - v, own - w
     return (
-        p[0] + sphere, q[0] + sphere, r[0] + sphere,
-        p[1] + sphere, q[1] + sphere, r[1] + sphere,
-        p[2] + sphere, q[2] + sphere, r[2] + sphere,
+        p + 2.0 * u, q - u, r - u,
+        p - v, q + 2.0 * v, r - v,
+        p - w, q - w, r + 2.0 * w,
     )  # fmt: skip
-
-
-def disturbance_normal(semi_axes: Vector, g: Integrals, d: Vector) -> tuple[Vector, Scalar]:
-    """s̃_aa of (B.5) for the traceless normal strain rates d, and the pressure of (B.1) for unit viscosity."""
-    x, y, z = g.star[0] * d[0], g.star[1] * d[1], g.star[2] * d[2]
-    s = g.star
-    n = 1.0 / (6.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]))
-    A, B, C = n * (2.0 * x - y - z), n * (2.0 * y - z - x), n * (2.0 * z - x - y)
-    k = 8.0 / (semi_axes[0] * semi_axes[1] * semi_axes[2])
-    return (k * A, k * B, k * C), 4.0 * (g.alpha[0] * A + g.alpha[1] * B + g.alpha[2] * C)
-
-
-def _normal_traction(semi_axes: Vector, g: Integrals, e: Vector, eta: Scalar) -> Vector:
-    """−p̃ + s̃_aa(−e) + 2(1 − η) e_aa for a traceless stretching e of the body in a fluid at rest."""
-    s, pressure = disturbance_normal(semi_axes, g, (-e[0], -e[1], -e[2]))
-    k = 2.0 - 2.0 * eta
-    return s[0] - pressure + k * e[0], s[1] - pressure + k * e[1], s[2] - pressure + k * e[2]
 
 
 def shear_coefficients(
@@ -287,8 +280,12 @@ class Stiffness(NamedTuple):
     """The same of :func:`shear_coefficients`, of 23, 13 and 12."""
     elastic: Tensor
     """c ∂τ_a/∂ln e_c, 1/s²."""
-    elastic_pairs: tuple[Shear, Shear, Shear]
-    """The same of the shear stresses, laid out as ``traction_pairs``."""
+    elastic_pairs: tuple[Pull, Pull, Pull]
+    """The same of the shear stresses 23, 13 and 12."""
+    weight: Scalar
+    """c J μ_f, 1/s."""
+    own: Scalar
+    """1 − η_s/μ_f."""
 
 
 def inertial_stiffness(
@@ -328,16 +325,30 @@ def inertial_stiffness(
     )
     (s23, s13, s12), (e1, e2, e3) = e.shear, e.squares
     elastic_pairs = (
-        (c * s23 * e3, c * s23 * e2, c * s23 * e3, c * s23 * e2),
-        (c * s13 * e3, c * s13 * e1, c * s13 * e3, c * s13 * e1),
-        (c * s12 * e2, c * s12 * e1, c * s12 * e2, c * s12 * e1),
+        (c * s23 * e3, c * s23 * e2),
+        (c * s13 * e3, c * s13 * e1),
+        (c * s12 * e2, c * s12 * e1),
     )
-    return Stiffness(b, traction, traction_pairs, elastic, elastic_pairs)
+    return Stiffness(b, traction, traction_pairs, elastic, elastic_pairs, f, 1.0 - ratio)
 
 
 def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
     """What the displacement H = X F takes from Ȧ Fᵀ through the elastic part of the Jacobian, 1/s²."""
-    return paired(n.elastic, n.elastic_pairs, X)
+    d = dot_vector(n.elastic, (X[0], X[4], X[8]))
+    yz, xz, xy = _pulled(n, X)
+    return (d[0], xy, xz, xy, d[1], yz, xz, yz, d[2])
+
+
+def elastic_response_to_spin(n: Stiffness, W: Tensor) -> Tensor:
+    """:func:`elastic_response` to a skew W."""
+    yz, xz, xy = _pulled(n, W)
+    return (0.0, xy, xz, xy, 0.0, yz, xz, yz, 0.0)
+
+
+def _pulled(n: Stiffness, X: Tensor) -> Vector:
+    """The shear stresses 23, 13 and 12 of :func:`elastic_response`."""
+    p, q, r = n.elastic_pairs
+    return p[0] * X[5] + p[1] * X[7], q[0] * X[2] + q[1] * X[6], r[0] * X[1] + r[1] * X[3]
 
 
 def paired(normal: Tensor, pairs: tuple[Shear, Shear, Shear], X: Tensor) -> Tensor:
@@ -370,6 +381,6 @@ def _determinant(T: Shear) -> Scalar:
     return T[0] * T[3] - T[1] * T[2]
 
 
-def _trace(T: Shear, E: Shear) -> Scalar:
+def _trace(T: Shear, E: Pull) -> Scalar:
     """The one eigenvalue but zero of det(T) T⁻¹E for E = (e, f; e, f)."""
     return E[0] * (T[3] - T[1]) + E[1] * (T[0] - T[2])

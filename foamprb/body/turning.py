@@ -10,15 +10,28 @@ from __future__ import annotations
 
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.stokes import Mobility, velocity_gradient
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, dot, reciprocals, scale, skew
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, reciprocals, scale, skew
 
 _ROUND = 0.01
 """Square of the relative difference of two λ_a² below which a section counts as round."""
 
 
 def commutator(S: Tensor, T: Tensor) -> Tensor:
-    """S T − T S."""
-    return add(dot(S, T), scale(-1.0, dot(T, S)))
+    """S T − T S, without the products of two diagonal components, which cancel."""
+    xy, xz, yz = S[0] - S[4], S[0] - S[8], S[4] - S[8]
+    uv, uw, vw = T[0] - T[4], T[0] - T[8], T[4] - T[8]
+    p, q, r = S[1] * T[3] - S[3] * T[1], S[2] * T[6] - S[6] * T[2], S[5] * T[7] - S[7] * T[5]
+    return (
+        p + q,
+        xy * T[1] - uv * S[1] + S[2] * T[7] - T[2] * S[7],
+        xz * T[2] - uw * S[2] + S[1] * T[5] - T[1] * S[5],
+        uv * S[3] - xy * T[3] + S[5] * T[6] - T[5] * S[6],
+        r - p,
+        yz * T[5] - vw * S[5] + S[3] * T[2] - T[3] * S[2],
+        uw * S[6] - xz * T[6] + S[7] * T[3] - T[7] * S[3],
+        vw * S[7] - yz * T[7] + S[6] * T[1] - T[6] * S[1],
+        -(q + r),
+    )
 
 
 def turned(W: Tensor, T: Tensor) -> Tensor:

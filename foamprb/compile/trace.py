@@ -51,8 +51,10 @@ class Code:
     def __init__(self, lanes: int, together: int, flags: str, passes: int = 1) -> None:
         self.lanes, self._together, self._flags, self._passes = lanes, together, flags, passes
         self._numbers, self._conditions = f"<{together} x double>", f"<{together} x i1>"
+        self._bits = f"<{together} x i64>"
         self._lines: list[str] = []
         self._known: dict[str, str] = {}
+        self._magnitudes: set[str] = set()
         self._loops = self._loop = 0
         self._functions: dict[str, int] = {}
         self._origins: list[Any] = []
@@ -164,6 +166,37 @@ class Code:
         given = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
         return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({given})", *operands))
 
+    def magnitude(self, a: Any) -> Symbol:
+        """Of a number, without its sign."""
+        result = self.call("fabs", a)
+        self._magnitudes.add(result.name)
+        return result
+
+    def maximum(self, a: Any, b: Any) -> Any:
+        """The larger of two numbers; no number if one of them is none, as numpy has it.
+
+        Magnitudes are ordered as the whole numbers that have their bits are, those of no number above all
+        others, which takes one instruction instead of three.
+        """
+        if not (self._is_magnitude(a) and self._is_magnitude(b)):
+            return self.call("maximum", a, b)
+        if _is(0.0, a):
+            return b
+        if _is(0.0, b):
+            return a
+        p, q = (f"bitcast {self._numbers} {self._operand(value)} to {self._bits}" for value in (a, b))
+        p, q = self._once(p), self._once(q)
+        larger = self._once(f"icmp sgt {self._bits} {p}, {q}")
+        chosen = self._once(f"select {self._conditions} {larger}, {self._bits} {p}, {self._bits} {q}")
+        result = Symbol(*self._result(f"bitcast {self._bits} {chosen} to {self._numbers}", a, b))
+        self._magnitudes.add(result.name)
+        return result
+
+    def _is_magnitude(self, value: Any) -> bool:
+        if isinstance(value, Symbol):
+            return value.name in self._magnitudes
+        return bool(value >= 0.0)
+
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
         """Whether a relation holds."""
         operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
@@ -232,7 +265,7 @@ class Symbol:
         return self.code.unary("fneg", self)
 
     def __abs__(self) -> Symbol:
-        return self.code.call("fabs", self)
+        return self.code.magnitude(self)
 
     def __add__(self, other: Any) -> Symbol:
         return self if _is(0.0, other) else self.code.binary("fadd", self, other)
@@ -424,18 +457,18 @@ def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> A
 def _functions(code: Code) -> SimpleNamespace:
     """What stands for numpy and math: what formulas use of them."""
 
-    def function(name: str, plain: Callable[..., Any]) -> Callable[..., Any]:
+    def function(of_symbols: Callable[..., Any], plain: Callable[..., Any]) -> Callable[..., Any]:
         def of(*operands: Any) -> Any:
             traced = any(isinstance(a, Symbol) for a in operands)
-            return code.call(name, *operands) if traced else plain(*operands)
+            return of_symbols(*operands) if traced else plain(*operands)
 
         return of
 
     return SimpleNamespace(
-        **{name: function(name, getattr(math, name)) for name in ("sqrt", "exp", "log")},
+        **{name: function(partial(code.call, name), getattr(math, name)) for name in ("sqrt", "exp", "log")},
         # Of no number and another LLVM's functions make no number, as numpy's do.
-        maximum=function("maximum", max),
-        minimum=function("minimum", min),
+        maximum=function(code.maximum, max),
+        minimum=function(partial(code.call, "minimum"), min),
         inf=math.inf,
         pi=math.pi,
     )

@@ -14,7 +14,9 @@ from foamprb.body import inertial_runge_kutta as own
 from foamprb.body import rosenbrock
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.material import viscous_stress
+from foamprb.body.tensor import skew
 from foamprb.body.traction import roscoe
+from foamprb.body.turning import shape_spin
 
 AT_REST = (0.0,) * 9
 MU_F = 0.7
@@ -54,6 +56,39 @@ def test_stiff_rate_is_that_of_the_traction(stretch, Y, c, eta):
     np.testing.assert_allclose(
         square(rate) * np.array(n.b), expected, atol=1e-10 * (1 + np.abs(expected).max())
     )
+
+
+@given(mild_stretches, tensors, tensors, tensors, st.floats(0.1, 10.0), st.floats(0.0, 20.0))
+def test_fluid_changes_what_roscoes_traction_says(stretch, l_f, dl_f, l_s, c, eta):
+    n, _ = stiffness(stretch, c, eta)
+    g = integrals(stretch)
+    before, after = (square(roscoe(stretch, g, l, l_s)) for l in (l_f, tuple(np.add(l_f, dl_f))))
+    expected = c * np.prod(stretch) * MU_F * (after - before)
+    found = square(own.fluid_change(n, dl_f)) * np.array(n.b)
+    np.testing.assert_allclose(found, expected, atol=1e-10 * (1 + np.abs(expected).max()))
+
+
+@given(mild_stretches, tensors, tensors, tensors, st.floats(0.1, 10.0))
+def test_turning_changes_the_rate_as_it_does_in_a_body_that_turns(stretch, l_s, l_f, stress, c):
+    """Shape, l_s and traction turn with one spin, the elastic stress with another, and the flow with none."""
+    n, _ = stiffness(stretch, c)
+    g, b, J = integrals(stretch), np.array(n.b), np.prod(stretch)
+    W, spin = square(shape_spin(stretch, l_s)), square(skew(l_s))
+    tau = square(stress) + square(stress).T
+
+    def rate(t):
+        R, S = expm(t * W), expm(t * spin)
+        seen = roscoe(stretch, g, flat(R.T @ square(l_f) @ R), l_s)
+        force = c * J * MU_F * square(seen) - c * (R.T @ S @ tau @ S.T @ R)
+        return R @ (force / b - square(l_s) @ square(l_s)) @ R.T
+
+    h = 1e-4
+    change = (8.0 * (rate(h) - rate(-h)) - (rate(2 * h) - rate(-2 * h))) / (12.0 * h)
+    turned = W @ square(l_s) - square(l_s) @ W
+    _, stiff = own.stiff_rate(n, (flat(spin), flat(turned)))
+    found = own.turning_acceleration(stretch, n, c, l_s, flat(rate(0.0)), l_f, flat(tau))
+    size = 1.0 + np.abs(rate(0.0)).max() + np.abs(change).max()
+    np.testing.assert_allclose(square(found), change - square(stiff), atol=1e-7 * size)
 
 
 @given(mild_stretches, tensors, st.floats(0.1, 10.0))
@@ -104,15 +139,15 @@ def test_a_slope_counts_for_what_it_adds_up_to_or_a_little_more(z):
 
 
 @given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
-def test_the_size_of_a_slope_is_half_of_the_resolvent(stretch, X, Y, h):
+def test_the_size_of_a_slope_is_that_of_the_resolvent(stretch, X, Y, h):
     n, _ = stiffness(stretch)
     whole = own.resolvent(n, h)
-    s = own.size_of_slope(n, whole, h, (X, Y))
-    # (1 − γhJ) s = ½ h v
+    s = own.size_of_slope(n, whole, (X, Y))
+    # (1 − γhJ) s = v
     J = own.stiff_rate(n, s)
     for part, rate, v in zip(s, J, (X, Y), strict=True):
         back = np.subtract(part, own.GAMMA * h * np.array(rate))
-        np.testing.assert_allclose(back, 0.5 * h * np.array(v), atol=1e-7 * (1.0 + np.abs(v).max()))
+        np.testing.assert_allclose(back, np.array(v), atol=1e-7 * (1.0 + np.abs(v).max()))
 
 
 @given(st.tuples(positive, positive, positive), st.floats(1e-3, 10.0))
@@ -156,18 +191,18 @@ def path_by_a_step(h):
     """The changes of x and v of order 2 and of order 3."""
     rate = tuple(RATES)
 
-    def at(t, moved):
+    def forced(t, moved):
         x, v = START + np.asarray(moved)
         u = FLUID[0] + t * FLUID[1] + t * t * FLUID[2]
-        return v, WEIGHT - SPRING * x - FRICTION * v + RATES * (u - v)
+        return WEIGHT - SPRING * x - FRICTION * v + RATES * (u - v)
 
-    start = at(0.0, np.zeros((2, 3)))
+    start = START[1], forced(0.0, np.zeros((2, 3)))
     changes = path.fluid_changes(rate, h, h * FLUID[1] + h * h * FLUID[2], FLUID[1])
     first, t = path.first_motion(rate, h, start, *changes), path.NODE * h
     seen = RATES * (t * FLUID[1] + t * t * FLUID[2])
-    slope = path.slope(rate, first, at(t, first), start, seen, 1.0 / path.NODE)
+    slope = path.slope(rate, first[1], forced(t, first), start[1], seen, 1.0 / path.NODE)
     last = path.last_motion(rate, h, start, *changes, slope)
-    end = path.slope(rate, last, at(h, last), start, changes[0], 1.0)
+    end = path.slope(rate, last[1], forced(h, last), start[1], changes[0], 1.0)
     args = (rate, h, start, *changes, slope)
     return np.array([path.second_order(*args), path.third_order(*args, end)])
 

@@ -48,6 +48,7 @@ def everything(block, shift):
             power = n * power + shift[1]
         size = np.sqrt(abs(quotient)) + math.sqrt(2.0) * np.exp(-np.sqrt(x * x))
         size = size + np.maximum(x, 0.25) * np.minimum(x, y)
+        size = size + np.maximum(np.maximum(0.0, abs(x)), np.maximum(abs(y), 0.5)) * np.maximum(abs(x), x)
         between = (x < y) & (y <= 3.0) | (x >= 2.0) & (x != 2.5) | (y == 1.0)
         chosen = select(between, power, 0.0 - size)
         block[2 * LANES + i] = 0.0

@@ -12,9 +12,8 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.ellipsoid import Integrals
 from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
-from foamprb.body.exponential_runge_kutta import NODE, algebra_rate, group_exponential
+from foamprb.body.exponential_runge_kutta import NODE, algebra_excess, group_exponential
 from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
 from foamprb.body.inertial_path import second_order as path_of_second_order
@@ -35,7 +34,7 @@ from foamprb.body.inertial_runge_kutta import slope as slope_of
 from foamprb.body.inertial_runge_kutta import third_order as of_third_order
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.material import viscous_stress
-from foamprb.body.rosenbrock import Shear, Stiffness, inertial_stiffness, relaxation_rate
+from foamprb.body.rosenbrock import Stiffness, inertial_stiffness, relaxation_rate
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -93,11 +92,7 @@ from foamprb.cloud.surroundings.resistance import own_frame as drag_axes
 class StiffnessRows(NamedTuple):
     """What a stage needs of those before it: the state at the start, and how stiff it is."""
 
-    first_stretch: Annotated[int, Row(3, "1", "stretches at the start")]
-    first_alpha: Annotated[int, Row(3, "1", "α₀, β₀, γ₀ of them")]
-    first_ring: Annotated[int, Row(3, "1", "α₀°, β₀°, γ₀° of them")]
-    first_star: Annotated[int, Row(3, "1", "α₀*, β₀*, γ₀* of them")]
-    first_chi: Annotated[int, Row(1, "1", "χ of them")]
+    G: Annotated[int, Row(9, "1", "Q·F at the start")]
     b_e: Annotated[int, Row(9, "1", "elastic b_e")]
     l_s: Annotated[int, Row(9, "1/s", "the body's velocity gradient")]
     l_t: Annotated[int, Row(9, "1/s2", "its rate")]
@@ -105,7 +100,9 @@ class StiffnessRows(NamedTuple):
     traction: Annotated[int, Row(9, "1/s", "how the traction's normal stresses resist stretching")]
     traction_pairs: Annotated[int, Row(12, "1/s", "how its shear stresses do, 23, 13 and 12")]
     elastic: Annotated[int, Row(9, "1/s2", "how the elastic normal stresses resist strain")]
-    elastic_pairs: Annotated[int, Row(12, "1/s2", "how the elastic shear stresses do, 23, 13 and 12")]
+    elastic_pairs: Annotated[int, Row(6, "1/s2", "how the elastic shear stresses do, 23, 13 and 12")]
+    weight: Annotated[int, Row(1, "1/s", "5 J μ_f/(ρ_s R²)")]
+    own: Annotated[int, Row(1, "1", "1 − η_s/μ_f")]
     change: Annotated[int, Row(9, "1/s2", "change of dl_s/dt by that of the fluid's gradient over the step")]
     turning: Annotated[int, Row(9, "1/s3", "rate of change of dl_s/dt by turning")]
     Omega: Annotated[int, Row(9, "1", "Ω of the shape that is evaluated")]
@@ -119,7 +116,6 @@ class StiffnessRows(NamedTuple):
     first_vt: Annotated[int, Row(3, "m/s2", "its rate")]
     drag_change: Annotated[int, Row(3, "m/s2", "change of the drag by that of the fluid's velocity")]
     drag_bend: Annotated[int, Row(3, "m/s2", "the part of it quadratic in time")]
-    dx: Annotated[int, Row(3, "m", "way to the place that is evaluated")]
     dv: Annotated[int, Row(3, "m/s", "change of v there")]
     slope_v: Annotated[int, Row(3, "m/s2", "slope of what is not stiff of dv/dt, per step")]
     second_x: Annotated[int, Row(3, "m", "way of order 2")]
@@ -173,17 +169,13 @@ def first_inertial(block: Any, medium: Medium) -> None:
         e = solid_elasticity(block, i, stretches, b_e)
         n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
         dl = add(l_end, scale(-1.0, l))
-        change = fluid_change(stretches, g, c, medium.mu, to_frame(Q, dl))
-        turning = turning_acceleration(stretches, g, n, c, medium.mu, L, l_t, to_frame(Q, felt), tau)
+        change = fluid_change(n, to_frame(Q, dl))
+        turning = turning_acceleration(stretches, n, c, L, l_t, to_frame(Q, felt), tau)
         shape = quarter_argument(n, resolvent(n, NODE * h), h, (L, l_t), change, turning)
         _set_shape(block, i, Q, G, shape)
         leave_gradient(block, i, Q, add(L, shape[1]), block[at.moving * LANES + i] > 0.0)
         store9(block, during.start_Q, i, Q)
-        store3(block, own.first_stretch, i, stretches)
-        store3(block, own.first_alpha, i, g.alpha)
-        store3(block, own.first_ring, i, g.ring)
-        store3(block, own.first_star, i, g.star)
-        block[own.first_chi * LANES + i] = g.chi
+        store9(block, own.G, i, G)
         store9(block, own.b_e, i, b_e)
         store9(block, own.l_s, i, L)
         store9(block, own.l_t, i, l_t)
@@ -233,7 +225,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         k = slope_of(n, _argument(block, i), rates, start, scale(NODE, change), 1.0 / NODE)
         share = judged_share(block, i, relaxation_rate(n))
         two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
-        size = counted(block, i, _size(judged, h, b_e, strain_scale(b_e, two[0])))
+        size = counted(block, i, 0.5 * h * _size(judged, h, b_e, strain_scale(b_e, two[0])))
         store9(block, own.slope_Omega, i, k[0])
         store9(block, own.slope_l, i, k[1])
         store9(block, own.second_Omega, i, two[0])
@@ -245,8 +237,9 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
         seen = _fluid_share(changes, NODE)
-        moved, P = (load3(block, own.dx, i), load3(block, own.dv, i)), drag_axes(block, i, Q0)
-        kv = slope_of_path(rate, moved, _moving(block, i, medium, P), moving, seen, 1.0 / NODE)
+        P = drag_axes(block, i, Q0)
+        forced = _forced(block, i, medium, P)
+        kv = slope_of_path(rate, load3(block, own.dv, i), forced, moving[1], seen, 1.0 / NODE)
         path = path_of_second_order(rate, h, moving, *changes, kv)
         by_forces = respond_in_path(rate, h, NOTHING, kv, NOTHING)
         size = np.maximum(size, _length(by_forces, h, _way(block, i)))
@@ -265,7 +258,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         store3(block, at.new_v, i, v)
 
 
-def last_inertial(block: Any, medium: Medium) -> None:
+def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
     """The state for the evaluation at the end, in lanes that go to order 3."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
@@ -273,10 +266,10 @@ def last_inertial(block: Any, medium: Medium) -> None:
         n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
         k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
         change, turning = load9(block, own.change, i), load9(block, own.turning, i)
-        bend = _bend(block, i, medium, Q0)
+        bend = _bend(block, i, n, Q0)
         shape = end_argument(n, resolvent(n, h), h, start, change, bend, k, turning)
         F = load9(block, at.new_F, i)
-        _set_shape(block, i, Q0, dot(Q0, load9(block, at.F, i)), shape)
+        _set_shape(block, i, Q0, load9(block, own.G, i), shape)
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
         leave_gradient(block, i, Q0, add(start[0], shape[1]), third)
 
@@ -306,7 +299,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         b_e, change = load9(block, own.b_e, i), load9(block, own.change, i)
         k = load9(block, own.slope_Omega, i), load9(block, own.slope_l, i)
         last = slope_of(n, _argument(block, i), _rates(block, i, medium, Q0, start[0]), start, change, 1.0)
-        bend = _bend(block, i, medium, Q0)
+        bend = _bend(block, i, n, Q0)
         three = of_third_order(n, resolvent(n, h), h, start, change, bend, k, last)
         two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
         strain = strain_scale(b_e, two[0])
@@ -318,9 +311,10 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
             (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
         )
         changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
-        moved, P = (load3(block, own.dx, i), load3(block, own.dv, i)), drag_axes(block, i, Q0)
+        P = drag_axes(block, i, Q0)
         slope = (NOTHING[0], load3(block, own.slope_v, i))
-        end = slope_of_path(rate, moved, _moving(block, i, medium, P), moving, changes[0], 1.0)
+        forced = _forced(block, i, medium, P)
+        end = slope_of_path(rate, load3(block, own.dv, i), forced, moving[1], changes[0], 1.0)
         path = path_of_third_order(rate, h, moving, *changes, slope, end)
         x2, v2 = load3(block, own.second_x, i), load3(block, own.second_v, i)
         miss = (
@@ -353,13 +347,12 @@ def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tupl
         Elastic b_e.
     """
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-    stress = scale(mu_f, traction(stretches, g, to_frame(Q, load9(block, at.l, i)), L))
-    stress = add(stress, scale(-1.0, viscous_stress(L, block[at.eta * LANES + i])))
     J = stretches[0] * stretches[1] * stretches[2]
     tau = conservative_stress(block, i, stretches, b_e, J)
     c = block[at.inertia * LANES + i]
-    W = add(scale(c * J, stress), scale(-c, tau))
-    return add(over_b(_squares(stretches), W), scale(-1.0, dot(L, L))), tau
+    solid = add(scale(-c, tau), scale(-c * J, viscous_stress(L, block[at.eta * LANES + i])))
+    fluid = scale(c * J * mu_f, traction(stretches, g, to_frame(Q, load9(block, at.l, i)), L))
+    return add(over_b(_squares(stretches), add(fluid, solid)), scale(-1.0, dot(L, L))), tau
 
 
 def _squares(v: Vector) -> Vector:
@@ -367,13 +360,13 @@ def _squares(v: Vector) -> Vector:
 
 
 def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
-    """Rates of Ω, 1/s, and of l_s, 1/s², of the state that is evaluated."""
+    """What the rate of Ω has beside l_s, 1/s, and the rate of l_s, 1/s², of the state that is evaluated."""
     Q, L = load9(block, at.Q, i), add(l_s, load9(block, own.dl, i))
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
     b_e = finger_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
     rate, _ = _shape_rate(block, i, medium.mu, to_frame(turn, L), b_e)
-    return algebra_rate(load9(block, own.Omega, i), L), from_frame(turn, rate)
+    return algebra_excess(load9(block, own.Omega, i), L), from_frame(turn, rate)
 
 
 def _argument(block: Any, i: int) -> Pair:
@@ -391,14 +384,13 @@ def _set_shape(block: Any, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
 def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
     """Put the way to the place to be evaluated, and the velocity there, into the block."""
     v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
-    store3(block, own.dx, i, moved[0])
     store3(block, own.dv, i, moved[1])
     store3(block, at.new_v, i, (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2]))
 
 
 def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
     """F and A at the end of the step, and J."""
-    G = dot(group_exponential(end[0]), dot(Q, load9(block, at.F, i)))
+    G = dot(group_exponential(end[0]), load9(block, own.G, i))
     F = dot(transpose(Q), G)
     return F, dot(transpose(Q), dot(add(l_s, end[1]), G)), det(F)
 
@@ -410,12 +402,10 @@ def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vec
     return (x[0] + dx[0], x[1] + dx[1], x[2] + dx[2]), (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
 
 
-def _moving(block: Any, i: int, medium: Medium, Q: Tensor) -> Motion:
-    """Velocity and its rate in the state that is evaluated."""
-    v = load3(block, at.v, i)
+def _forced(block: Any, i: int, medium: Medium, Q: Tensor) -> Vector:
+    """The rate of the velocity in the state that is evaluated."""
     v_t, _ = _acceleration(block, i, medium, load3(block, at.new_v, i))
-    dv, start = load3(block, own.dv, i), dot_vector(Q, v)
-    return (start[0] + dv[0], start[1] + dv[1], start[2] + dv[2]), dot_vector(Q, v_t)
+    return dot_vector(Q, v_t)
 
 
 def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
@@ -472,50 +462,47 @@ def _length(m: Motion, h: Any, way: Any) -> Any:
     return np.sqrt(squares) / way
 
 
-def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
+def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:
     """The part of dl_s/dt that is quadratic in time as the fluid's gradient is, 1/s²."""
     l, middle, l_end = (
         load9(block, during.start_l, i),
         load9(block, during.middle_l, i),
         load9(block, during.end_l, i),
     )
-    bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
-    g = Integrals(
-        load3(block, own.first_alpha, i),
-        load3(block, own.first_ring, i),
-        load3(block, own.first_star, i),
-        block[own.first_chi * LANES + i],
-    )
-    c = block[at.inertia * LANES + i]
-    return fluid_change(load3(block, own.first_stretch, i), g, c, medium.mu, to_frame(Q, bend))
+    return fluid_change(n, to_frame(Q, scale(2.0, add(add(l, l_end), scale(-2.0, middle)))))
 
 
 def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
     store3(block, own.b, i, n.b)
     store9(block, own.traction, i, n.traction)
-    _store_pairs(block, own.traction_pairs, i, n.traction_pairs)
+    p, q, r = n.traction_pairs
+    store4(block, own.traction_pairs, i, p)
+    store4(block, own.traction_pairs + 4, i, q)
+    store4(block, own.traction_pairs + 8, i, r)
     store9(block, own.elastic, i, n.elastic)
-    _store_pairs(block, own.elastic_pairs, i, n.elastic_pairs)
+    (p0, p1), (q0, q1), (r0, r1) = n.elastic_pairs
+    store3(block, own.elastic_pairs, i, (p0, p1, q0))
+    store3(block, own.elastic_pairs + 3, i, (q1, r0, r1))
+    block[own.weight * LANES + i] = n.weight
+    block[own.own * LANES + i] = n.own
 
 
 def _load_stiffness(block: Any, i: int) -> Stiffness:
+    p, q, r = (
+        load4(block, own.traction_pairs, i),
+        load4(block, own.traction_pairs + 4, i),
+        load4(block, own.traction_pairs + 8, i),
+    )
+    (p0, p1, q0), (q1, r0, r1) = load3(block, own.elastic_pairs, i), load3(block, own.elastic_pairs + 3, i)
     return Stiffness(
         load3(block, own.b, i),
         load9(block, own.traction, i),
-        _load_pairs(block, own.traction_pairs, i),
+        (p, q, r),
         load9(block, own.elastic, i),
-        _load_pairs(block, own.elastic_pairs, i),
+        ((p0, p1), (q0, q1), (r0, r1)),
+        block[own.weight * LANES + i],
+        block[own.own * LANES + i],
     )
-
-
-def _store_pairs(block: Any, row: int, i: int, pairs: tuple[Shear, Shear, Shear]) -> None:
-    store4(block, row, i, pairs[0])
-    store4(block, row + 4, i, pairs[1])
-    store4(block, row + 8, i, pairs[2])
-
-
-def _load_pairs(block: Any, row: int, i: int) -> tuple[Shear, Shear, Shear]:
-    return load4(block, row, i), load4(block, row + 4, i), load4(block, row + 8, i)
 
 
 ROSENBROCK = Integrator(
