@@ -9,7 +9,7 @@ from mesh_shapes import corners, grid
 from foamprb.compile.link import link
 from foamprb.flow.mesh.folds import FLAT, SOUND, grade
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import REACHED, walk
 
 # Six tetrahedra of each cube, along its main diagonal.
@@ -27,7 +27,7 @@ def follow(flow, hosts, start, end, found, fractions):
 
 def walked(flow, hosts, start, end):
     found, fractions = np.empty((len(start), 2), dtype=np.int32), np.empty(len(start))
-    link(follow)(flow.arrays(), hosts, start, end, found, fractions)
+    link(follow, separate=LONG)(flow.arrays(), hosts, start, end, found, fractions)
     return found[:, 0], fractions, found[:, 1]
 
 
