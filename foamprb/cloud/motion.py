@@ -133,18 +133,19 @@ def reach_end(
     i: int,
     goal: Vector,
     ahead: int,
+    held: bool,
     t_end: float,
     h: float,
 ) -> int:
     """Move the particle in lane i to its goal, which it would reach at t_end after a step h, and touch walls.
 
-    ``ahead`` is the host that probably holds the goal.
+    ``ahead`` is the host that probably holds the goal, ``held`` whether it certainly does.
 
     Returns
     -------
     The number of walks that the tree had to mend.
     """
-    end, start, spent, mended = move_centre(flow, patches, s, i, goal, ahead, h)
+    end, start, spent, mended = move_centre(flow, patches, s, i, goal, ahead, held, h)
     store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
         spent *= touch(flow, patches, s, i, start, t_end - h, spent)
@@ -263,13 +264,13 @@ def walk_on(flow: Any, host: int, _ahead: int, x0: Vector, x1: Vector) -> tuple[
 
 
 def move_centre(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, dt: float
+    flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool, dt: float
 ) -> tuple[Vector, Vector, float, int]:
     """Carry the centre to its goal in Δt, through the mesh and off, onto or across the patches that it meets.
 
     Where a walk fails it begins anew from the last place on its way that the tree finds in the mesh; if it
-    fails from there as well the centre stays there for the rest of the step. ``ahead`` is as of
-    :func:`reach_end`.
+    fails from there as well the centre stays there for the rest of the step. ``ahead`` and
+    ``held`` are as of :func:`reach_end`.
 
     Returns
     -------
@@ -281,6 +282,9 @@ def move_centre(
     spent = 0.0
     x0, x1 = load3(block, at.x, i), goal
     start = x0
+    if held:
+        s.host[i] = ahead
+        return x1, start, dt, recovered
     for _ in range(_MAX_PATCHES):
         rest = dt - spent
         host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, x1)

@@ -101,8 +101,9 @@ class Flow(Sampled, Protocol):
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``walk_on(flow, host, ahead, x0, x1)``: as ``walk``, where a way from x0 to a place near x1 led to the
       piece ``ahead``; a flow need not have it, and is walked then;
-    * ``sample_ahead(flow, host, x0, x1, t) -> (ahead, u, l, u_t)``: the last piece of the flow on the way
-      from x0 to x1, and its ``sample`` at x1; a flow need not have it, and is walked and sampled then;
+    * ``sample_ahead(flow, host, x0, x1, t) -> (ahead, room, u, l, u_t)``: the last piece of the flow on the
+      way from x0 to x1, its ``sample`` at x1, and how far from x1, m, a place may be along each axis that
+      this piece certainly holds, if more than 0; a flow need not have it, and is walked and sampled then;
     * ``gap(flow, host, x, F, R) -> (gap, patch, triangle)``: signed clearance between the ellipsoid and the
       nearest touchable wall; from :data:`NEAR` R on it may be infinite, with −1 and −1;
     * ``walls(flow, host, x, cut, chosen) -> planes``: the walls nearer to x than ``cut``, as

@@ -47,22 +47,37 @@ def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Te
 
 
 def sample_ahead(
-    flow: MeshArrays, host: int, x0: Vector, x1: Vector, t: float
-) -> tuple[int, Vector, Tensor, Vector]:
+    flow: MeshArrays,
+    host: int,
+    x0: Vector,
+    x1: Vector,
+    t: float,  # noqa: ARG001
+) -> tuple[int, float, Vector, Tensor, Vector]:
     """The last tetrahedron on a way from x0 in ``host`` to x1, and :func:`sample` at x1 as that has it.
 
-    Mostly it is ``host``, and what says so are the shares of its nodes.
+    Mostly it is ``host``, and what says so are the shares of its nodes. The second result says how far from
+    x1, m, a place may be along each axis that it certainly holds too, if that is more than 0.
     """
+    last, sound = host, is_sound(flow, host)
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
-    if min(w0, w1, w2, w3) >= -TOLERANCE * volume and is_sound(flow, host):
-        s = 1.0 / volume
-        u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), (s * w0, s * w1, s * w2, s * w3))
-        return host, u, l, STEADY
-    found, _, patch, _ = follow(flow, host, x0, x1)
-    last = host if patch == FAILED else found
-    u, l, _ = sample(flow, last, x1, t)
-    return last, u, l, STEADY
+    least = min(w0, w1, w2, w3)
+    if not (least >= -TOLERANCE * volume and sound):
+        found, _, patch, _ = follow(flow, host, x0, x1)
+        if patch != FAILED:
+            last, sound = found, is_sound(flow, found)
+        origin, c1, c2, c3, volume = frame(flow, last)
+        w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
+        least = min(w0, w1, w2, w3)
+    s = 1.0 / volume
+    u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), (s * w0, s * w1, s * w2, s * w3))
+    # A weight changes by its cofactors, that of the origin by the three others'.
+    room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
+    return last, room, u, l, STEADY
+
+
+def _components(v: Vector) -> Any:
+    return abs(v[0]) + abs(v[1]) + abs(v[2])
 
 
 def turbulence(flow: MeshArrays, host: int, x: Vector, t: float) -> Turbulence:  # noqa: ARG001

@@ -12,7 +12,8 @@ from mesh_shapes import block, grid
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.folds import FLAT, FOLDED, SOUND
-from foamprb.flow.walk import REACHED, walk
+from foamprb.flow.meshflow import LONG
+from foamprb.flow.walk import REACHED, is_sound, sample_ahead, walk
 
 
 def some(kind):
@@ -70,6 +71,23 @@ def test_a_tetrahedron_of_coincident_points_holds_nothing(random):
         assert patch >= 0
 
 
+def test_there_is_no_room_in_what_is_folded():
+    """A place near another may lie in several tetrahedra there, and a path to it end in any of them."""
+    _, flow = some("folded")[0]
+    arrays, nodes, tets = flow.arrays(), flow.mesh.nodes[:, :3], flow.mesh.tets
+    a, b, c, d = (nodes[tets[:, k]] for k in range(4))
+    volume = np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a))
+    sound = np.array([is_sound(arrays, tet) for tet in range(len(tets))])
+    for state in (True, False):
+        chosen = np.flatnonzero((sound == state) & (volume > 1e-6 * volume.max()))[:20]
+        assert len(chosen) == 20
+        for tet in chosen:
+            x = tuple(map(float, nodes[tets[tet]].mean(axis=0)))
+            last, room, *_ = sample_ahead(arrays, int(tet), x, x, 0.0)
+            assert sound[last] == state
+            assert (room > 0.0) == state
+
+
 @pytest.mark.parametrize("kind", [0, 1], ids=["hexahedra", "tetrahedra"])
 def test_what_leaves_through_a_pile_of_flat_cells_has_its_host_behind_all_of_them(kind, random):
     """Three layers lie flat on the boundary: a cell there may have none with a volume within two steps."""
@@ -100,7 +118,7 @@ def test_a_line_in_the_planes_of_faces_ends_in_the_tetrahedron_that_holds_its_go
     flow = flow_in(HARD["slivers"](seed))
     found = np.empty((1, 2), dtype=np.int32)
     x0, x1 = np.array([start]), np.array([goal])
-    link(arrive)(flow.arrays(), flow.locate(x0).astype(np.int32), x0, x1, found)
+    link(arrive, separate=LONG)(flow.arrays(), flow.locate(x0).astype(np.int32), x0, x1, found)
     assert found[0, 1] == REACHED
     assert from_hosts(flow, found[:, 0], x1) < FLUSH
 

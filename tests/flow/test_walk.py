@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ from foamprb.errors import InputError
 from foamprb.flow.mesh.arrays import frame, no_mesh
 from foamprb.flow.mesh.locator import build_tree, cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import (
     FAILED,
     REACHED,
@@ -66,13 +67,13 @@ def clearances(flow, hosts, x, F, R, gaps, triangles):
 
 def walked(flow, hosts, start, end):
     found, fractions = np.empty((len(start), 3), dtype=np.int32), np.empty(len(start))
-    link(follow)(flow.arrays(), hosts, start, end, found, fractions)
+    link(follow, separate=LONG)(flow.arrays(), hosts, start, end, found, fractions)
     return found[:, 0], fractions, found[:, 1], found[:, 2]
 
 
 def cleared(flow, x, F, R, reach):
     gaps, triangles = np.empty(len(x)), np.empty(len(x), dtype=np.int32)
-    link(clearances)(
+    link(clearances, separate=LONG)(
         flow.arrays(reach), flow.locate(x), x, np.asarray(F, dtype=float).reshape(-1, 9), R, gaps, triangles
     )
     return gaps, triangles
@@ -146,10 +147,10 @@ def test_walks_end_where_the_tree_finds_them(kind, random):
     assert np.array_equal(hosts, flow.locate(end))
 
 
-def look_ahead(flow, hosts, start, end, u, l):
+def look_ahead(flow, hosts, start, end, u, l, room):
     for i in range(start.shape[0]):
         x0, x1 = (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        _, velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
+        _, room[i], velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
         for k in range(3):
             u[i, k] = velocity[k]
         for k in range(9):
@@ -168,11 +169,18 @@ def test_ahead_the_flow_is_that_of_the_last_tetrahedron_on_the_way(reach, random
     first = flow.locate(start)
     last, *_ = walked(flow, first, start, end)
     assert 0.02 < np.mean(first == last) < 0.98 or reach == 3.0
-    u, l = np.empty((2000, 3)), np.empty((2000, 9))
-    link(look_ahead)(flow.arrays(), first, start, end, u, l)
+    u, l, room = np.empty((2000, 3)), np.empty((2000, 9)), np.empty(2000)
+    link(look_ahead, separate=LONG)(flow.arrays(), first, start, end, u, l, room)
     expected_u, expected_l = flow.sample(end, last, 0.0)
     np.testing.assert_allclose(u, expected_u, atol=1e-11 * np.abs(expected_u).max())
     np.testing.assert_allclose(l, expected_l.reshape(-1, 9), atol=1e-11 * np.abs(expected_l).max())
+    # Whatever is so near lies in it, and much that is not so near does not.
+    roomy = room > 0.0
+    assert np.array_equal(roomy, weights(flow, last, end).min(axis=1) > 0.0)
+    for corner in product((-1.0, 1.0), repeat=3):
+        assert weights(flow, last[roomy], end[roomy] + room[roomy, None] * corner).min() >= -1e-12
+    size = flow.cell_size(last)
+    assert np.median(room[roomy] / size[roomy]) > 0.003
 
 
 def go_on(flow, hosts, ahead, start, end, found):
@@ -192,12 +200,12 @@ def test_a_way_is_not_followed_again_to_where_one_near_it_led(random):
     arrays, moved = flow.arrays(), first != last
     assert moved.mean() > 0.3
     for looked_at in (first, last, np.zeros_like(first)):
-        link(go_on)(arrays, first, looked_at, start, end, found)
+        link(go_on, separate=LONG)(arrays, first, looked_at, start, end, found)
         assert np.array_equal(found, last)
     walled = arrays._replace(neighbours=np.full_like(arrays.neighbours, -1))
-    link(go_on)(walled, first, first, start, end, found)
+    link(go_on, separate=LONG)(walled, first, first, start, end, found)
     assert np.array_equal(found, first)
-    link(go_on)(walled, first, last, start, end, found)
+    link(go_on, separate=LONG)(walled, first, last, start, end, found)
     assert np.array_equal(found, last)
 
 
@@ -239,7 +247,7 @@ def test_across_an_interface_the_nearest_place_of_the_other_side_is_next(mesh, a
     share = random.dirichlet((1.0, 1.0, 1.0), len(triangles))
     x = np.einsum("nk,nki->ni", share, mesh.points[mesh.triangles[triangles]])
     hosts, y = np.empty(len(x), dtype=np.int32), np.empty((len(x), 3))
-    link(crossed)(flow.arrays(), triangles, x, hosts, y)
+    link(crossed, separate=LONG)(flow.arrays(), triangles, x, hosts, y)
     assert np.all(weights(flow, hosts, y) > -1e-9)
     for c in mesh.couplings:
         here = mesh.triangle_patch[triangles] == c.patch

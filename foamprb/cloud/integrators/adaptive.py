@@ -98,6 +98,8 @@ class StepRows(NamedTuple):
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
     by_path: Annotated[int, Row(1, "1", "length of the next step over that of this one, by that error")]
     rest: Annotated[int, Row(1, "s", "what is left of the tracking step", 1.0)]
+    ahead: Annotated[int, Row(3, "m", "where the step was to lead when its end was sampled")]
+    room: Annotated[int, Row(1, "m", "how far off its end may be, along each axis, in the same host")]
 
 
 during = offsets(StepRows, ROWS)
@@ -261,15 +263,15 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
 
 def sample_ahead(
     flow: Any, host: int, x: Vector, goal: Vector, t: float
-) -> tuple[int, Vector, Tensor, Vector]:
+) -> tuple[int, float, Vector, Tensor, Vector]:
     """The flow at a place to which the step leads from x, as its host has it, or the last one on the way.
 
-    That host comes first.
+    That host comes first, and how far off the place may be along each axis, m, for it to hold it certainly.
     """
     found, _, patch, _ = walk(flow, host, x, goal)
     last = host if patch == -2 else found
     u, l_f, u_t = sample(flow, last, goal, t)
-    return last, u, l_f, u_t
+    return last, 0.0, u, l_f, u_t
 
 
 def _sample_end(flow: Any, s: Scratch, i: int) -> None:
@@ -277,7 +279,9 @@ def _sample_end(flow: Any, s: Scratch, i: int) -> None:
     block = s.block
     place = load3(block, at.new_x, i)
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    s.ahead[i], u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
+    s.ahead[i], room, u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
+    store3(block, during.ahead, i, place)
+    block[during.room * LANES + i] = room
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
@@ -293,8 +297,15 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
         x[1] + half * v[1] + f * a[1],
         x[2] + half * v[2] + f * a[2],
     )
-    _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
+    _, _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
     store9(block, during.middle_l, i, l_f)
+
+
+def _holds_end(block: Any, i: int, goal: Vector) -> bool:
+    """Whether the host to which the step of lane i was to lead certainly holds where it leads."""
+    x, room = load3(block, during.ahead, i), block[during.room * LANES + i]
+    off = max(abs(goal[0] - x[0]), abs(goal[1] - x[1]), abs(goal[2] - x[2]))
+    return bool(off < room)
 
 
 def track_adaptive(
@@ -412,7 +423,8 @@ def track_adaptive(
                 allowed = max(allowed, size)
             block[at.h * LANES + i] = min(dt, allowed)
             goal = load3(block, at.new_x, i)
-            recovered += reach_end(flow, patches, scratch, i, goal, scratch.ahead[i], t_new, h)
+            held = _holds_end(block, i, goal)
+            recovered += reach_end(flow, patches, scratch, i, goal, scratch.ahead[i], held, t_new, h)
             if whole:
                 end_tracking_step(scratch, i)
     if renews_end:

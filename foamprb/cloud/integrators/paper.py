@@ -250,7 +250,7 @@ def track_block(
             h = block[at.dt * LANES + i]
             x, v = load3(block, at.x, i), load3(block, at.v, i)
             goal = (x[0] + h * v[0], x[1] + h * v[1], x[2] + h * v[2])
-            recovered += reach_end(flow, patches, scratch, i, goal, scratch.host[i], t_end, h)
+            recovered += reach_end(flow, patches, scratch, i, goal, scratch.host[i], False, t_end, h)
     if interrupted(scratch):
         return 0
     for i in range(len(members)):
