@@ -218,6 +218,7 @@ class Tracker:
         arguments |= dict.fromkeys(("i", "code", "triangle", "ahead"), np.int64(0))
         arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
         arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt"), 0.0)
+        arguments |= {"held": False}
         compile_part(function, arguments, self.bindings, self.separate)
 
     def advance(

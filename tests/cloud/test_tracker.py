@@ -45,6 +45,7 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     expected = dict.fromkeys(("i", "code", "triangle"), numba.int64)
     expected |= dict.fromkeys(("goal", "x0", "x1"), numba.types.UniTuple(numba.float64, 3))
     expected |= dict.fromkeys(("t_end", "h", "tolerance", "allowed"), numba.float64)
+    expected |= {"held": numba.boolean}
     for types in found.values():
         for name in types.keys() & expected:
             assert types[name] == expected[name], name
