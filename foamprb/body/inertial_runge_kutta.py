@@ -120,8 +120,11 @@ def _sheared(first: Scalar, second: Scalar, gh: Scalar, T: Shear, gh2: Scalar, E
     )  # fmt: skip
 
 
-def _resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
-    """P v."""
+def resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
+    """P v, in the units of v: changes of Ω and of l_s, 1/s, or rates of both, 1/s and 1/s².
+
+    Times ½ h it is 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps.
+    """
     X, Y = v
     E, (x, y, z), gh = elastic_response(n, X), n.b, r.gh
     s = (
@@ -170,23 +173,18 @@ def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) ->
     u, v, w
         Rates of Ω, 1/s, and of l_s, 1/s².
     """
-    s = _resolve(n, r, combine(R3[2], w, 1.0, combine(R1[2], u, R2[2], v)))
-    s = _resolve(n, r, _onto(1, u, v, combine(R3[1], w, 1.0, s)))
-    s = _resolve(n, r, _onto(0, u, v, combine(R3[0], w, 1.0, s)))
+    s = resolve(n, r, combine(R3[2], w, 1.0, combine(R1[2], u, R2[2], v)))
+    s = resolve(n, r, _onto(1, u, v, combine(R3[1], w, 1.0, s)))
+    s = resolve(n, r, _onto(0, u, v, combine(R3[0], w, 1.0, s)))
     return scale(h, s[0]), scale(h, s[1])
 
 
 def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> Pair:
     """:func:`respond` to rates u + v t/h."""
-    s = _resolve(n, r, combine(R1[2], u, R2[2], v))
-    s = _resolve(n, r, _onto(1, u, v, s))
-    s = _resolve(n, r, _onto(0, u, v, s))
+    s = resolve(n, r, combine(R1[2], u, R2[2], v))
+    s = resolve(n, r, _onto(1, u, v, s))
+    s = resolve(n, r, _onto(0, u, v, s))
     return scale(h, s[0]), scale(h, s[1])
-
-
-def size_of_slope(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
-    """P v. Times ½ h it is 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps."""
-    return _resolve(n, r, v)
 
 
 def fluid_change(n: Stiffness, dl_f: Tensor) -> Tensor:
@@ -197,6 +195,8 @@ def fluid_change(n: Stiffness, dl_f: Tensor) -> Tensor:
 
     Parameters
     ----------
+    n
+        Stiffness of the shape.
     dl_f
         Change of l_f, 1/s.
     """
@@ -292,7 +292,9 @@ def second_order(
     slope: Pair,
     shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2; times ½ h, about what shares of slope and fluid's change have in them.
+    """Ω and change of l_s of order 2, and P of shares of the slope and of the fluid's change, 1/s and 1/s².
+
+    Times ½ h the second is about what those shares have in the first (:func:`resolve`).
 
     Parameters
     ----------
@@ -306,7 +308,7 @@ def second_order(
     two = respond_to_line(n, whole, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
     judged = (scale(p, slope[0]), add(scale(p, slope[1]), scale(q, change)))
-    return two, size_of_slope(n, whole, judged)
+    return two, resolve(n, whole, judged)
 
 
 def last_argument(

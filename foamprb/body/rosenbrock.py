@@ -201,8 +201,8 @@ def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
     x, y, z = g.star
     n = 1.0 / (6.0 * (x * y + y * z + z * x))
     f = n * (8.0 / (semi_axes[0] * semi_axes[1] * semi_axes[2]))
-    # Of unit d_cc with its dilation, s̃_aa is −2u, v and w in a row, and what comes by the pressure
-    # 4(α₀A + β₀B + γ₀C) is the same in all; each row is then to be free of its mean.
+    # By a unit d_cc, s̃_aa (B.5) falls by 2u, 2v or 2w for a = c and rises by as much as u, v or w else; the
+    # pressure 4(α₀A + β₀B + γ₀C) of (B.1) is the same for all a. Dilation is taken out: a row less its mean.
     u, v, w = f * x, f * y, f * z
     total, k = g.alpha[0] + g.alpha[1] + g.alpha[2], 4.0 * n
     p = k * x * (3.0 * g.alpha[0] - total) + u

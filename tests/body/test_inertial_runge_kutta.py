@@ -139,10 +139,10 @@ def test_a_slope_counts_for_what_it_adds_up_to_or_a_little_more(z):
 
 
 @given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
-def test_the_size_of_a_slope_is_that_of_the_resolvent(stretch, X, Y, h):
+def test_what_is_resolved_is_what_the_resolvent_is_the_inverse_of(stretch, X, Y, h):
     n, _ = stiffness(stretch)
     whole = own.resolvent(n, h)
-    s = own.size_of_slope(n, whole, (X, Y))
+    s = own.resolve(n, whole, (X, Y))
     # (1 − γhJ) s = v
     J = own.stiff_rate(n, s)
     for part, rate, v in zip(s, J, (X, Y), strict=True):

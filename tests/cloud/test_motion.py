@@ -7,6 +7,9 @@ import pytest
 from mesh_shapes import block, box_patches, cyclic_row
 
 from foamprb import Cloud, Escape, Medium, Models, Rebound, Status, Stick, analytic, spheres
+from foamprb.cloud.block import store3
+from foamprb.cloud.integrators.adaptive import during, holds_end
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.flow.analytic import walk_pipe
 from foamprb.flow.mesh.mesh import build_mesh
@@ -20,6 +23,31 @@ FAILS, FOUND = -0.5, -0.6
 
 OBLIQUE = np.array([[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]]) / 3.0
 """Turns no axis onto another, and its rows have components of all signs."""
+
+
+@pytest.mark.parametrize(
+    ("goal", "held"),
+    [
+        ((1.0, 2.0, 3.0), True),
+        ((1.4, 1.6, 3.4), True),
+        ((1.0, 2.6, 3.0), False),
+        ((1.0, 2.0, 2.4), False),
+        ((np.nan, 2.0, 3.0), False),
+        ((1.0, np.nan, 3.0), False),
+        ((1.0, 2.0, np.nan), False),
+        ((np.inf, 2.0, 3.0), False),
+    ],
+)
+def test_what_is_no_number_is_held_by_nothing(goal, held):
+    """A step's end is looked for unless it is certainly as near to its prediction as that has room."""
+    lane, numbers = 3, np.full(during.room * LANES + LANES, np.nan)
+    store3(numbers, during.ahead, lane, (1.0, 2.0, 3.0))
+    numbers[during.room * LANES + lane] = 0.5
+    assert holds_end(numbers, lane, goal) == held
+    numbers[during.room * LANES + lane] = 0.0
+    assert not holds_end(numbers, lane, goal)
+    numbers[during.room * LANES + lane] = np.nan
+    assert not holds_end(numbers, lane, goal)
 
 
 def walk_that_fails_at_first(flow, host, x0, x1):

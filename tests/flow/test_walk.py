@@ -174,7 +174,7 @@ def test_ahead_the_flow_is_that_of_the_last_tetrahedron_on_the_way(reach, random
     expected_u, expected_l = flow.sample(end, last, 0.0)
     np.testing.assert_allclose(u, expected_u, atol=1e-11 * np.abs(expected_u).max())
     np.testing.assert_allclose(l, expected_l.reshape(-1, 9), atol=1e-11 * np.abs(expected_l).max())
-    # Whatever is so near lies in it, and much that is not so near does not.
+    # Whatever is so near lies in it, and that is not next to nothing.
     roomy = room > 0.0
     assert np.array_equal(roomy, weights(flow, last, end).min(axis=1) > 0.0)
     for corner in product((-1.0, 1.0), repeat=3):

@@ -301,11 +301,11 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
     store9(block, during.middle_l, i, l_f)
 
 
-def _holds_end(block: Any, i: int, goal: Vector) -> bool:
-    """Whether the host to which the step of lane i was to lead certainly holds where it leads."""
+def holds_end(block: Any, i: int, goal: Vector) -> bool:
+    """Whether the host to which the step of lane i was to lead certainly holds its end ``goal``, m."""
     x, room = load3(block, during.ahead, i), block[during.room * LANES + i]
-    off = max(abs(goal[0] - x[0]), abs(goal[1] - x[1]), abs(goal[2] - x[2]))
-    return bool(off < room)
+    # A maximum of the three might leave out what is no number.
+    return bool(abs(goal[0] - x[0]) < room and abs(goal[1] - x[1]) < room and abs(goal[2] - x[2]) < room)
 
 
 def track_adaptive(
@@ -423,7 +423,7 @@ def track_adaptive(
                 allowed = max(allowed, size)
             block[at.h * LANES + i] = min(dt, allowed)
             goal = load3(block, at.new_x, i)
-            held = _holds_end(block, i, goal)
+            held = holds_end(block, i, goal)
             recovered += reach_end(flow, patches, scratch, i, goal, scratch.ahead[i], held, t_new, h)
             if whole:
                 end_tracking_step(scratch, i)
