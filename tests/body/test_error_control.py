@@ -43,13 +43,38 @@ def test_a_body_that_starts_from_rest_is_measured_by_the_strain_at_the_end():
     np.testing.assert_allclose(control.strain_scale(UNSTRAINED, (0.0,) * 9), control.LEAST_STRAIN)
 
 
-def test_path_error_is_that_of_the_trapezoidal_rule():
-    """x = t³: v = 3t², a = 6t; the trapezoidal rule is off by h³/2 from 0 to h."""
-    h, R = 0.1, 0.02
-    found = control.path_error(h, R, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (6 * h, 0.0, 0.0))
-    np.testing.assert_allclose(found, 0.5 * h**3 / (h + R), rtol=1e-12)
-    trapezoidal = 0.5 * h * 3 * h**2 - h**3
-    np.testing.assert_allclose(found * (h + R), trapezoidal, rtol=1e-12)
+def test_path_errors_are_those_of_the_chord_and_of_the_parabola():
+    """v = t²: ∫v is h³/3; the chord gives h³/2, and the parabola is exact. v = t³: h⁴/4, h⁴/2 and h⁴/3."""
+    h, way = 0.1, 0.02
+    squares = control.path_errors(h, way, (h**2, 0.0, 0.0), (0.0, 0.0, 0.0), (2 * h, 0.0, 0.0))
+    np.testing.assert_allclose(squares, [h**3 * (1 / 2 - 1 / 3) / way, 0.0], rtol=1e-12)
+    cubes = control.path_errors(h, way, (0.0, h**3, 0.0), (0.0, 0.0, 0.0), (0.0, 3 * h**2, 0.0))
+    np.testing.assert_allclose(
+        cubes, [h**4 * (1 / 2 - 1 / 4) / way, h**4 * (1 / 3 - 1 / 4) / way], rtol=1e-12
+    )
+
+
+def test_the_parabola_is_charged_with_what_velocity_and_acceleration_disagree_by():
+    """v = t with an acceleration of 1 + δ: the parabola gives h²/2 + δ h²/6, the chord is exact."""
+    h, way, delta = 0.1, 0.02, 0.3
+    wrong = (0.0, 0.0, 1.0 + delta)
+    np.testing.assert_allclose(
+        control.path_errors(h, way, (0.0, 0.0, h), wrong, wrong), [0.0, delta * h**2 / 6 / way], rtol=1e-12
+    )
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_steps_chosen_by_the_path_settle_below_the_tolerance(order):
+    """Errors of h² or h³ over the way: whatever the first step was, the last ones are accepted."""
+    tolerance = 1e-4
+    for h in (1e-3, 1.0, 30.0):
+        errors = []
+        for _ in range(30):
+            errors.append(1e-4 * h**order)
+            by_path = control.path_factor(errors[-1], tolerance)
+            h *= control.step_factor(False, 0.0, by_path, tolerance)
+        late = np.array(errors[20:])
+        assert np.all((late <= tolerance) & (late > 0.5 * tolerance))
 
 
 def test_step_factor():

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from mesh_shapes import block, box_patches
 from scipy.integrate import solve_ivp
 from strategies import flat, square
 
@@ -29,6 +30,9 @@ from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.reconstruct import Reconstruction
 
 ADAPTIVE = ("rosenbrock", "stokes")
 MU_F = 1e-3
@@ -176,15 +180,15 @@ def test_the_deformation_of_any_body_is_right_to_the_tolerance(tolerance):
 
 @pytest.mark.parametrize(("number", "speed"), [(0.05, 1.0), (1.0, 1.0), (0.05, 1e3)])
 def test_a_heavy_body_takes_no_more_steps_than_its_path_and_shape_need(number, speed):
-    """25 to 55 in two units of time; four times as many if a change were judged as an error."""
+    """15 to 26 in two units of time; four times as many if a change were judged as an error."""
     cloud = in_flow(unsteady_flow(), [0.1, 0.5, 2.0], 0.5, "rosenbrock", number=number, tolerance=1e-4)
     p, taken = cloud.particles, np.zeros(3)
     p.x[:], p.v[:] = speed * np.array([3e-6, 1e-5, 1e-6]), speed * np.array([1.5e-5, -1e-5, 2e-5])
     for _ in range(4):
         cloud.advance(1)
         taken += p.substeps
-    assert (taken > 15).all(), taken
-    assert (taken < 75).all(), taken
+    assert (taken > 10).all(), taken
+    assert (taken < 40).all(), taken
 
 
 @pytest.mark.parametrize("with_pressure", [False, True])
@@ -391,6 +395,44 @@ def test_what_a_body_has_learned_holds_until_the_next_eighth_step(integrator):
     assert (cloud.particles.discount == 0.5).all()
     cloud.advance(1)
     assert (cloud.particles.discount == 0.0).all()
+
+
+@pytest.fixture(scope="module")
+def coarse_vortex():
+    """A vortex in a cube of 6³ crooked cells, of which u and ∇u are reconstructed each for itself."""
+    mesh = build_mesh(shape := block(6), box_patches(shape))
+
+    def u(x):
+        p, q = np.pi * x[:, 0], np.pi * x[:, 1]
+        return np.stack([np.sin(p) * np.cos(q), -np.cos(p) * np.sin(q), 0.0 * p], axis=1)
+
+    return MeshFlow(mesh, *Reconstruction(mesh)(u(mesh.centres), u(mesh.boundary_centres)))
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_what_a_coarse_mesh_does_to_the_gradient_does_not_shorten_steps(coarse_vortex, integrator, random):
+    """Steps of a fifth of a cell turn by up to 0.1 rad; with chords cut at θ²/12 = 1e-4 that is three."""
+    x, tolerance = 0.1 + 0.8 * random.random((200, 3)), 1e-4
+
+    def after(steps, tolerance):
+        rho = 1000.0 if integrator == "rosenbrock" else 1.0
+        p = spheres(x, d=2e-3, rho=rho, mu=0.35)
+        p.v[:], _ = coarse_vortex.sample(x, coarse_vortex.locate(x), 0.0)
+        models = Models(integrator=integrator, tolerance=tolerance)
+        walls = [Stick() for _ in coarse_vortex.patches]
+        cloud = Cloud(p, coarse_vortex, Medium(0.011, 1.0, (0.0, 0.0, 0.0)), walls, 1.0 / steps, models)
+        taken = []
+        for _ in range(30):
+            cloud.advance(steps // 30)
+            taken.append(cloud.particles.substeps.mean())
+        return cloud.particles, np.mean(taken)
+
+    p, taken = after(30, tolerance)
+    exact, _ = after(960, 1e-7)
+    assert taken < 4.0
+    assert np.all(p.status == exact.status)
+    # The way is at most 1 m long, and nearby ways part by little.
+    assert np.linalg.norm(p.x - exact.x, axis=1).max() < 2.0 * tolerance
 
 
 def test_rosenbrock_and_the_papers_scheme_go_to_one_limit():

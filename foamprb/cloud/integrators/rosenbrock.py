@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.error_control import FLUID_SHARE, largest, relative_size, strain_scale
+from foamprb.body.error_control import FLUID_SHARE, largest, path_errors, relative_size, strain_scale
 from foamprb.body.exponential_runge_kutta import NODE, algebra_excess, group_exponential
 from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
@@ -54,6 +54,7 @@ from foamprb.cloud.block import (
     Medium,
     at,
     choose,
+    choose3,
     load3,
     load4,
     load9,
@@ -79,6 +80,7 @@ from foamprb.cloud.integrators.adaptive import (
     keep_frame,
     learn,
     note_disturbance,
+    store_path_error,
     track_adaptive,
 )
 from foamprb.cloud.integrators.base import Integrator
@@ -184,10 +186,10 @@ def first_inertial(block: Any, medium: Medium) -> None:
         store9(block, own.turning, i, turning)
 
         v, u, u_end = load3(block, at.v, i), load3(block, during.start_u, i), load3(block, during.end_u, i)
-        a_u = fluid_acceleration(block, i, v)
         rate, start = load3(block, own.rate, i), (load3(block, own.first_v, i), load3(block, own.first_vt, i))
         P = drag_axes(block, i, Q)
         du = (u_end[0] - u[0], u_end[1] - u[1], u_end[2] - u[2])
+        a_u = _fluid_slope(block, i, h, v, du)
         changes = fluid_changes(rate, h, dot_vector(P, du), dot_vector(P, a_u))
         moved = first_motion(rate, h, start, *changes)
         _set_motion(block, i, P, moved)
@@ -212,7 +214,6 @@ def first_inertial(block: Any, medium: Medium) -> None:
             i,
             (a[0] + NODE * (w[0] - a[0]), a[1] + NODE * (w[1] - a[1]), a[2] + NODE * (w[2] - a[2])),
         )
-        _store_path_error(block, i, h, du, a_u)
 
 
 def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
@@ -431,17 +432,31 @@ def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
     return s * x + c * p, s * y + c * q, s * z + c * r
 
 
-def _store_path_error(block: Any, i: int, h: Any, du: Vector, a_u: Vector) -> None:
-    """Store what the fluid's velocity has beside a parabola in time, by its last slope, over the way."""
-    v = load3(block, at.v, i)
-    a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
-    x = h * (a[0] + w[0] + a_u[0]) - 2.0 * du[0]
-    y = h * (a[1] + w[1] + a_u[1]) - 2.0 * du[1]
-    z = h * (a[2] + w[2] + a_u[2]) - 2.0 * du[2]
-    error = h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / _way(block, i)
-    block[during.path * LANES + i] = error
-    block[during.difference * LANES + i] = 0.0
-    block[at.error * LANES + i] = error
+def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
+    """How the fluid's velocity begins to change, m/s²: of the parabola or of the chord, which has less error.
+
+    Stores that error.
+
+    Parameters
+    ----------
+    v
+        Velocity of the body, m/s.
+    du
+        Change of the fluid's over the step, m/s.
+    """
+    a_u, bend, u_t = (
+        fluid_acceleration(block, i, v),
+        load3(block, during.start_a, i),
+        load3(block, during.end_ut, i),
+    )
+    # The body as it is predicted.
+    w = dot_vector(
+        load9(block, during.end_l, i), (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2])
+    )
+    a_end = (u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2])
+    straight = store_path_error(block, i, path_errors(h, _way(block, i), du, a_u, a_end))
+    f = 1.0 / h
+    return choose3(straight, (f * du[0], f * du[1], f * du[2]), a_u)
 
 
 def _way(block: Any, i: int) -> Any:
