@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Tensor, Vector, dot_vector, inverse, longest_stretch, vector_dot
+from foamprb.body.tensor import Tensor, Vector, ddot, dot_vector, inverse, longest_stretch, vector_dot
 from foamprb.compile.link import link
 from foamprb.flow.base import NEAR, Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays
@@ -47,8 +47,11 @@ def nearest_wall(
     flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float
 ) -> tuple[float, int, int]:
     """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
-    # Most walls are too far away, and then their planes say so.
     best, nearest = NEAR * R, NO_TRIANGLE
+    # Most bodies are far from all of them.
+    begin = _first_within(flow, begin, end, x, (best + R) * np.sqrt(ddot(F, F)))
+    if begin == end:
+        return np.inf, -1, NO_TRIANGLE
     inverse_F = inverse(F)
     for k in range(begin, end):
         triangle = flow.near[k]
@@ -58,6 +61,21 @@ def nearest_wall(
     if nearest == NO_TRIANGLE:
         return np.inf, -1, NO_TRIANGLE
     return best, flow.triangle_patch[nearest], nearest
+
+
+def _first_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float) -> int:
+    """The first listed triangle whose plane is less than ``reach``, m, from x; ``end`` if none is."""
+    for k in range(begin, end):
+        triangle = flow.near[k]
+        a, n = flow.triangles[triangle, 0], inward(flow, triangle)
+        height = (
+            n[0] * (flow.nodes[a, 0] - x[0])
+            + n[1] * (flow.nodes[a, 1] - x[1])
+            + n[2] * (flow.nodes[a, 2] - x[2])
+        )
+        if abs(height) < reach:
+            return k
+    return end
 
 
 def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
