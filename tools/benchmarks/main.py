@@ -26,6 +26,7 @@ from benchmarks.records import (
 PARTS = (
     "tracker",
     "whole",
+    "tutorials",
     "threads",
     "memory",
     "run",

@@ -171,8 +171,21 @@ def write_case(folder: Path, grid: Grid) -> Path:
         for patch in (b"inlet", b"outlet"):
             file.write(patch + b" { type fixedValue; value nonuniform List<vector> " + ends + b"; }\n")
         file.write(b"wall { type noSlip; }\n}\n")
+    write_dictionaries(folder, NU, RHO)
+    write_control(folder, 1e-4, 1.0)
+    return folder
+
+
+def write_dictionaries(folder: Path, nu: float, rho: float) -> None:
+    """Write what parcels want of a case beside mesh, U and ``controlDict``.
+
+    Parameters
+    ----------
+    nu, rho
+        Of the fluid, m²/s and kg/m³.
+    """
     _dictionary(
-        folder / "constant" / "transportProperties", f"transportModel Newtonian; nu {NU}; rhoInf {RHO};"
+        folder / "constant" / "transportProperties", f"transportModel Newtonian; nu {nu:g}; rhoInf {rho:g};"
     )
     _dictionary(folder / "constant" / "turbulenceProperties", "simulationType laminar;")
     gravity = "dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);"
@@ -184,8 +197,6 @@ def write_case(folder: Path, grid: Grid) -> Path:
         "snGradSchemes { default corrected; }",
     )
     _dictionary(folder / "system" / "fvSolution", "solvers {}")
-    write_control(folder, 1e-4, 1.0)
-    return folder
 
 
 def poiseuille(x: Floats) -> Floats:
@@ -213,20 +224,32 @@ def write_positions(path: Path, x: Floats) -> None:
         file.write(")\n")
 
 
-def write_parcels(folder: Path, x: Floats) -> None:
-    """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3)."""
+PATCHES = 'wall { type stick; } "(inlet|outlet)" { type escape; }'
+"""What the patches do with particles."""
+
+
+def write_parcels(folder: Path, x: Floats, d: float = D, rho: float = RHO_S, patches: str = PATCHES) -> None:
+    """Write OpenFOAM's ``kinematicCloudProperties``: rigid point spheres at the positions (n, 3).
+
+    Parameters
+    ----------
+    d, rho
+        Their diameter, m, and density, kg/m³.
+    patches
+        As :data:`PATCHES`.
+    """
     write_positions(folder / "constant" / "kinematicCloudPositions", x)
     _dictionary(
         folder / "constant" / "kinematicCloudProperties",
         "solution { active true; coupled false; transient yes; cellValueSourceCorrection off; maxCo 0.3; "
         "interpolationSchemes { rho cell; U cellPoint; mu cell; } integrationSchemes { U Euler; } }\n"
-        f"constantProperties {{ rho0 {RHO_S}; }}\n"
+        f"constantProperties {{ rho0 {rho:g}; }}\n"
         "subModels { particleForces { sphereDrag; gravity; } injectionModels { model1 { "
         "type manualInjection; massTotal 0; parcelBasisType fixed; nParticle 1; SOI 0; U0 (0 0 0); "
         'positionsFile "kinematicCloudPositions"; ignoreOutOfBounds true; '
-        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
+        f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {d:g}; }} }} }} }}\n"
         "dispersionModel none; patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
-        'wall { type stick; } "(inlet|outlet)" { type escape; } ); }\n'
+        f"{patches} ); }}\n"
         "heatTransferModel none; surfaceFilmModel none; collisionModel none; "
         "stochasticCollisionModel none; }\ncloudFunctions {}",
     )
@@ -246,7 +269,7 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, s
         f"duration {0.9 * end:.9g}; "
         f"sizeDistribution {{ type fixedValue; fixedValueDistribution {{ value {D}; }} }} }} }}\n"
         "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
-        'wall { type stick; } "(inlet|outlet)" { type escape; } ); } }',
+        f"{PATCHES} ); }} }}",
     )
 
 
@@ -263,7 +286,7 @@ def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: i
         "ignoreOutOfBounds true; sizeDistribution { type fixedValue; fixedValueDistribution { "
         f"value {D}; }} }} }} }}\n"
         "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( "
-        'wall { type stick; } "(inlet|outlet)" { type escape; } ); } }',
+        f"{PATCHES} ); }} }}",
     )
     return path
 

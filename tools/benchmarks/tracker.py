@@ -39,21 +39,32 @@ def openfoam_environment() -> dict[str, str]:
     return ({"WM_PROJECT_DIR": str(debian)} if debian.is_dir() else {}) | os.environ
 
 
-def openfoam_cost(case: Path, n: int, steps: int) -> float:
+def openfoam_cost(case: Path, n: int, steps: int, dt: float = OPENFOAM_STEP, left: float = 0.99) -> float:
     """Microseconds of CPU per parcel-step of OpenFOAM's solver, start and injection left out.
+
+    Parameters
+    ----------
+    case
+        With parcels that are there from the start.
+    n, steps
+        Number of parcels, and of steps.
+    dt
+        Δt, s.
+    left
+        So large a share of the parcels must be there at the end.
 
     Raises
     ------
     RuntimeError
         If the solver failed or lost parcels.
     """
-    pipe.write_control(case, OPENFOAM_STEP, (steps + 5) * OPENFOAM_STEP)
+    pipe.write_control(case, dt, (steps + 5) * dt)
     done = subprocess.run([SOLVER], cwd=case, env=openfoam_environment(), capture_output=True, text=True)
     times = [float(t) for t in re.findall(r"ExecutionTime = (\S+) s", done.stdout)]
     parcels = [int(m) for m in re.findall(r"Current number of parcels\s*= (\d+)", done.stdout)]
     if done.returncode or len(times) < steps + 5:
         raise RuntimeError(f"{SOLVER}: {(done.stderr or done.stdout)[-1000:]}")
-    if parcels[-1] < 0.99 * n:
+    if parcels[-1] < left * n:
         raise RuntimeError(f"{SOLVER}: {parcels[-1]} of {n} parcels are left")
     # The first steps inject, and bring the parcels from rest to the flow's velocity.
     return 1e6 * (times[steps + 4] - times[4]) / sum(parcels[5 : steps + 5])

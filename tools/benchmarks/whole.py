@@ -7,6 +7,8 @@ differ in length only are subtracted, so that start, injection and output fall a
 from __future__ import annotations
 
 import shutil
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +33,11 @@ def run(case: str, dictionary: str) -> dict[str, Any]:
     return {"particle-steps": pipe.particle_steps(job.cloud)}
 
 
-def cost(case: Path, Ca: float, steps: int) -> float:
-    """Microseconds of CPU per particle-step."""
+def cost(case: Path, steps: int, write: Callable[[int], Path]) -> float:
+    """Microseconds of CPU per particle-step; ``write`` writes the properties of a cloud for so many steps."""
     spent = []
     for count in (_WARM_UP, _WARM_UP + steps):
-        dictionary = pipe.write_default_cloud(case, f"soft{count}", Ca, OPENFOAM_STEP, count)
-        child = isolated(run, str(case), str(dictionary))
+        child = isolated(run, str(case), str(write(count)))
         spent.append((child.cpu, child.result["particle-steps"]))
     return 1e6 * (spent[1][0] - spent[0][0]) / (spent[1][1] - spent[0][1])
 
@@ -47,7 +48,12 @@ def measure(options: Options) -> list[Row]:
     case = pipe.case("40k")
     x = pipe.positions(n, reach=REACH)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
-    contestants = {f"Ca {Ca:g}": lambda Ca=Ca: cost(case, Ca, steps) for Ca in CAPILLARY_NUMBERS}
+
+    def ours(Ca: float) -> float:
+        write = partial(pipe.write_default_cloud, case, Ca=Ca, dt=OPENFOAM_STEP)
+        return cost(case, steps, lambda count: write(f"soft{count}", steps=count))
+
+    contestants = {f"Ca {Ca:g}": partial(ours, Ca) for Ca in CAPILLARY_NUMBERS}
     if shutil.which(SOLVER):
         pipe.write_parcels(case, x)
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, n, steps)
