@@ -9,6 +9,7 @@ import gzip
 import re
 import shutil
 import subprocess
+import sys
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -111,7 +112,7 @@ def first_settings(case: Path) -> Settings:
     """The properties that ``foamprb init`` writes, with particles from a list and nothing that looks on."""
     file = case / "constant" / "softCloudProperties"
     file.unlink(missing_ok=True)
-    _sh(case, "foamprb", "init")
+    _sh(case, sys.executable, "-m", "foamprb", "init")
     text = file.read_text(encoding="utf-8")
 
     def entry(pattern: str) -> float:

@@ -1,0 +1,33 @@
+"""What the coarse mesh and the turbulent flow of a tutorial do to the steps of a default run."""
+
+from __future__ import annotations
+
+import pytest
+from benchmarks import pipe, tutorials
+
+from foamprb import Status, execute, prepare
+
+pytestmark = pytest.mark.openfoam
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory):
+    """The flow of TJunction, and places in it."""
+    if not tutorials.EXAMPLES.is_dir():
+        pytest.skip("OpenFOAM's tutorials are not here")
+    case = tutorials.solve("TJunction", tmp_path_factory.mktemp("tutorials") / "TJunction")
+    pipe.write_positions(case / "constant" / "softCloudPositions", tutorials.places(case, 3000))
+    return case
+
+
+@pytest.mark.parametrize("Ca", tutorials.CAPILLARY_NUMBERS)
+def test_particles_take_as_many_steps_as_openfoams(case, Ca):
+    """1.04 for each Δt in the mean; ten if what u and its gradient disagree by were an error of a step."""
+    settings = tutorials.first_settings(case)
+    job = prepare(case, dictionary=tutorials.write_cloud(case, settings, Ca, 20))
+    execute(job, "startTime")
+    p = job.cloud.particles
+    active = p.status == Status.ACTIVE
+    assert job.cloud.counts()[Status.FAILED] == 0
+    assert active.sum() > 0.9 * p.size
+    assert p.substeps[active].mean() < 1.2
