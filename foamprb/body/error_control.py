@@ -19,7 +19,8 @@ solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), s
 
     δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
 
-The path is held to the tolerance as well, as a share of the way that the step goes (:func:`path_errors`).
+The path is held to the tolerance as well, as a share of the way that the step goes (:func:`chord_error`,
+:func:`parabola_error`).
 A velocity that is interpolated linearly bends from one tetrahedron to the next. Such bends are as large as
 the interpolation's own error, and no estimate looks for them: they would cut steps at every face.
 """
@@ -125,39 +126,44 @@ def longest_step(l_f: Tensor) -> Scalar:
     return LONGEST / (largest(l_f) + 1e-300)
 
 
-def path_errors(h: Scalar, way: Scalar, dv: Vector, a0: Vector, a1: Vector) -> tuple[Scalar, Scalar]:
-    """What two rules for the way h ∫v are off by, over the way.
+def chord_error(h: Scalar, way: Scalar, a0: Vector, a1: Vector) -> Scalar:
+    """What h²/12 (a₁ − a₀), the error of the trapezoidal rule for the way h ∫v, is of the way.
 
-    The chord of v is off by h²/12 (a₁ − a₀), of the order of h³. The parabola of its ends and its first slope
-    is off by h/12 (h (a₀ + a₁) − 2 Δv), of the order of h⁴, but only where the accelerations are those of v.
-    Of a flow that was computed on a mesh, u and ∇u are interpolated each for itself: the second is then of
-    the order of h², by what they disagree.
+    It is of the order of h³, and what is wrong with both accelerations alike cancels in it.
 
     Parameters
     ----------
     h, way
         Step, s, and the way with which errors are compared, m.
-    dv
-        Change of the velocity over the step, m/s.
     a0, a1
         Accelerations ∂u/∂t + ∇u·v at the ends of the step, m/s².
-
-    Returns
-    -------
-    That of the chord, that of the parabola.
     """
-    f = h * (1.0 / 12.0)
-    x, y, z = h * (a1[0] - a0[0]), h * (a1[1] - a0[1]), h * (a1[2] - a0[2])
-    p, q, r = (
-        h * (a0[0] + a1[0]) - 2.0 * dv[0],
-        h * (a0[1] + a1[1]) - 2.0 * dv[1],
-        h * (a0[2] + a1[2]) - 2.0 * dv[2],
-    )
-    return f * np.sqrt(x * x + y * y + z * z) / way, f * np.sqrt(p * p + q * q + r * r) / way
+    f = h * h * (1.0 / 12.0)
+    x, y, z = a1[0] - a0[0], a1[1] - a0[1], a1[2] - a0[2]
+    return f * np.sqrt(x * x + y * y + z * z) / way
+
+
+def parabola_error(h: Scalar, way: Scalar, dv: Vector, a0: Vector, a1: Vector) -> Scalar:
+    """What h/12 (h (a₀ + a₁) − 2 Δv) is of the way: the same of the parabola of v at both ends and a₀.
+
+    It is of the order of h⁴ where the accelerations are those of v. Of a flow that was computed on a mesh, u
+    and ∇u are interpolated each for itself: it is then of the order of h², by what they disagree.
+
+    Parameters
+    ----------
+    h, way, a0, a1
+        As of :func:`chord_error`.
+    dv
+        Change of the velocity over the step, m/s.
+    """
+    x = h * (a0[0] + a1[0]) - 2.0 * dv[0]
+    y = h * (a0[1] + a1[1]) - 2.0 * dv[1]
+    z = h * (a0[2] + a1[2]) - 2.0 * dv[2]
+    return h * (1.0 / 12.0) * np.sqrt(x * x + y * y + z * z) / way
 
 
 def path_factor(path: Scalar, tolerance: float) -> Scalar:
-    """Length of the next step over that of this one, as the lesser of :func:`path_errors` would have it."""
+    """Length of the next step over that of this one, as the error of the path would have it."""
     return SAFETY * np.sqrt(tolerance / (path + 1e-300))
 
 

@@ -180,15 +180,15 @@ def test_the_deformation_of_any_body_is_right_to_the_tolerance(tolerance):
 
 @pytest.mark.parametrize(("number", "speed"), [(0.05, 1.0), (1.0, 1.0), (0.05, 1e3)])
 def test_a_heavy_body_takes_no_more_steps_than_its_path_and_shape_need(number, speed):
-    """15 to 26 in two units of time; four times as many if a change were judged as an error."""
+    """25 to 55 in two units of time; four times as many if a change were judged as an error."""
     cloud = in_flow(unsteady_flow(), [0.1, 0.5, 2.0], 0.5, "rosenbrock", number=number, tolerance=1e-4)
     p, taken = cloud.particles, np.zeros(3)
     p.x[:], p.v[:] = speed * np.array([3e-6, 1e-5, 1e-6]), speed * np.array([1.5e-5, -1e-5, 2e-5])
     for _ in range(4):
         cloud.advance(1)
         taken += p.substeps
-    assert (taken > 10).all(), taken
-    assert (taken < 40).all(), taken
+    assert (taken > 15).all(), taken
+    assert (taken < 75).all(), taken
 
 
 @pytest.mark.parametrize("with_pressure", [False, True])

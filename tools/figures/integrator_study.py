@@ -265,7 +265,7 @@ def pair_step(
     v1 = _to(u1, (1.0, slip0), (1.0 / pair.NODE, slip_change))
     a1 = _to(dudt1, (1.0, dot_vector(L1, v1)))
     way = h * np.sqrt(v0[0] ** 2 + v0[1] ** 2 + v0[2] ** 2) + bodies.R
-    path = np.minimum(*control.path_errors(h, way, _to(v1, (-1.0, v0)), a0, a1))
+    path = control.chord_error(h, way, a0, a1)
     new = dot(
         transpose(Q),
         dot(pair.group_exponential(tuple(np.where(third, *p) for p in zip(three, two, strict=True))), G),

@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 
 from foamprb.body.error_control import (
     LEARNED_FOR,
+    chord_error,
     largest,
     learned_share,
     longest_step,
-    path_errors,
     path_factor,
     share_of_slope,
     step_factor,
@@ -132,8 +132,7 @@ def end_acceleration(block: Any, i: int) -> Vector:
 def finish_path(block: Any, i: int, v: Vector) -> None:
     """Store the velocity v at the end of the step, m/s, the place that it leads to, and the path's error.
 
-    The place is that of Hermite's cubic: x + h/2 (v₀ + v) + h²/12 (a₀ − a). It is no farther off than the
-    parabola where the accelerations are those of v, and hardly farther than the chord where they are not.
+    The place is that of Hermite's cubic: x + h/2 (v₀ + v) + h²/12 (a₀ − a), whose last part the error is.
     """
     h = block[at.dt * LANES + i]
     x, v0, a0 = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
@@ -147,27 +146,15 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
     )
     store3(block, at.new_x, i, place)
     store3(block, at.new_v, i, v)
-    dv = (v[0] - v0[0], v[1] - v0[1], v[2] - v0[2])
     way = h * np.sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]) + block[at.R * LANES + i]
-    store_path_error(block, i, path_errors(h, way, dv, a0, a))
+    store_path_error(block, i, chord_error(h, way, a0, a))
 
 
-def store_path_error(block: Any, i: int, errors: tuple[Any, Any]) -> Any:
-    """Store the lesser of two errors of the path; return whether it is the first, that of the chord.
-
-    Parameters
-    ----------
-    errors
-        :func:`foamprb.body.error_control.path_errors`.
-    """
-    chord, parabola = errors
-    # What is no number is not less, and stays so.
-    straight = chord < parabola
-    error = select(straight, chord, parabola)
+def store_path_error(block: Any, i: int, error: Any) -> None:
+    """Store the error of the path; that of the shape is added to it."""
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error
-    return straight
 
 
 def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> None:

@@ -12,7 +12,14 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.error_control import FLUID_SHARE, largest, path_errors, relative_size, strain_scale
+from foamprb.body.error_control import (
+    FLUID_SHARE,
+    chord_error,
+    largest,
+    parabola_error,
+    relative_size,
+    strain_scale,
+)
 from foamprb.body.exponential_runge_kutta import NODE, algebra_excess, group_exponential
 from foamprb.body.inertial_path import NOTHING, Motion, first_motion, fluid_changes, last_motion
 from foamprb.body.inertial_path import respond as respond_in_path
@@ -444,19 +451,24 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     du
         Change of the fluid's over the step, m/s.
     """
-    a_u, bend, u_t = (
-        fluid_acceleration(block, i, v),
-        load3(block, during.start_a, i),
-        load3(block, during.end_ut, i),
-    )
+    a_u, bend, way = fluid_acceleration(block, i, v), load3(block, during.start_a, i), _way(block, i)
     # The body as it is predicted.
-    w = dot_vector(
-        load9(block, during.end_l, i), (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2])
-    )
-    a_end = (u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2])
-    straight = store_path_error(block, i, path_errors(h, _way(block, i), du, a_u, a_end))
+    a_end = _seen_at_end(block, i, (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2]))
+    chord = chord_error(h, way, a_u, a_end)
+    straight = chord < parabola_error(h, way, du, a_u, a_end)
+    # The body as it starts: a bent path counts for more than the parabola is off by, so that steps are short
+    # enough for what forces change along it, too.
+    parabola = parabola_error(h, way, du, a_u, _seen_at_end(block, i, v))
+    # What is no number is not less, and stays so.
+    store_path_error(block, i, select(chord < parabola, chord, parabola))
     f = 1.0 / h
     return choose3(straight, (f * du[0], f * du[1], f * du[2]), a_u)
+
+
+def _seen_at_end(block: Any, i: int, v: Vector) -> Vector:
+    """∂u/∂t + ∇u·v at the end of the step, m/s²."""
+    u_t, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
+    return u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2]
 
 
 def _way(block: Any, i: int) -> Any:
