@@ -129,7 +129,8 @@ def longest_step(l_f: Tensor) -> Scalar:
 def chord_error(h: Scalar, way: Scalar, a0: Vector, a1: Vector) -> Scalar:
     """What h²/12 (a₁ − a₀), the error of the trapezoidal rule for the way h ∫v, is of the way.
 
-    It is of the order of h³, and what is wrong with both accelerations alike cancels in it.
+    It is the first term of Euler and Maclaurin's formula, of the order of h³; what is wrong with both
+    accelerations alike cancels in it.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ from foamprb.body.tensor import Tensor, Vector, ddot, dot_vector, inverse, longe
 from foamprb.compile.link import link
 from foamprb.flow.base import NEAR, Floats, Ints
 from foamprb.flow.mesh.arrays import MeshArrays
+from foamprb.flow.mesh.folds import height
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
 from foamprb.flow.wall_lists import square_to_box
@@ -48,7 +49,7 @@ def nearest_wall(
 ) -> tuple[float, int, int]:
     """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
-    # Most bodies are far from all of them.
+    # Most bodies are far from all of them; no length is shortened more than by the norm of F.
     begin = _first_within(flow, begin, end, x, (best + R) * np.sqrt(ddot(F, F)))
     if begin == end:
         return np.inf, -1, NO_TRIANGLE
@@ -66,14 +67,7 @@ def nearest_wall(
 def _first_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float) -> int:
     """The first listed triangle whose plane is less than ``reach``, m, from x; ``end`` if none is."""
     for k in range(begin, end):
-        triangle = flow.near[k]
-        a, n = flow.triangles[triangle, 0], inward(flow, triangle)
-        height = (
-            n[0] * (flow.nodes[a, 0] - x[0])
-            + n[1] * (flow.nodes[a, 1] - x[1])
-            + n[2] * (flow.nodes[a, 2] - x[2])
-        )
-        if abs(height) < reach:
+        if height(flow, flow.near[k], x) < reach:
             return k
     return end
 

@@ -145,3 +145,17 @@ def test_pages_name_every_force():
     for name in FORCES:
         assert f"| `particleForces/{name}` |" in settings.read_text()
         assert f"| `{name}` |" in page.read_text()
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5, 1e-7])
+def test_a_sphere_like_the_fluid_goes_round_with_it_to_the_tolerance(tolerance):
+    """A piece of a rotating fluid: the forces turn with it, and their error is a share of its way at most."""
+    spin, turned = 50.0, 5.0
+    p = spheres([[1e-2, 0.0, 0.0]], d=2e-4, rho=1000.0, mu=1e3)
+    p.v[0] = 0.0, 1e-2 * spin, 0.0
+    forces = (Gravity(), PressureGradient(), VirtualMass(Cvm=0.5))
+    models = Models(integrator="rosenbrock", tolerance=tolerance, forces=forces)
+    flow = analytic.linear(spin * np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]))
+    cloud = Cloud(p, flow, Medium(1e-3, 1000.0, (0.0, 0.0, 0.0)), (), 1e-3, models)
+    cloud.advance(round(turned / spin / cloud.dt))
+    assert np.hypot(*p.x[0, :2]) == pytest.approx(1e-2, rel=turned * tolerance)

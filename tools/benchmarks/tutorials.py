@@ -27,7 +27,7 @@ EXAMPLES = Path("/usr/share/doc/openfoam-examples/examples/incompressible")
 RHO = 1.2
 """Of the fluid, which these tutorials do not say, kg/m³."""
 CAPILLARY_NUMBERS = (0.01, 0.5)
-"""At the mean shear rate; where it is largest they are some hundred times as much."""
+"""At the mean shear rate, as ``foamprb init`` has it."""
 LEFT = 0.85
 """Share of the parcels that are still in the flow at the end."""
 
@@ -62,7 +62,8 @@ def solve(name: str, folder: Path) -> Path:
     if (folder / "0" / "U").exists():
         return folder
     tutorial, work = TUTORIALS[name], folder.with_name(f"{folder.name}.solver")
-    shutil.rmtree(work, ignore_errors=True)
+    for left_over in (folder, work):
+        shutil.rmtree(left_over, ignore_errors=True)
     shutil.copytree(EXAMPLES / tutorial.folder, work)
     for file in work.rglob("*.gz"):
         file.with_suffix("").write_bytes(gzip.decompress(file.read_bytes()))
@@ -95,7 +96,7 @@ def places(case: Path, n: int) -> pipe.Floats:
 
 
 class Settings(NamedTuple):
-    """Of what ``foamprb init`` has written."""
+    """What ``foamprb init`` has written, and what of it is needed."""
 
     text: str
     dt: float

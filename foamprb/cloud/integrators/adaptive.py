@@ -122,11 +122,15 @@ def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
 
 
+def acceleration_at_end(block: Any, i: int, v: Vector) -> Vector:
+    """∂u/∂t + l·v, m/s², of the flow at the end of the step, seen by what moves with v through it."""
+    a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
+    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
+
+
 def end_acceleration(block: Any, i: int) -> Vector:
     """Du/Dt of the fluid at the end of the step, m/s²."""
-    a, u = load3(block, during.end_ut, i), load3(block, during.end_u, i)
-    w = dot_vector(load9(block, during.end_l, i), u)
-    return a[0] + w[0], a[1] + w[1], a[2] + w[2]
+    return acceleration_at_end(block, i, load3(block, during.end_u, i))
 
 
 def finish_path(block: Any, i: int, v: Vector) -> None:
@@ -136,8 +140,7 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
     """
     h = block[at.dt * LANES + i]
     x, v0, a0 = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
-    u_t, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
-    a = (u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2])
+    a = acceleration_at_end(block, i, v)
     f, g = 0.5 * h, h * h * (1.0 / 12.0)
     place = (
         x[0] + f * (v0[0] + v[0]) + g * (a0[0] - a[0]),

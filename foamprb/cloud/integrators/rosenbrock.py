@@ -76,6 +76,7 @@ from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
     STEP_ROWS,
+    acceleration_at_end,
     choose_order,
     counted,
     drag_rate,
@@ -446,6 +447,8 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
 
     Parameters
     ----------
+    h
+        The step, s.
     v
         Velocity of the body, m/s.
     du
@@ -453,22 +456,16 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     """
     a_u, bend, way = fluid_acceleration(block, i, v), load3(block, during.start_a, i), _way(block, i)
     # The body as it is predicted.
-    a_end = _seen_at_end(block, i, (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2]))
+    a_end = acceleration_at_end(block, i, (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2]))
     chord = chord_error(h, way, a_u, a_end)
     straight = chord < parabola_error(h, way, du, a_u, a_end)
     # The body as it starts: a bent path counts for more than the parabola is off by, so that steps are short
     # enough for what forces change along it, too.
-    parabola = parabola_error(h, way, du, a_u, _seen_at_end(block, i, v))
+    parabola = parabola_error(h, way, du, a_u, acceleration_at_end(block, i, v))
     # What is no number is not less, and stays so.
     store_path_error(block, i, select(chord < parabola, chord, parabola))
     f = 1.0 / h
     return choose3(straight, (f * du[0], f * du[1], f * du[2]), a_u)
-
-
-def _seen_at_end(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + ∇u·v at the end of the step, m/s²."""
-    u_t, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
-    return u_t[0] + w[0], u_t[1] + w[1], u_t[2] + w[2]
 
 
 def _way(block: Any, i: int) -> Any:

@@ -224,7 +224,7 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
                     way, s = _crossing(flow, flow.rim[r], origin, d, k, x0)
                     if way > 0 and -room < s < leaving:
                         leaving, rim = s, flow.rim[r]
-                    elif way < 0 and room < s < entering and _height(flow, flow.rim[r], x0) > flush:
+                    elif way < 0 and room < s < entering and height(flow, flow.rim[r], x0) > flush:
                         entering = s
             if t >= entering and entering < min(leaving, 1.0):
                 return host, 0.0, _FAILED, _NONE
@@ -241,7 +241,7 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
             if other < 0:
                 if t >= 1.0 - 1e-12:
                     return _arrived(flow, tet if candidate < 0 else candidate, x1), 1.0, _REACHED, _NONE
-                if t < -room and _height(flow, -1 - other, x0) > flush:
+                if t < -room and height(flow, -1 - other, x0) > flush:
                     return host, 0.0, _FAILED, _NONE
                 return _left_by(flow, -1 - other, x0, d, t, room)
             tet = other
@@ -267,7 +267,7 @@ def _left_by(
     return host, t, flow.triangle_patch[triangle], triangle
 
 
-def _height(flow: MeshArrays, triangle: int, x: Vector) -> float:
+def height(flow: MeshArrays, triangle: int, x: Vector) -> float:
     """Distance of a place from the plane of a triangle of the boundary, m."""
     n, a = flow.triangle_normals, flow.triangles[triangle, 0]
     dx, dy, dz = x[0] - flow.nodes[a, 0], x[1] - flow.nodes[a, 1], x[2] - flow.nodes[a, 2]

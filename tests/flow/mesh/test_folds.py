@@ -127,7 +127,7 @@ def test_a_line_crosses_a_triangle_outwards_or_inwards(random):
             assert t == pytest.approx(s, abs=1e-9)
         seen.add(way)
         height = abs((x0 - a) @ np.cross(b - a, c - a)) / np.linalg.norm(np.cross(b - a, c - a))
-        assert folds._height(one(nodes, triangles=[triangle]), 0, x0) == pytest.approx(height)
+        assert folds.height(one(nodes, triangles=[triangle]), 0, x0) == pytest.approx(height)
     assert seen == {-1, 0, 1}
 
 
