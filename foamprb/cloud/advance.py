@@ -24,6 +24,9 @@ from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.state import Particles
 
+AT_ONCE = LANES
+"""So many particles an integrator's loop takes; bound with it."""
+
 
 def track_share(
     flow: Any,
@@ -31,8 +34,6 @@ def track_share(
     medium: Medium,
     p: Particles,
     rows: NDArray[np.int64],
-    first: int,
-    stride: int,
     step: int,
     steps: int,
     dt: float,
@@ -40,12 +41,10 @@ def track_share(
     scratch: Scratch,
     options: tuple[float, ...],
 ) -> int:
-    """Carry a thread's share of the particles, of which there are ``rows``: every so many blocks one.
+    """Carry a thread's share of the particles, of which there are ``rows``.
 
     Parameters
     ----------
-    first, stride
-        The blocks number ``first``, ``first + stride`` and so on.
     options
         What the integrator's loop wants beside what :func:`track_block` does; the rest is as there.
 
@@ -54,7 +53,7 @@ def track_share(
     The number of walks that failed and were mended by the tree.
     """
     recovered = 0
-    for begin in range(first * LANES, len(rows), stride * LANES):
-        members = rows[begin : begin + LANES]
+    for begin in range(0, len(rows), AT_ONCE):
+        members = rows[begin : begin + AT_ONCE]
         recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
     return recovered

@@ -64,24 +64,30 @@ class Rows(NamedTuple):
     lame: Annotated[int, Row(1, "Pa", "Lame's first parameter of the solid", 1.0, of="lame")]
     k: Annotated[int, Row(1, "1", "third parameter of the solid, if it has one", 1.0, of="k")]
     eta: Annotated[int, Row(1, "Pa s", "viscosity of the solid", of="eta")]
-    inertia: Annotated[int, Row(1, "m/kg", "5/(ρ_s R²), the inverse inertia of the shape per volume", 5.0)]
-    tension: Annotated[int, Row(1, "Pa", "surface tension over the radius, γ/R")]
+    inertia: Annotated[
+        int, Row(1, "m/kg", "5/(ρ_s R²), the inverse inertia of the shape per volume", 5.0, lasting=True)
+    ]
+    tension: Annotated[int, Row(1, "Pa", "surface tension over the radius, γ/R", lasting=True)]
     F0: Annotated[int, Row(9, "1", "F at rest, from that sphere", of="F0", saved="mirrored")]
-    M: Annotated[int, Row(9, "1", "shape at rest, (F₀ F₀)⁻¹", IDENTITY)]
-    mirrored: Annotated[int, Row(1, "", "1 where F0 has changed, else 0")]
+    M: Annotated[int, Row(9, "1", "shape at rest, (F₀ F₀)⁻¹", IDENTITY, lasting=True)]
+    mirrored: Annotated[int, Row(1, "", "1 where F0 has changed, else 0", lasting=True)]
     frame: Annotated[int, Row(9, "1", "particle frame of F, axes as rows", IDENTITY, of="Q", saved=True)]
-    renewed: Annotated[int, Row(1, "", "1 where F and its frame are new or turned since the last step")]
+    renewed: Annotated[
+        int, Row(1, "", "1 where F and its frame are new or turned since the last step", lasting=True)
+    ]
     t0: Annotated[int, Row(1, "s", "time of injection", of="t0")]
     t: Annotated[int, Row(1, "s", "time to which the particle has come", of="t", saved=True)]
     h: Annotated[int, Row(1, "s", "time step that the error allows", of="h", saved=True)]
     dt: Annotated[int, Row(1, "s", "time step that is being taken")]
     moving: Annotated[int, Row(1, "", "1 where a step is being taken, else 0")]
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
-    length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more")]
-    clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall")]
-    most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed")]
-    most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed")]
-    taken: Annotated[int, Row(1, "1", "steps taken so far in this tracking step, also those repeated")]
+    length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more", lasting=True)]
+    clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall", lasting=True)]
+    most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed", lasting=True)]
+    most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed", lasting=True)]
+    taken: Annotated[
+        int, Row(1, "1", "steps taken so far in this tracking step, also those repeated", lasting=True)
+    ]
     substeps: Annotated[
         int, Row(1, "1", "the same of the last tracking step that is done", of="substeps", saved=True)
     ]
@@ -90,7 +96,7 @@ class Rows(NamedTuple):
 at = offsets(Rows)
 """The number of the first row of each quantity."""
 ROWS = end(at)
-idle, load_rows, save_rows = layout(at)[1:4]
+idle, load_rows, save_rows, ask_rows = layout(at)[1:5]
 
 # Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
@@ -151,6 +157,25 @@ class Scratch(NamedTuple):
     """Two whole numbers: how many are there, and how many of them of blocks that are done."""
     bounds: Bounds
     """What no particle may pass."""
+    member: Any
+    """LANES whole numbers: which particle of the cloud's arrays is in each lane, −1 for none."""
+    mended: Any
+    """LANES whole numbers: how many walks of each the tree has mended."""
+    kept: Any
+    """As :class:`~foamprb.cloud.layout.Layout` has them, as ``fresh``."""
+    fresh: Any
+    shelf: Any
+    """What is in those rows of particles that are put aside, (:data:`SHELF`, n)."""
+    labels: Any
+    """Beside it whole numbers, (:data:`SHELF`, :data:`LABELS`)."""
+    counts: Any
+    """Whole numbers: how many are put aside, and what else is counted there."""
+    asked: Any
+    """A number without meaning: what was read in advance, which the compiler must believe to be of use."""
+
+
+SHELF, LABELS, COUNTS = 15 * LANES, 8, 5
+"""Places on a shelf, and whole numbers beside each; numbers that are counted."""
 
 
 def new_scratch(
@@ -158,6 +183,7 @@ def new_scratch(
     stop: Any = None,
     bounds: Bounds = Bounds(),  # noqa: B008
     room: int = 0,
+    kept: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
 ) -> Scratch:
     """Working memory for a block of that many rows.
 
@@ -167,13 +193,17 @@ def new_scratch(
         As in :class:`Scratch`.
     room
         How many rebounds it can take.
+    kept
+        The layout's ``kept`` and ``fresh``, if particles are to be put aside.
     """
-    a, b, c, d, e, f, g = np.empty((7, LANES), dtype=np.int64)
+    a, b, c, d, e, f, g, h, k = np.empty((9, LANES), dtype=np.int64)
     nothing = np.zeros((2, 1), dtype=np.int64)
     return Scratch(
         new_block(rows), a, b, c, d, e, f, np.empty((9, 10)),
         nothing[0] if stop is None else stop, g, nothing[1],
         np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
+        h, k, *kept, np.empty((SHELF, len(kept[0]))),
+        np.empty((SHELF, LABELS), dtype=np.int64), np.zeros(COUNTS, dtype=np.int64), np.empty(1),
     )  # fmt: skip
 
 
@@ -418,6 +448,11 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     s.block[at.most_stretch * LANES + i] = s.bounds.stretch * longest_stretch(load9(s.block, at.F0, i))
     s.block[at.most_length * LANES + i] = s.bounds.length
     s.block[at.length * LANES + i] = p.R[k] * longest_stretch(load9(s.block, at.F, i))
+
+
+def ask_for_particle(p: Particles, k: int) -> float:
+    """Read of particle k what :func:`load_particle` will: of many, the memory is so waited for at once."""
+    return float(p.status[k] + p.host[k] + p.number[k] + p.gamma[k] + ask_rows(p, k))
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:

@@ -7,11 +7,14 @@ the number at which each quantity begins (:func:`offsets`), so that a line of a 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import accumulate
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
-__all__ = ["IDENTITY", "LANES", "Layout", "Row", "end", "layout", "offsets", "rows_of"]
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["IDENTITY", "LANES", "Layout", "Row", "end", "keep", "layout", "offsets", "rows_of"]
 
 LANES = 16
 """Number of particles of a block, side by side: so few that its rows stay in the first level of the cache.
@@ -35,6 +38,9 @@ class Row(NamedTuple):
     """Array of :class:`~foamprb.cloud.state.Particles` from which it is loaded, if it is."""
     saved: bool | str = False
     """Whether it is saved to that array, or the scalar of the same block that must be positive for that."""
+    lasting: bool = False
+    """Whether it belongs to the particle from one step to the next, as all that is loaded does. What does not
+    is found anew in each step before it is used."""
 
 
 class Layout(NamedTuple):
@@ -48,8 +54,14 @@ class Layout(NamedTuple):
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
     """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
+    ask: Callable[[Any, int], float]
+    """``ask(p, k)`` reads of particle k what is to be loaded, for what is far off in memory to come."""
     parts: tuple[tuple[int, ...], ...]
     """:func:`offsets` of the declarations of which the block consists, in order."""
+    kept: NDArray[np.int64]
+    """Rows that belong to a particle from one step to the next, by their numbers, last those not loaded."""
+    fresh: NDArray[np.float64]
+    """Initial values of those that are not loaded."""
 
 
 Declared = TypeVar("Declared", bound=tuple[int, ...])
@@ -104,12 +116,32 @@ def layout(*parts: tuple[int, ...]) -> Layout:
                 raise ValueError(f"the row {name} is declared twice")
             rows[name] = first, row
     scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
-    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows)]), scope)
-    return Layout(end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"], parts)
+    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows), *_ask(rows)]), scope)
+    loaded = _numbers(placed for placed in rows.values() if placed[1].of)
+    lasting = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
+    found = Layout(
+        end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"], scope["ask_rows"], parts,
+        np.array(loaded, dtype=np.int64), np.empty(0),
+    )  # fmt: skip
+    return keep(found, lasting)
+
+
+def keep(own: Layout, rows: Sequence[int]) -> Layout:
+    """A layout of which these rows are kept as well, and empty when a particle comes."""
+    block = np.empty(own.rows * LANES)
+    own.idle(block)
+    numbers = np.array(rows, dtype=np.int64)
+    values = block[numbers * LANES]
+    return own._replace(kept=np.concatenate([own.kept, numbers]), fresh=np.concatenate([own.fresh, values]))
 
 
 Placed = dict[str, tuple[int, Row]]
 """By name, the number where each quantity begins, and its row."""
+
+
+def _numbers(placed: Iterable[tuple[int, Row]]) -> list[int]:
+    """The numbers of all rows of these quantities."""
+    return [first + c for first, row in placed for c in range(row.components)]
 
 
 def _idle(rows: Placed) -> Iterator[str]:
@@ -141,6 +173,17 @@ def _save(rows: Placed) -> Iterator[str]:
         chosen = (placed for placed in rows.values() if placed[1].saved == saved)
         margin = "    " if isinstance(saved, str) else ""
         yield from (margin + line for line in _copies(chosen, "{array} = {lane}"))
+
+
+def _ask(rows: Placed) -> Iterator[str]:
+    # The first and the last component: there are no lines of memory between those of nine numbers.
+    loaded = {row.of: row.components for _, row in rows.values() if row.of}
+    yield "def ask_rows(p, k):"
+    yield "    total = 0.0"
+    for array, components in loaded.items():
+        ends = ["k"] if components == 1 else ["k, 0", f"k, {components - 1}"]
+        yield from (f"    total += p.{array}[{place}]" for place in ends)
+    yield "    return total"
 
 
 def _copies(placed: Iterable[tuple[int, Row]], copy: str) -> Iterator[str]:

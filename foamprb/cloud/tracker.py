@@ -23,7 +23,7 @@ from foamprb.body.rosenbrock import (
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
-from foamprb.cloud.block import Medium, new_scratch
+from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -149,6 +149,7 @@ class Tracker:
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
         bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
+        bindings["ask_rows"] = layout.ask
         bindings |= integrator.bindings
         bindings |= compose(models.forces)
         bindings |= surroundings.compose(integrator.layout, models.surroundings, integrator.inertia)
@@ -156,6 +157,7 @@ class Tracker:
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
             *(stage for model in models.surroundings for stage in type(model).stages()),
+            *integrator.rare,
             *RARE,
             *LONG,
         )
@@ -190,9 +192,9 @@ class Tracker:
     def compile(self, flow: Any) -> None:
         """Compile the loop in this thread, with what the flow's kernels read."""
         nothing = np.empty(0, dtype=np.int64)
-        scratch = new_scratch(self.layout.rows)
+        scratch = self._scratch()
         self._track(
-            flow, self.table, self.medium, empty(0), nothing, 0, 1, 0, 0, self.dt, self.start, scratch,
+            flow, self.table, self.medium, empty(0), nothing, 0, 0, self.dt, self.start, scratch,
             self.options,
         )  # fmt: skip
 
@@ -201,9 +203,10 @@ class Tracker:
         self._compile(reach_end, {"flow": flow})
 
     def compile_contact(self, flow: Any) -> None:
-        """Compile what takes particles to walls and through coupled patches, likewise."""
+        """Compile what takes particles to walls, through coupled patches and into lanes, likewise."""
         self._compile(clearance_of, {"flow": flow})
-        self._compile(beyond, {"flow": flow})
+        for part in (beyond, *self.integrator.rare):
+            self._compile(part, {"flow": flow})
 
     def compile_stages(self) -> None:
         """Compile the stages."""
@@ -212,14 +215,19 @@ class Tracker:
 
     def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> None:
         """Compile a part of the loop, with examples of those arguments that not every part has."""
-        scratch, vector = new_scratch(self.layout.rows), (0.0, 0.0, 0.0)
+        scratch, vector = self._scratch(), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix}
-        arguments |= dict.fromkeys(("i", "code", "triangle", "ahead"), np.int64(0))
+        arguments |= {"p": empty(0), "members": np.empty(0, dtype=np.int64)}
+        arguments |= dict.fromkeys(("i", "code", "triangle", "ahead", "step", "last", "kind"), np.int64(0))
         arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
-        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt"), 0.0)
+        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt", "start"), 0.0)
         arguments |= {"held": False}
         compile_part(function, arguments, self.bindings, self.separate)
+
+    def _scratch(self, stop: Any = None, bounds: Bounds = Bounds()) -> Scratch:  # noqa: B008
+        kept = self.layout.kept, self.layout.fresh
+        return new_scratch(self.layout.rows, stop, bounds, self._room, kept)
 
     def advance(
         self,
@@ -272,7 +280,7 @@ class Tracker:
         halt = np.zeros(1, dtype=np.int64)
 
         def work(share: Share) -> Outcome:
-            scratch = new_scratch(self.layout.rows, halt, bounds, self._room)
+            scratch = self._scratch(halt, bounds)
             mended: int = self._track(
                 flow, self.table, self.medium, p, *share, self.dt, self.start, scratch, self.options
             )
@@ -308,8 +316,6 @@ class Share(NamedTuple):
     """Particles that a thread carries, as :func:`foamprb.cloud.advance.track_share` wants them."""
 
     rows: NDArray[np.int64]
-    first: int
-    stride: int
     step: int
     steps: int
 
@@ -340,7 +346,8 @@ def shares_of(
     blocks = -(-len(active) // LANES)
     strides = max(1, min(number, blocks))
     active = in_blocks(p, active)
-    found = [Share(active, first, strides, step, count) for first in range(strides) if blocks]
+    turn = np.arange(len(active)) // LANES % strides
+    found = [Share(active[turn == k], step, count) for k in range(strides) if blocks]
 
     # One step early, as the loop has these times to other last bits.
     due = np.maximum(np.floor((p.t0[waiting] - start) / dt) - 1.0, step)
@@ -352,17 +359,17 @@ def shares_of(
     for begin in range(0, len(waiting), max(most, 1)):
         group = order[begin : begin + most]
         first = int(due[group[0]])
-        found.append(Share(in_blocks(p, waiting[group]), 0, 1, first, step + count - first))
+        found.append(Share(in_blocks(p, waiting[group]), first, step + count - first))
     return found
 
 
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """The order in which particles are put into blocks, of those in some rows.
 
-    A block goes on until its last particle is done, and does for all of them what one needs: those that took
-    as many steps to the power of two before share one; among them those whose steps go to order 3, now or
-    when it is found out again whether they must; among these the elongated, whose integrals want more work.
-    Of these do neighbours in the mesh, so that the nodes they read are in the cache.
+    A block does for all of them what one needs: those that took as many steps to the power of two before
+    share one, first those that took most, so that none is left alone at the end; among them those whose steps
+    go to order 3, now or when it is found out again whether they must; among these the elongated, whose
+    integrals want more work. Of these do neighbours in the mesh: the nodes they read are then in the cache.
     """
     effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
     # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
@@ -371,7 +378,7 @@ def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     elongated = np.einsum("ni,ni->n", F, F) > COMPACT + 1.0 + 1.0 / COMPACT
     elongated = elongated[rows] if many else elongated
     kind = 4 * p.demanding[rows] + 2 * (p.discount[rows] > 0.0) + elongated
-    key = (effort.astype(np.int64) << 35) + (kind.astype(np.int64) << 32) + p.host[rows]
+    key = (-effort.astype(np.int64) << 35) + (kind.astype(np.int64) << 32) + p.host[rows]
     # Which of equals comes first does not matter, and a stable order costs four times as much.
     return rows[np.argsort(key)]
 

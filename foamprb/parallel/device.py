@@ -17,7 +17,7 @@ import numpy as np
 from numba import cuda
 from numpy.typing import NDArray
 
-from foamprb.cloud.block import ROWS, Medium, Scratch
+from foamprb.cloud.block import COUNTS, LABELS, ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Executor
 from foamprb.cloud.integrators.paper import track_block as track
@@ -94,7 +94,17 @@ def track_each(
             cuda.local.array((1, 1), np.float64),
             cuda.local.array(2, np.int64),
             bounds,
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.int64),
+            # The one particle of a thread is never put aside, and no other takes its place.
+            cuda.local.array(1, np.int64),
+            cuda.local.array(1, np.float64),
+            cuda.local.array((1, 1), np.float64),
+            cuda.local.array((1, LABELS), np.int64),
+            cuda.local.array(COUNTS, np.int64),
+            cuda.local.array(1, np.float64),
         )
+        scratch.kept[0], scratch.fresh[0] = 0, 0.0
         scratch.noted[0] = scratch.noted[1] = 0
         scratch.stop[0] = scratch.outgrown[0] = 0
         # Not a slice of rows: that this has one element the compiler must see.

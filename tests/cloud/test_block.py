@@ -83,13 +83,13 @@ def test_pending_particles_cost_nothing_before_they_appear(threads):
     pending = p.status == Status.PENDING
     shares = shares_of(p, rows, (step, steps), (dt, start), threads)
     assert all(share.step + share.steps == step + steps for share in shares)
-    carried = np.concatenate([share.rows for share in shares if share.first == 0])
+    carried = np.concatenate([share.rows for share in shares])
     assert len(np.unique(carried)) == len(carried)
     assert np.isin(carried, rows).all()
     appears = np.where(pending, (p.t0 - start) / dt, -np.inf)
     assert np.isin(rows[appears[rows] < step + steps], carried).all()
     assert appears[carried].max() < step + steps + 2
-    begun = np.concatenate([s.step - np.maximum(appears[s.rows], step) for s in shares if s.first == 0])
+    begun = np.concatenate([s.step - np.maximum(appears[s.rows], step) for s in shares])
     assert begun.max() <= 0.0
-    waited = np.concatenate([appears[s.rows] - s.step for s in shares if s.first == 0])
+    waited = np.concatenate([appears[s.rows] - s.step for s in shares])
     assert waited.max() < 3.0 + 2.0 * steps / 64

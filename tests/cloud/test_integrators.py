@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches
 from scipy.integrate import solve_ivp
 from strategies import flat, square
 
@@ -30,9 +29,6 @@ from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
-from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.reconstruct import Reconstruction
 
 ADAPTIVE = ("rosenbrock", "stokes")
 MU_F = 1e-3
@@ -395,18 +391,6 @@ def test_what_a_body_has_learned_holds_until_the_next_eighth_step(integrator):
     assert (cloud.particles.discount == 0.5).all()
     cloud.advance(1)
     assert (cloud.particles.discount == 0.0).all()
-
-
-@pytest.fixture(scope="module")
-def coarse_vortex():
-    """A vortex in a cube of 6³ crooked cells, of which u and ∇u are reconstructed each for itself."""
-    mesh = build_mesh(shape := block(6), box_patches(shape))
-
-    def u(x):
-        p, q = np.pi * x[:, 0], np.pi * x[:, 1]
-        return np.stack([np.sin(p) * np.cos(q), -np.cos(p) * np.sin(q), 0.0 * p], axis=1)
-
-    return MeshFlow(mesh, *Reconstruction(mesh)(u(mesh.centres), u(mesh.boundary_centres)))
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)

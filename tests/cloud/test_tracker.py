@@ -41,7 +41,7 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     assert list(found) == ["reach_end"]
     tracker.compile_contact(MeshFlow.nothing())
     tracker.compile_stages()
-    assert len(found) == 3 + len(tracker.integrator.stages)
+    assert len(found) == 3 + len(tracker.integrator.stages) + len(tracker.integrator.rare)
     expected = dict.fromkeys(("i", "code", "triangle"), numba.int64)
     expected |= dict.fromkeys(("goal", "x0", "x1"), numba.types.UniTuple(numba.float64, 3))
     expected |= dict.fromkeys(("t_end", "h", "tolerance", "allowed"), numba.float64)

@@ -187,8 +187,9 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
 
 
 def share_of_use(flow: Any, n: int, Ca: float, steps: int = 20) -> float:
-    """Share of the lanes' steps of a default run that carry a particle, the others waiting for one.
+    """Share of the lanes' steps of a default run that carry a particle, at least.
 
+    It is that of lanes that would wait for the slowest of their block, and not take another particle.
     Particles of Ca at the wall are up to the wall, and blocks are filled anew after ``steps`` tracking steps.
     """
     cloud = pipe.soft_cloud(flow, n, OPENFOAM_STEP, "auto", Ca=Ca, reach=REACH, tolerance=Models().tolerance)

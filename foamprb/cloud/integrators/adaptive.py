@@ -15,6 +15,7 @@ are bound to the stages of the integrator when the loop is compiled, ``sample`` 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -42,21 +43,33 @@ from foamprb.cloud.block import (
     idle_lanes,
     load3,
     load9,
-    load_particle,
     new_frames,
     new_integrals,
-    save_particle,
     store3,
     store9,
     store_fluid,
 )
+from foamprb.cloud.lanes import (
+    ENDED,
+    READY,
+    WAITING,
+    empty_lanes,
+    fill_lanes,
+    forget_unfinished,
+    give_way,
+    has_steps,
+    leave,
+    others,
+    put_aside,
+    renews_end,
+    take_back,
+    walks_mended,
+)
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
-    PENDING,
     SHORTEST_STEP,
     PatchTable,
-    clearance_of,
     end_block,
     end_tracking_step,
     fail_small_step,
@@ -64,7 +77,6 @@ from foamprb.cloud.motion import (
     is_sound,
     overspent,
     reach_end,
-    release,
 )
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.total import look_around, surround
@@ -107,6 +119,8 @@ STEP_ROWS = end(during)
 
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
+_MANY = 6
+"""So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first."""
 
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
@@ -225,8 +239,6 @@ def no_choice(block: Any, medium: Medium, tolerance: float) -> None:
     """The same for a slope that judges by the tolerance."""
 
 
-renews_end = 0
-"""Whether an integrator's ``end_slope`` finds what its last step has left to be found; bound with it."""
 predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
@@ -254,7 +266,7 @@ def path_pace(block: Any, i: int, tolerance: float) -> None:
 
 
 ADAPTIVE_STAGES = (*BLOCK_STAGES, begin_stage)
-ADAPTIVE_BINDINGS = {"note_pace": path_pace}
+ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {"note_pace": path_pace, "AT_ONCE": 2**40}
 """What every integrator of this loop has beside its own stages."""
 
 
@@ -328,11 +340,12 @@ def track_adaptive(
     scratch: Scratch,
     tolerance: float,
 ) -> int:
-    """Carry up to LANES particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
+    """Carry particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
 
     Parameters
     ----------
-    As :func:`foamprb.cloud.integrators.paper.track_block`, with a block of the integrator's rows, and
+    As :func:`foamprb.cloud.integrators.paper.track_block`, with any number of members, a block of the
+    integrator's rows, and
     tolerance
         Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, cut
         only by :func:`foamprb.body.error_control.longest_step`.
@@ -341,31 +354,33 @@ def track_adaptive(
     -------
     The number of walks that failed and were mended by the tree.
     """
-    recovered = 0
     last = step + steps
     enough = tolerance if tolerance < math.inf else 0.0
-    block, status, current = scratch.block, scratch.status, scratch.step
+    block, current = scratch.block, scratch.step
     idle_lanes(block, dt)
-    for i in range(LANES):
-        current[i] = step
-    for i in range(len(members)):
-        load_particle(p, members[i], scratch, i)
-        if status[i] == ACTIVE:
-            block[at.clearance * LANES + i], _, _ = clearance_of(flow, scratch, i)
+    empty_lanes(scratch)
 
     while True:
+        if scratch.counts[WAITING] >= LANES:
+            give_way(scratch, WAITING)
         moving = 0
-        for i in range(len(members)):
+        for i in range(LANES):
+            moving += has_steps(scratch, i, last)
+        if moving < LANES:
+            moving = fill_lanes(flow, patches, p, members, scratch, step, last, dt, start)
+        if interrupted(scratch):
+            forget_unfinished(scratch)
+            break
+        if renews_end and (moving == 0 or scratch.counts[ENDED] >= LANES) and any_ended(scratch):
+            renew_ends(flow, medium, p, scratch, last)
+            continue
+        if moving == 0:
+            break
+
+        for i in range(LANES):
             block[at.moving * LANES + i] = 0.0
-            while status[i] == PENDING and current[i] < last:
-                if block[at.t0 * LANES + i] < start + (current[i] + 1) * dt - SHORTEST_STEP * dt:
-                    release(flow, patches, scratch, i)
-                    block[at.h * LANES + i] = dt
-                else:
-                    current[i] += 1
-            if status[i] != ACTIVE or current[i] >= last:
+            if not has_steps(scratch, i, last):
                 continue
-            moving += 1
             block[at.moving * LANES + i] = 1.0
             t = block[at.t * LANES + i]
             u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t)
@@ -373,38 +388,30 @@ def track_adaptive(
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
             block[during.rest * LANES + i] = start + (current[i] + 1) * dt - t
-            # All at the same time: a third evaluation costs a block as much for one lane as for all.
             if current[i] % LEARNED_FOR == 0:
                 block[during.discount * LANES + i] = 0.0
-        if interrupted(scratch):
-            return 0
-        if moving == 0:
-            break
-
         begin_stage(block, dt)
-        for i in range(len(members)):
+        for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 look_around(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
-        for i in range(len(members)):
+        for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 _sample_end(flow, scratch, i)
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
-        thirds = 0
-        for i in range(len(members)):
-            if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
-                thirds += 1
-                _sample_middle(flow, scratch.host[i], block, i)
-        if thirds:
+        if thirds_of(scratch, len(members)):
+            for i in range(LANES):
+                if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+                    _sample_middle(flow, scratch.host[i], block, i)
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
         accept_stage(block, tolerance)
 
-        for i in range(len(members)):
+        for i in range(LANES):
             if not block[at.moving * LANES + i] > 0.0:
                 continue
             if overspent(scratch, i):
@@ -431,29 +438,74 @@ def track_adaptive(
             block[at.h * LANES + i] = min(dt, allowed)
             goal = load3(block, at.new_x, i)
             held = holds_end(block, i, goal)
-            recovered += reach_end(flow, patches, scratch, i, goal, scratch.ahead[i], held, t_new, h)
+            ahead = scratch.ahead[i]
+            scratch.mended[i] += reach_end(flow, patches, scratch, i, goal, ahead, held, t_new, h)
             if whole:
                 end_tracking_step(scratch, i)
-    if renews_end:
-        renew_end(flow, medium, scratch, len(members), last)
-    for i in range(len(members)):
-        save_particle(p, members[i], scratch, i)
     end_block(scratch)
-    return recovered
+    return walks_mended(scratch)
 
 
-def renew_end(flow: Any, medium: Medium, scratch: Scratch, n: int, last: int) -> None:
-    """Find what ``end_slope`` does of the first n lanes, at the end of tracking step ``last``."""
-    block = scratch.block
-    for i in range(n):
+def thirds_of(s: Scratch, n: int) -> int:
+    """How many lanes go to order 3 now: none where so few want to that others of n particles go on first.
+
+    A third evaluation costs a block as much for one lane as for all.
+    """
+    block, wanted = s.block, 0
+    for i in range(LANES):
+        if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+            wanted += 1
+    if wanted >= _MANY or wanted == 0 or not others(s, n):
+        return wanted
+    put_off(s)
+    return 0
+
+
+def put_off(s: Scratch) -> None:
+    """Let the lanes that want to go to order 3 wait without a step, and others take their places."""
+    block = s.block
+    for i in range(LANES):
+        if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+            block[at.moving * LANES + i] = 0.0
+            put_aside(s, i, WAITING)
+            if s.counts[READY] > 0:
+                take_back(s, i, READY)
+
+
+def any_ended(s: Scratch) -> bool:
+    """Whether particles are left of which the end is to be renewed, where no lane moves."""
+    for i in range(LANES):
+        if s.member[i] >= 0:
+            return True
+    return bool(s.counts[ENDED] > 0)
+
+
+def renew_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
+    """Find what ``end_slope`` does of particles that have done their steps, and save them.
+
+    ``last`` is the tracking step after the last.
+    """
+    block = s.block
+    for i in range(LANES):
         block[at.moving * LANES + i] = 0.0
-        if scratch.status[i] == ACTIVE:
+        if s.member[i] >= 0 and not (s.status[i] == ACTIVE and s.step[i] >= last):
+            put_aside(s, i, READY)
+        if s.member[i] < 0 and s.counts[ENDED] > 0:
+            take_back(s, i, ENDED)
+        if s.member[i] >= 0:
             block[at.moving * LANES + i] = 1.0
             store9(block, at.new_F, i, load9(block, at.F, i))
             x, t = load3(block, at.x, i), block[at.t * LANES + i]
-            u, l_f, u_t = sample(flow, scratch.host[i], x, t)
+            u, l_f, u_t = sample(flow, s.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
-            look_around(flow, scratch, i, last - 1, 0.0, medium)
+            look_around(flow, s, i, last - 1, 0.0, medium)
     evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
+    for i in range(LANES):
+        if s.member[i] >= 0 and not interrupted(s):
+            leave(p, s, i)
+
+
+RARE = (fill_lanes, put_off, give_way, renew_ends)
+"""What few steps need: compiled on its own, it does not swell the loop."""

@@ -30,6 +30,8 @@ class Integrator(NamedTuple):
     """The parts of the loop that do not depend on the flow: each is compiled once for all flows."""
     layout: Layout
     """Of its block."""
+    rare: tuple[Callable[..., Any], ...] = ()
+    """Parts of the loop that depend on the flow and that few steps need, compiled on their own."""
     bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})
     """Functions and constants of its own, by the names by which the loop calls them."""
     adaptive: bool = False

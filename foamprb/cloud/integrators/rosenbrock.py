@@ -75,6 +75,7 @@ from foamprb.cloud.forces.total import acceleration
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
+    RARE,
     STEP_ROWS,
     acceleration_at_end,
     choose_order,
@@ -544,6 +545,7 @@ ROSENBROCK = Integrator(
         third_inertial,
     ),
     layout=layout(at, during, own),
+    rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,
         "predict": predict_inertial,

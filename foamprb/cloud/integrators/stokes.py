@@ -42,6 +42,7 @@ from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
+    RARE,
     STEP_ROWS,
     choose_order,
     counted,
@@ -357,6 +358,7 @@ STOKES = Integrator(
         end_inertialess,
     ),
     layout=layout(at, during, own),
+    rare=RARE,
     bindings={
         **ADAPTIVE_BINDINGS,
         "predict": predict_inertialess,

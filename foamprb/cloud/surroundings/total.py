@@ -11,7 +11,7 @@ from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.forces.total import bound
-from foamprb.cloud.layout import Layout, end, layout, offsets
+from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.flow.base import Patch
 
@@ -54,10 +54,11 @@ def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: A
 
 
 def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
-    """The layout of an integrator's block with the rows of these models behind its own."""
+    """The layout of an integrator's block with the rows of these models behind its own, all of them kept."""
     if not surroundings:
         return own
-    return layout(*own.parts, *_places(own, surroundings).values())
+    found = layout(*own.parts, *_places(own, surroundings).values())
+    return keep(found, [row for row in range(own.rows, found.rows) if row not in found.kept])
 
 
 def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:

@@ -1,0 +1,176 @@
+"""Which particle is in which lane: what it goes through is its own."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from foamprb.cloud.block import ROWS, Medium, new_scratch
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators import adaptive
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.lanes import (
+    ENDED,
+    READY,
+    WAITING,
+    empty_lanes,
+    forget_unfinished,
+    give_way,
+    put_aside,
+    take_back,
+)
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.patches import Rebound
+from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.cloud.tracker import Models
+
+ADAPTIVE = ("rosenbrock", "stokes")
+N = 150
+AROUND = WallLift(strain=False), BrownianMotion(T=1e13, shape=False)
+LABELS = ("member", "status", "reason", "patch", "host", "step", "number", "mended")
+
+
+def in_vortex(flow, integrator, rows=slice(None), models=()):
+    """Bodies of all softness in a vortex, some of which come later; they sink, and bounce off its walls."""
+    random = np.random.default_rng(7)
+    x, t0 = 0.05 + 0.9 * random.random((N, 3)), random.choice([0.0, 0.05, 0.13], N)
+    mu = 0.011 * np.pi / 10.0 ** random.uniform(-2.0, -0.4, N)
+    p = spheres(x, d=0.02, rho=30.0, mu=mu, t0=t0)
+    p.v[:], _ = flow.sample(x, flow.locate(x), 0.0)
+    chosen = Models(integrator=integrator, surroundings=models, rebounds=True)
+    medium = Medium(0.011, 1.0, (0.0, -9.81, 0.0))
+    walls = [Rebound() for _ in flow.patches]
+    cloud = Cloud(p, flow, medium, walls, 0.02, chosen, threads=1)
+    cloud.particles = p.take(np.arange(N)[rows])
+    return cloud
+
+
+def assert_same(a, b, rows=slice(None)):
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x[rows], y, err_msg=name)
+
+
+def scratch():
+    """With numbers of no meaning in all lanes, each of them another."""
+    kept = INTEGRATORS["rosenbrock"].layout
+    s = new_scratch(kept.rows, room=20, kept=(kept.kept, kept.fresh))
+    s.block[:] = np.arange(len(s.block))
+    empty_lanes(s)
+    for n, name in enumerate(LABELS):
+        getattr(s, name)[:] = 100 * n + np.arange(LANES)
+    return s
+
+
+@pytest.mark.parametrize("models", [(), AROUND], ids=["alone", "surroundings"])
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_a_particle_goes_the_same_way_whoever_is_in_the_other_lanes(
+    coarse_vortex, integrator, models, monkeypatch
+):
+    """Whether many wait for others, none does, or there are no others; and rebounds are noted alike."""
+    found = []
+    for many in (1, adaptive._MANY, LANES + 1):
+        monkeypatch.setattr(adaptive, "_MANY", many)
+        cloud = in_vortex(coarse_vortex, integrator, models=models)
+        cloud.advance(20)
+        found.append((cloud.particles, cloud.take_rebounds()))
+    p, rebounds = found[0]
+    for other, noted in found[1:]:
+        assert_same(p, other)
+        np.testing.assert_array_equal(rebounds, noted)
+    for k in range(0, N, 10):
+        alone = in_vortex(coarse_vortex, integrator, slice(k, k + 1), models)
+        alone.advance(20)
+        assert_same(p, alone.particles, slice(k, k + 1))
+    # Else this would say little.
+    assert len(rebounds) > 5
+    assert 0.05 < p.demanding[p.status == Status.ACTIVE].mean() < 0.95
+    assert p.substeps.max() > 2.0 * p.substeps.min()
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_a_call_that_is_stopped_leaves_each_particle_at_its_begin_or_end(coarse_vortex, integrator):
+    """And the same steps, taken again by those, take all to the state of a run that was not stopped."""
+    whole = in_vortex(coarse_vortex, integrator)
+    begun = Particles(*(array.copy() for array in whole.particles))
+    whole.advance(20)
+    cloud = in_vortex(coarse_vortex, integrator)
+    # Each time as many rebounds more before there is no room for another.
+    cloud.tracker._room = 1
+    seen = []
+
+    def watch():
+        seen.append(Particles(*(array.copy() for array in cloud.particles)))
+        return False
+
+    cloud.carry(20, watch)
+    while cloud.step < 20:
+        seen.append(Particles(*(array.copy() for array in cloud.particles)))
+        cloud.carry(20 - cloud.step, watch)
+    assert_same(whole.particles, cloud.particles)
+    np.testing.assert_array_equal(whole.take_rebounds(), cloud.take_rebounds())
+    for p in seen:
+        for k in range(N):
+            assert any(
+                np.array_equal(p.F[k], q.F[k]) and np.array_equal(p.x[k], q.x[k])
+                for q in (begun, whole.particles)
+            )
+
+
+def test_what_is_put_aside_comes_back_in_any_lane():
+    s = scratch()
+    before = s.block.reshape(-1, LANES).copy()
+    labels = {name: getattr(s, name).copy() for name in LABELS}
+    for lane, kind in ((3, READY), (0, WAITING), (5, WAITING), (7, ENDED)):
+        put_aside(s, lane, kind)
+        assert s.member[lane] == -1
+    s.block[:] = np.nan
+    after = s.block.reshape(-1, LANES)
+    for lane, kind, was in ((9, WAITING, 5), (3, READY, 3), (2, ENDED, 7), (1, WAITING, 0)):
+        take_back(s, lane, kind)
+        np.testing.assert_array_equal(after[s.kept, lane], before[s.kept, was])
+        for name in LABELS:
+            assert getattr(s, name)[lane] == labels[name][was]
+    assert not s.counts[:3].any()
+
+
+def test_all_lanes_give_way_to_those_that_wait():
+    s = scratch()
+    for lane in range(LANES):
+        put_aside(s, lane, WAITING)
+        s.member[lane] = 1000 + lane if lane % 2 else -1
+    give_way(s, WAITING)
+    assert sorted(s.member) == list(range(LANES))
+    assert s.counts[READY] == LANES // 2
+    assert s.counts[WAITING] == 0
+
+
+def test_rebounds_of_the_unfinished_do_not_count():
+    s = scratch()
+    s.member[:] = -1
+    s.member[2], s.number[2] = 0, 11
+    for lane, kind, number in ((4, READY, 12), (5, WAITING, 13), (6, ENDED, 14)):
+        s.number[lane] = number
+        put_aside(s, lane, kind)
+    numbers = [10, 11, 12, 20, 13, 14, 21, 11]
+    s.rebounds[: len(numbers), 0] = numbers
+    s.rebounds[: len(numbers), 1:] = np.arange(len(numbers))[:, None]
+    # Of the first two it was known before.
+    s.noted[0], s.noted[1] = len(numbers), 2
+    forget_unfinished(s)
+    assert list(s.noted) == [4, 4]
+    np.testing.assert_array_equal(s.rebounds[:4, 0], [10, 11, 20, 21])
+    np.testing.assert_array_equal(s.rebounds[:4, 20], [0, 1, 3, 6])
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_what_loading_leaves_alone_is_empty_in_a_lane_that_is_used_again(integrator):
+    own = INTEGRATORS[integrator].layout
+    block = np.full(own.rows * LANES, np.nan)
+    own.idle(block)
+    left = own.kept[len(own.kept) - len(own.fresh) :]
+    assert len(left) > 0
+    np.testing.assert_array_equal(block.reshape(-1, LANES)[left], np.tile(own.fresh, (LANES, 1)).T)
+    assert len(set(own.kept)) == len(own.kept)
+    assert max(own.kept) >= ROWS
