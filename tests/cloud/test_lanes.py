@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foamprb.cloud.block import ROWS, Medium, new_scratch
+from foamprb.cloud.block import ROWS, SHELF, Medium, new_scratch
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators import adaptive
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -21,13 +21,13 @@ from foamprb.cloud.lanes import (
 )
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Rebound
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Particles, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 
 ADAPTIVE = ("rosenbrock", "stokes")
-N = 150
+N = 240
 AROUND = WallLift(strain=False), BrownianMotion(T=1e13, shape=False)
 LABELS = ("member", "status", "reason", "patch", "host", "step", "number", "mended")
 
@@ -45,6 +45,12 @@ def in_vortex(flow, integrator, rows=slice(None), models=()):
     cloud = Cloud(p, flow, medium, walls, 0.02, chosen, threads=1)
     cloud.particles = p.take(np.arange(N)[rows])
     return cloud
+
+
+def go(cloud):
+    """Through 20 steps. Those that move share blocks from the second call on."""
+    cloud.advance(4)
+    cloud.advance(16)
 
 
 def assert_same(a, b, rows=slice(None)):
@@ -69,24 +75,35 @@ def test_a_particle_goes_the_same_way_whoever_is_in_the_other_lanes(
     coarse_vortex, integrator, models, monkeypatch
 ):
     """Whether many wait for others, none does, or there are no others; and rebounds are noted alike."""
-    found = []
-    for many in (1, adaptive._MANY, LANES + 1):
+    found, waited = [], []
+
+    def new_scratch_to_see(*args):
+        made = new_scratch(*args)
+        made.labels[:] = -1
+        seen.append(made.labels)
+        return made
+
+    monkeypatch.setattr("foamprb.cloud.tracker.new_scratch", new_scratch_to_see)
+    for many in (1, adaptive._MANY, LANES):
         monkeypatch.setattr(adaptive, "_MANY", many)
-        cloud = in_vortex(coarse_vortex, integrator, models=models)
-        cloud.advance(20)
+        cloud, seen = in_vortex(coarse_vortex, integrator, models=models), []
+        go(cloud)
         found.append((cloud.particles, cloud.take_rebounds()))
+        places = SHELF // 3
+        waited.append(max((labels[places : 2 * places, 0] >= 0).sum() for labels in seen))
     p, rebounds = found[0]
     for other, noted in found[1:]:
         assert_same(p, other)
         np.testing.assert_array_equal(rebounds, noted)
-    for k in range(0, N, 10):
+    for k in range(0, N, 12):
         alone = in_vortex(coarse_vortex, integrator, slice(k, k + 1), models)
-        alone.advance(20)
+        go(alone)
         assert_same(p, alone.particles, slice(k, k + 1))
     # Else this would say little.
     assert len(rebounds) > 5
-    assert 0.05 < p.demanding[p.status == Status.ACTIVE].mean() < 0.95
     assert p.substeps.max() > 2.0 * p.substeps.min()
+    assert waited[0] == 0
+    assert min(waited[1:]) >= LANES
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)

@@ -120,7 +120,8 @@ STEP_ROWS = end(during)
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
 _MANY = 6
-"""So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first."""
+"""So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first. More than
+there are lanes would wait for ever."""
 
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
