@@ -24,8 +24,8 @@ from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.state import Particles
 
-AT_ONCE = LANES
-"""So many particles an integrator's loop takes; bound with it."""
+MOST_MEMBERS = LANES
+"""As many particles an integrator's loop takes at once; bound with it."""
 
 
 def track_share(
@@ -53,7 +53,7 @@ def track_share(
     The number of walks that failed and were mended by the tree.
     """
     recovered = 0
-    for begin in range(0, len(rows), AT_ONCE):
-        members = rows[begin : begin + AT_ONCE]
+    for begin in range(0, len(rows), MOST_MEMBERS):
+        members = rows[begin : begin + MOST_MEMBERS]
         recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
     return recovered

@@ -162,16 +162,17 @@ class Scratch(NamedTuple):
     mended: Any
     """LANES whole numbers: how many walks of each the tree has mended."""
     kept: Any
-    """As :class:`~foamprb.cloud.layout.Layout` has them, as ``fresh``."""
+    """Numbers of rows, as of :class:`~foamprb.cloud.layout.Layout`."""
     fresh: Any
+    """Values, likewise."""
     shelf: Any
-    """What is in those rows of particles that are put aside, (:data:`SHELF`, n)."""
+    """What is in the n rows ``kept`` of particles that are put aside, (:data:`SHELF`, n)."""
     labels: Any
     """Beside it whole numbers, (:data:`SHELF`, :data:`LABELS`)."""
     counts: Any
     """Whole numbers: how many are put aside, and what else is counted there."""
     asked: Any
-    """A number without meaning: what was read in advance, which the compiler must believe to be of use."""
+    """One number without meaning: what was read in advance, which the compiler must believe to be of use."""
 
 
 SHELF, LABELS, COUNTS = 15 * LANES, 8, 5

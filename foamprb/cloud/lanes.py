@@ -126,7 +126,7 @@ def fill_lanes(
 
     Parameters
     ----------
-    As of :func:`track_adaptive`, and
+    As of :func:`foamprb.cloud.integrators.adaptive.track_adaptive`, and
     last
         The tracking step after the last.
 
@@ -176,8 +176,6 @@ def finish(p: Particles, s: Scratch, i: int, n: int) -> None:
 
     It stays if its end is to be renewed, and none of n particles could take its place.
     """
-    if interrupted(s):
-        return
     if not renews_end or s.status[i] != ACTIVE:
         leave(p, s, i)
     elif s.counts[ENDED] < LANES and (others(s, n) or s.counts[WAITING] > 0):

@@ -55,7 +55,8 @@ class Layout(NamedTuple):
     save: Callable[[Any, int, Any, int], None]
     """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
     ask: Callable[[Any, int], float]
-    """``ask(p, k)`` reads of particle k what is to be loaded, for what is far off in memory to come."""
+    """``ask(p, k)`` reads of particle k what ``load`` will, so that it comes from memory, and returns a sum
+    that means nothing."""
     parts: tuple[tuple[int, ...], ...]
     """:func:`offsets` of the declarations of which the block consists, in order."""
     kept: NDArray[np.int64]
@@ -127,7 +128,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
 
 
 def keep(own: Layout, rows: Sequence[int]) -> Layout:
-    """A layout of which these rows are kept as well, and empty when a particle comes."""
+    """A layout of which these rows, which are not loaded, are kept as well."""
     block = np.empty(own.rows * LANES)
     own.idle(block)
     numbers = np.array(rows, dtype=np.int64)

@@ -42,9 +42,9 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     tracker.compile_contact(MeshFlow.nothing())
     tracker.compile_stages()
     assert len(found) == 3 + len(tracker.integrator.stages) + len(tracker.integrator.rare)
-    expected = dict.fromkeys(("i", "code", "triangle"), numba.int64)
+    expected = dict.fromkeys(("i", "code", "triangle", "step", "last", "kind"), numba.int64)
     expected |= dict.fromkeys(("goal", "x0", "x1"), numba.types.UniTuple(numba.float64, 3))
-    expected |= dict.fromkeys(("t_end", "h", "tolerance", "allowed"), numba.float64)
+    expected |= dict.fromkeys(("t_end", "h", "dt", "start", "tolerance", "allowed"), numba.float64)
     expected |= {"held": numba.boolean}
     for types in found.values():
         for name in types.keys() & expected:

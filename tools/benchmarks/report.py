@@ -198,7 +198,7 @@ def _profile(results: Results) -> str:
     shares = [r for r in results.part("profile") if r.quantity == USEFUL]
     if shares:
         lines = [(r.subject, f"{100 * r.value:.0f} %") for r in shares]
-        texts.append(table(("a default run", "lane-steps of use"), lines))
+        texts.append(table(("a default run", "lane-steps of use, at least"), lines))
     gaps = [r for r in results.part("profile") if r.quantity == GAP]
     if gaps:
         lines = [(r.subject, number(KILO * r.value)) for r in gaps]

@@ -267,7 +267,7 @@ def path_pace(block: Any, i: int, tolerance: float) -> None:
 
 
 ADAPTIVE_STAGES = (*BLOCK_STAGES, begin_stage)
-ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {"note_pace": path_pace, "AT_ONCE": 2**40}
+ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {"note_pace": path_pace, "MOST_MEMBERS": 2**40}
 """What every integrator of this loop has beside its own stages."""
 
 
@@ -405,7 +405,7 @@ def track_adaptive(
         second_slope(block, medium, enough)
         if thirds_of(scratch, len(members)):
             for i in range(LANES):
-                if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+                if wants_third(block, i):
                     _sample_middle(flow, scratch.host[i], block, i)
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
@@ -447,6 +447,11 @@ def track_adaptive(
     return walks_mended(scratch)
 
 
+def wants_third(block: Any, i: int) -> bool:
+    """Whether lane i takes a step that is to go to order 3."""
+    return bool(block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0)
+
+
 def thirds_of(s: Scratch, n: int) -> int:
     """How many lanes go to order 3 now: none where so few want to that others of n particles go on first.
 
@@ -454,8 +459,7 @@ def thirds_of(s: Scratch, n: int) -> int:
     """
     block, wanted = s.block, 0
     for i in range(LANES):
-        if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
-            wanted += 1
+        wanted += wants_third(block, i)
     if wanted >= _MANY or wanted == 0 or not others(s, n):
         return wanted
     put_off(s)
@@ -466,7 +470,7 @@ def put_off(s: Scratch) -> None:
     """Let the lanes that want to go to order 3 wait without a step, and others take their places."""
     block = s.block
     for i in range(LANES):
-        if block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0:
+        if wants_third(block, i):
             block[at.moving * LANES + i] = 0.0
             put_aside(s, i, WAITING)
             if s.counts[READY] > 0:
@@ -474,7 +478,7 @@ def put_off(s: Scratch) -> None:
 
 
 def any_ended(s: Scratch) -> bool:
-    """Whether particles are left of which the end is to be renewed, where no lane moves."""
+    """Whether particles are left whose ends are to be renewed, where no lane moves or many are put aside."""
     for i in range(LANES):
         if s.member[i] >= 0:
             return True
