@@ -300,9 +300,13 @@ def explain(word: str | None) -> list[str]:
             lines += _section_lines(name)
     if wanted in _CHOSEN and not any(wanted in line for line in lines):
         lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
+    if not lines:
+        # A dictionary that is no section of its own, such as integrationSchemes.
+        lines = [line for text in everything if f"/{wanted}/" in f"/{text.path}" for line in _entry_lines(text)]
     if lines:
         return lines[:-1]
-    names = {text.name.rpartition("/")[2] for text in everything if not text.why_idle}
+    paths = [text.path.partition(" (")[0] for text in everything if not text.why_idle]
+    names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
     names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *_CHOSEN}
     close = suggestion(word, names)
     question = (

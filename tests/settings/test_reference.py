@@ -59,6 +59,15 @@ def test_help_of_an_entry_says_unit_default_and_what_is_allowed():
     assert explain("solution/deltaT") == explain("deltaT")
 
 
+def test_help_of_a_dictionary_within_a_section_says_what_is_in_it():
+    said = explain("integrationSchemes")
+    for name in ("shape", "tolerance"):
+        assert set(explain(f"integrationSchemes/{name}")) <= set(said)
+    assert explain("solution/integrationSchemes") == said
+    with pytest.raises(InputError, match=r"Did you mean 'integrationSchemes'\?"):
+        explain("integrationScheme")
+
+
 def test_help_knows_all_that_the_page_does():
     for text in EVERY:
         name = text.name.rpartition("/")[2]
