@@ -203,9 +203,12 @@ class Tracker:
         self._compile(reach_end, {"flow": flow})
 
     def compile_contact(self, flow: Any) -> None:
-        """Compile what takes particles to walls, through coupled patches and into lanes, likewise."""
+        """Compile what takes particles to walls, through coupled patches and into lanes, likewise.
+
+        Of the rare parts the first, which takes as long as all others: these come with the loop.
+        """
         self._compile(clearance_of, {"flow": flow})
-        for part in (beyond, *self.integrator.rare):
+        for part in (beyond, *self.integrator.rare[:1]):
             self._compile(part, {"flow": flow})
 
     def compile_stages(self) -> None:

@@ -302,7 +302,8 @@ def explain(word: str | None) -> list[str]:
         lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
     if not lines:
         # A dictionary that is no section of its own, such as integrationSchemes.
-        lines = [line for text in everything if f"/{wanted}/" in f"/{text.path}" for line in _entry_lines(text)]
+        within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]
+        lines = [line for text in within for line in _entry_lines(text)]
     if lines:
         return lines[:-1]
     paths = [text.path.partition(" (")[0] for text in everything if not text.why_idle]

@@ -41,6 +41,8 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     assert list(found) == ["reach_end"]
     tracker.compile_contact(MeshFlow.nothing())
     tracker.compile_stages()
+    for part in tracker.integrator.rare:
+        tracker._compile(part, {"flow": MeshFlow.nothing()})
     assert len(found) == 3 + len(tracker.integrator.stages) + len(tracker.integrator.rare)
     expected = dict.fromkeys(("i", "code", "triangle", "step", "last", "kind"), numba.int64)
     expected |= dict.fromkeys(("goal", "x0", "x1"), numba.types.UniTuple(numba.float64, 3))

@@ -31,7 +31,10 @@ class Integrator(NamedTuple):
     layout: Layout
     """Of its block."""
     rare: tuple[Callable[..., Any], ...] = ()
-    """Parts of the loop that depend on the flow and that few steps need, compiled on their own."""
+    """Parts of the loop that depend on the flow and that few steps need, compiled on their own.
+
+    The longest comes first.
+    """
     bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})
     """Functions and constants of its own, by the names by which the loop calls them."""
     adaptive: bool = False
