@@ -34,6 +34,8 @@ _TRIED = 4
 _MOST_ENTRIES = 250_000_000
 _FLAT = 1e-9
 """Sine of the angle, and share of a length, below which walls are in one plane."""
+_SAME = 1e-12
+"""Such a share, below which one plane stands for two where bodies touch."""
 
 
 class WallTree(NamedTuple):
@@ -204,7 +206,7 @@ def _list_near(
                     i = tree.leaves[node - leaves, k]
                     if i >= 0 and count <= most and _triangle_meets(tree.corners, i, boxes, cell, reach):
                         if count < most:
-                            found[count] = names[i]
+                            found[count] = i
                         count += 1
             while node & 1:
                 node >>= 1
@@ -214,12 +216,32 @@ def _list_near(
             seed, _ = nearest_triangle(tree, _middle(boxes, cell), math.inf, seed)
             near[start[cell]] = -1 - names[seed]
         elif filling:
+            _sort(found, 0, count)
+            planes = _planes_first(tree, found, count)
             for k in range(count):
-                near[start[cell] + k] = found[k]
-            _sort(near, start[cell], start[cell] + count)
+                name = names[found[k]]
+                near[start[cell] + k] = name if k < planes else -1 - name
         counts[cell] = 1 if count > most else count
         total += counts[cell]
     return total
+
+
+def _planes_first(tree: WallTree, found: Ints, count: int) -> int:
+    """Put those first of so many triangles before which there is none in the same plane; return their number.
+
+    The order remains among these and among the others.
+    """
+    planes = 0
+    for k in range(count):
+        i, alone = found[k], True
+        for m in range(planes):
+            alone = alone and not _in_plane(tree, found[m], i, _SAME)
+        if alone:
+            for m in range(k, planes, -1):
+                found[m] = found[m - 1]
+            found[planes] = i
+            planes += 1
+    return planes
 
 
 def _meet(boxes: Floats, i: int, others: Floats, j: int, reach: float) -> bool:
@@ -456,7 +478,7 @@ def _fill(
         covered, whole = _covered(tree, work, n, i, middle, half, polygons)
         sure = covered >= (1.0 - _FLAT) * whole
         for q in range(n):
-            if work[0, q] >= 0 and _in_plane(tree, i, work[0, q]):
+            if work[0, q] >= 0 and _in_plane(tree, i, work[0, q], _FLAT):
                 work[1, q] |= _TRIED
                 if sure:
                     work[0, q] = -1
@@ -474,8 +496,8 @@ def _fill(
     return count
 
 
-def _in_plane(tree: WallTree, i: int, j: int) -> bool:
-    """Whether triangle j lies in the plane of i."""
+def _in_plane(tree: WallTree, i: int, j: int, flat: float) -> bool:
+    """Whether triangle j lies in the plane of i, but for a share ``flat`` of its own extent."""
     n, m, corners = tree.normals, tree.normals, tree.corners
     if n[i, 0] * m[j, 0] + n[i, 1] * m[j, 1] + n[i, 2] * m[j, 2] < 0.5:
         return False
@@ -488,7 +510,7 @@ def _in_plane(tree: WallTree, i: int, j: int) -> bool:
     off = 0.0
     for k in range(3):
         off = max(off, abs(_inner(normal, _seen(corners, j, k, origin))))
-    return bool(off <= _FLAT * length)
+    return bool(off <= flat * length)
 
 
 def _covered(
@@ -511,7 +533,7 @@ def _covered(
     covered = 0.0
     for q in range(n):
         j = work[0, q]
-        if j >= 0 and tree.single[j] and _in_plane(tree, i, j):
+        if j >= 0 and tree.single[j] and _in_plane(tree, i, j, _FLAT):
             p0, p1, p2 = (
                 _seen(tree.corners, j, 0, middle),
                 _seen(tree.corners, j, 1, middle),

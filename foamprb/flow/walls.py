@@ -18,6 +18,8 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
 from foamprb.flow.wall_lists import square_to_box
 
+_NEARLY = 1.0 + 1e-6
+"""So much farther a plane is still looked at, because it may stand for others that are not quite the same."""
 _TIE = 1.0 + 1e-12
 """So much farther a triangle is still looked at, because the first of two that are equally near counts."""
 
@@ -50,26 +52,30 @@ def nearest_wall(
     """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
     # Most bodies are far from all of them; no length is shortened more than by the norm of F.
-    begin = _first_within(flow, begin, end, x, (best + R) * np.sqrt(ddot(F, F)))
-    if begin == end:
+    if not _any_within(flow, begin, end, x, _NEARLY * (best + R) * np.sqrt(ddot(F, F))):
         return np.inf, -1, NO_TRIANGLE
     inverse_F = inverse(F)
     for k in range(begin, end):
-        triangle = flow.near[k]
-        distance = _mapped_distance(flow, triangle, x, F, inverse_F, best + R)
-        if distance - R < best:
+        triangle = flow.near[k] if flow.near[k] >= 0 else -1 - flow.near[k]
+        distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
+        if distance - R < best or (distance - R == best and triangle < nearest):
             best, nearest = distance - R, triangle
     if nearest == NO_TRIANGLE:
         return np.inf, -1, NO_TRIANGLE
     return best, flow.triangle_patch[nearest], nearest
 
 
-def _first_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float) -> int:
-    """The first listed triangle whose plane is less than ``reach``, m, from x; ``end`` if none is."""
-    for k in range(begin, end):
+def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float) -> bool:
+    """Whether the plane of a listed triangle is less than ``reach``, m, from x.
+
+    Those come first that stand for all in their planes.
+    """
+    k = begin
+    while k < end and flow.near[k] >= 0:
         if height(flow, flow.near[k], x) < reach:
-            return k
-    return end
+            return True
+        k += 1
+    return False
 
 
 def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:

@@ -135,6 +135,11 @@ def test_edges_count_where_they_stick_out_or_end():
     assert np.array_equal(out, on_line | at_end)
 
 
+def listed(near):
+    """Names of the triangles in lists for touching, whether their planes are there already or not."""
+    return np.maximum(near, -1 - near)
+
+
 def test_the_gap_is_the_same_from_a_tree_as_from_a_list(flow, monkeypatch):
     """To the last bit, the triangle too, for bodies that are long."""
     walls = solid(flow)
@@ -156,6 +161,37 @@ def test_the_gap_is_the_same_from_a_tree_as_from_a_list(flow, monkeypatch):
             assert ours(arrays, host, tuple(x), F, R) == theirs(whole, 0, len(names), tuple(x), F, R)
     assert used > 50
     flow.arrays(0.9 * reach, walls)
+
+
+def test_the_gap_is_the_same_where_one_triangle_stands_for_all_in_its_plane(flow):
+    """To the last bit, the triangle too; and no two that come first are in one plane."""
+    walls = solid(flow)
+    R, reach = 0.02, 0.3
+    arrays = flow.arrays(reach, walls)
+    start, near = arrays.near_start, arrays.near
+    hidden, near_all, found = 0, listed(near), 0
+    for begin, end in itertools.pairwise(start):
+        if begin < end and near[begin] < 0:
+            # A place to search the tree from.
+            near_all[begin] = near[begin]
+            continue
+        near_all[begin:end].sort()
+        first = near[begin:end][near[begin:end] >= 0]
+        corners, n = arrays.nodes[arrays.triangles[first], :3], arrays.triangle_normals[first]
+        off = np.abs(np.einsum("ik,ijlk->ijl", n, corners[None] - corners[:, None, :1])).max(2, initial=0.0)
+        same = (off < 1e-13) & (n @ n.T > 0.5) & ~np.eye(len(first), dtype=bool)
+        assert not same.any()
+        hidden += end - begin - len(first)
+    whole, ours = arrays._replace(near=near_all), link(gap)
+    random = np.random.default_rng(1)
+    for x, host in places(flow, 300):
+        U, _, V = np.linalg.svd(random.standard_normal((3, 3)))
+        F = tuple((U @ np.diag([2.0, 1.0, 0.5]) @ V).ravel())
+        expected = ours(whole, host, tuple(x), F, R)
+        assert ours(arrays, host, tuple(x), F, R) == expected
+        found += np.isfinite(expected[0])
+    assert hidden > 0
+    assert found > 20
 
 
 def times(unit, grid):
@@ -340,9 +376,13 @@ def test_triangles_of_a_plane_are_known_as_such(random):
         corners[3, random.integers(3)] += 1e-6 * e[2]
         normals = np.tile(e[2], (4, 1))
         tree = WallTree(corners, normals, None, None, None, None, None)
-        assert [wall_lists._in_plane(tree, 0, j) for j in range(4)] == [True, True, False, False]
+        assert [wall_lists._in_plane(tree, 0, j, 1e-9) for j in range(4)] == [True, True, False, False]
         # The other side of a thin wall is another plane.
-        assert not wall_lists._in_plane(tree._replace(normals=normals * [[1], [-1], [1], [1]]), 0, 1)
+        turned = tree._replace(normals=normals * [[1], [-1], [1], [1]])
+        assert not wall_lists._in_plane(turned, 0, 1, 1e-9)
+        found = np.arange(4)
+        assert wall_lists._planes_first(tree, found, 4) == 3
+        assert found.tolist() == [0, 2, 3, 1]
 
 
 def test_the_shadow_of_a_cell_on_a_plane_is_covered_by_the_triangles_in_it(random):

@@ -112,7 +112,9 @@ def test_of_walls_that_are_equally_near_the_first_counts():
     )  # fmt: skip
     F = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     expected = (pytest.approx(0.15), 3, 0)
-    assert nearest_wall(arrays, 0, 2, (0.0, 0.0, 0.25), F, 0.1) == expected
+    for near in ([0, 1], [0, -1 - 1], [1, -1 - 0]):
+        listing = arrays._replace(near=np.array(near))
+        assert nearest_wall(listing, 0, 2, (0.0, 0.0, 0.25), F, 0.1) == expected
     for seed in (0, 1):
         assert nearest_in_tree(arrays, seed, (0.0, 0.0, 0.25), F, 0.1) == expected
 

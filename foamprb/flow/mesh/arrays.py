@@ -58,8 +58,9 @@ class MeshArrays(NamedTuple):
     near_start: Ints
     """(n_cells + 1,) into ``near``."""
     near: Ints
-    """The wall triangles that a particle with its centre in the cell might touch; or, if they are many,
-    −1 − one of them, from which the tree is searched."""
+    """The wall triangles that a particle with its centre in the cell might touch: one of each plane first,
+    then −1 − those of which the plane is there already; or, if they are many, −1 − one of them alone, from
+    which the tree is searched."""
     wall_boxes: Floats
     """As ``tree_boxes``, of a tree over all wall triangles that a particle might touch."""
     wall_leaves: Ints
