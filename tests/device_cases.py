@@ -41,7 +41,7 @@ def walk_fails(flow, host, x0, x1):
     return host, 0.0, -2, -1
 
 
-def pipe_cloud(integrator):
+def pipe_cloud(integrator, stride=1):
     """Particles that rest on the wall, leave, move on, and appear within the run and after it."""
     mean, dt = WALL_RATE * RADIUS / 4, 4e-5
     x = [(0.001, 0.9 * RADIUS, 0.0), (0.0, -RADIUS + 2.51e-6, 0.0), (LENGTH - 1e-4, 0.0, 1e-4)]
@@ -51,7 +51,7 @@ def pipe_cloud(integrator):
     p.v[1], p.v[2] = (0.0, -1e-3, 0.0), (0.9, 0.0, 0.0)
     flow = analytic.pipe(RADIUS, mean, LENGTH)
     walls = (Stick(), Escape(), Escape())
-    return Cloud(p, flow, AIR, walls, dt, Models(integrator=integrator), 1)
+    return Cloud(p, flow, AIR, walls, dt, Models(integrator=integrator, stride=stride), 1)
 
 
 def box_cloud(integrator):
@@ -86,10 +86,15 @@ def mended_cloud():
     return Cloud(p, flow, AIR, (), 1e-5, Models(integrator="paper"), 1)
 
 
+def long_steps(integrator):
+    """As :func:`pipe_cloud`, where a step may go through four tracking steps."""
+    return pipe_cloud(integrator, stride=4)
+
+
 def states(device):
     """What the clouds come to, by ``cloud integrator/array``."""
     found = {}
-    for make in (pipe_cloud, box_cloud):
+    for make in (pipe_cloud, box_cloud, long_steps):
         for integrator in INTEGRATORS:
             cloud = on(device, make(integrator))
             cloud.advance(STEPS)

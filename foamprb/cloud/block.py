@@ -173,6 +173,8 @@ class Scratch(NamedTuple):
     """Whole numbers: how many are put aside, and what else is counted there."""
     asked: Any
     """One number without meaning: what was read in advance, which the compiler must believe to be of use."""
+    stride: Any
+    """LANES whole numbers: through how many tracking steps the step of each goes."""
 
 
 SHELF, LABELS, COUNTS = 15 * LANES, 8, 5
@@ -197,14 +199,14 @@ def new_scratch(
     kept
         The layout's ``kept`` and ``fresh``, if particles are to be put aside.
     """
-    a, b, c, d, e, f, g, h, k = np.empty((9, LANES), dtype=np.int64)
+    a, b, c, d, e, f, g, h, k, l = np.empty((10, LANES), dtype=np.int64)
     nothing = np.zeros((2, 1), dtype=np.int64)
     return Scratch(
         new_block(rows), a, b, c, d, e, f, np.empty((9, 10)),
         nothing[0] if stop is None else stop, g, nothing[1],
         np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
         h, k, *kept, np.empty((SHELF, len(kept[0]))),
-        np.empty((SHELF, LABELS), dtype=np.int64), np.zeros(COUNTS, dtype=np.int64), np.empty(1),
+        np.empty((SHELF, LABELS), dtype=np.int64), np.zeros(COUNTS, dtype=np.int64), np.empty(1), l,
     )  # fmt: skip
 
 

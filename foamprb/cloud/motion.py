@@ -46,6 +46,8 @@ PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 
 SEEN = 1.0 + NEAR
 """Distance from a body's centre, in semi-axes, from which on it does not see walls."""
+CLOSE = 1.0
+"""A body with a smaller gap to a wall, in radii, takes no step through several tracking steps."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
 UNLISTED = 1
@@ -111,11 +113,11 @@ def end_block(s: Scratch) -> None:
     s.noted[1] = s.noted[0]
 
 
-def end_tracking_step(s: Scratch, i: int) -> None:
-    """Let lane i go on to the next tracking step."""
-    s.block[at.substeps * LANES + i] = s.block[at.taken * LANES + i]
+def end_tracking_steps(s: Scratch, i: int) -> None:
+    """Let lane i go on to the tracking step after those through which its step went."""
+    s.block[at.substeps * LANES + i] = s.block[at.taken * LANES + i] / s.stride[i]
     s.block[at.taken * LANES + i] = 0.0
-    s.step[i] += 1
+    s.step[i] += s.stride[i]
 
 
 def overspent(s: Scratch, i: int) -> bool:
@@ -171,6 +173,22 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
     """End the particle in lane i on a patch, stuck or escaped."""
     s.status[i] = STUCK if code == STICK else ESCAPED
     s.patch[i] = patch
+
+
+def meets(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool) -> bool:
+    """Whether the body in lane i would come to a patch that stops it or lets it out, or close to a wall.
+
+    ``goal``, ``ahead`` and ``held`` are as of :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
+    """
+    block = s.block
+    if not held:
+        found, _, patch, _ = walk_on(flow, s.host[i], ahead, load3(block, at.x, i), goal)
+        if patch == -2 or (patch >= 0 and patches.code[patch] not in (MIRROR, CYCLIC)):
+            return True
+        ahead = found
+    R = block[at.R * LANES + i]
+    clearance, _, _ = gap(flow, ahead, goal, load9(block, at.new_F, i), R)
+    return bool(clearance < CLOSE * R)
 
 
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
@@ -437,5 +455,5 @@ def longest_of(p: Particles) -> float:
     return longest
 
 
-RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, last_inside, move_back)
-"""What few steps need: compiled on its own, it does not swell the loops."""
+RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, last_inside, move_back, meets)
+"""What few steps need, and what is long: compiled on its own, it does not swell the loops."""

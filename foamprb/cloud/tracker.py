@@ -26,6 +26,7 @@ from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
+from foamprb.cloud.integrators.adaptive import whole_strides
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import Bounds
@@ -93,6 +94,9 @@ class Models:
     """What changes the fluid that a particle feels, in this order."""
     rebounds: bool = False
     """Whether it is noted where and when particles bounce off (:meth:`Tracker.take_rebounds`)."""
+    stride: int = 1
+    """Through how many tracking steps Δt a step of ``stokes`` or ``rosenbrock`` may go where its error allows
+    it, 2ᵏ or 3·2ᵏ. None goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
 
 
 class Tracker:
@@ -167,7 +171,13 @@ class Tracker:
             surroundings=surroundings.coefficients(models.surroundings, patches),
         )
         self.dt, self.start = dt, start
-        self.options = (models.tolerance,) if integrator.adaptive else ()
+        self.stride = 1
+        # What surrounds a body may change, and be drawn, with each tracking step.
+        if integrator.adaptive and models.tolerance < np.inf and not models.surroundings:
+            self.stride = models.stride
+        self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
+        self.whole = whole_strides(self.stride)
+        """Calls that begin and end at multiples of so many steps may cut a run anywhere: no bit changes."""
         self._rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
         self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
@@ -369,12 +379,13 @@ def shares_of(
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """The order in which particles are put into blocks, of those in some rows.
 
-    A block does for all of them what one needs: those that took as many steps to the power of two before
+    A block does for all of them what one needs: those that took as many steps for a Δt, to the power of two,
     share one, first those that took most, so that none is left alone at the end; among them those whose steps
     go to order 3, now or when it is found out again whether they must; among these the elongated, whose
     integrals want more work. Of these do neighbours in the mesh: the nodes they read are then in the cache.
     """
-    effort = np.frexp(2.0 * np.maximum(p.substeps[rows], 1.0) - 1.0)[1]
+    # As many as the next power of two count as that.
+    effort = np.frexp(p.substeps[rows] * (1.0 - 1e-9))[1]
     # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
     many = 2 * len(rows) > p.size
     F = p.F if many else p.F[rows]

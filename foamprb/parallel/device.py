@@ -103,6 +103,7 @@ def track_each(
             cuda.local.array((1, LABELS), np.int64),
             cuda.local.array(COUNTS, np.int64),
             cuda.local.array(1, np.float64),
+            cuda.local.array(1, np.int64),
         )
         scratch.kept[0], scratch.fresh[0] = 0, 0.0
         scratch.noted[0] = scratch.noted[1] = 0

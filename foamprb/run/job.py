@@ -224,6 +224,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
         tolerance,
         forces,
         (*frames, *settings.dispersion.values(), *settings.surroundings.values()),
+        stride=settings.solution.stride,
     )
 
 

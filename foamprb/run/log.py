@@ -46,6 +46,8 @@ def describe(job: Job) -> list[str]:
         number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
                  number, SMALL_STOKES)  # fmt: skip
+    if cloud.tracker.stride > 1:
+        log.info("    steps of up to %d deltaT where the error allows it", cloud.tracker.stride)
     for name, dispersion in settings.dispersion.items():
         log.info("Selecting dispersionModel %s %s", name, dispersion)
     for model in cloud.models.surroundings:
@@ -162,7 +164,7 @@ class RunLog:
         if not moved.any():
             return
         n, short = p.substeps[moved], p.h[moved] < 0.1 * cloud.dt
-        log.info("    steps per tracking step         = %.3g in the mean, %d at most", n.mean(), n.max())
+        log.info("    steps per tracking step         = %.3g in the mean, %.3g at most", n.mean(), n.max())
         log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * short.mean())
 
     def _failures(self) -> NDArray[np.int64]:

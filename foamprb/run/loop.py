@@ -223,6 +223,8 @@ class _Pace:
         work = counts[Status.PENDING] + counts[Status.ACTIVE]
         most = cloud.executor.at_once / work
         steps = min(most, self._steps or _FIRST_CALL * most)
-        rest = target - cloud.step
+        rest, whole = target - cloud.step, cloud.tracker.whole
         # Calls of like length: not a long one and the rest.
-        return max(1, min(int(most), math.ceil(rest / max(1, round(rest / max(1.0, steps))))))
+        steps = max(1, min(int(most), math.ceil(rest / max(1, round(rest / max(1.0, steps))))))
+        # Where steps may go through several, the answer depends on where calls end unless it is there.
+        return min(rest, -(-(cloud.step + steps) // whole) * whole - cloud.step)

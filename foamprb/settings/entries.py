@@ -96,6 +96,19 @@ class Solution:
     """``solution``."""
 
     deltaT: Annotated[float, Positive, Meaning("tracking step", "s", _OF_CONTROL)] | None = None
+    maxDeltaT: (
+        Annotated[
+            float,
+            Positive,
+            Meaning(
+                "[longest step](integrators.md#steps-longer-than-deltat) of integrators that choose their "
+                "own: up to there 2, 3, 4, 6, 8, … times `deltaT` if the error allows it",
+                "s",
+                "four times `deltaT`",
+            ),
+        ]
+        | None
+    ) = None
     endTime: (
         Annotated[
             float,

@@ -35,6 +35,8 @@ class Solution:
     writeInterval: float
     shape: str
     tolerance: float
+    stride: int
+    """Through how many tracking steps a step may go whose size the integrator chooses."""
     transient: bool = False
     """Whether the flow changes in time; its time is then that of the run."""
     period: float | None = None

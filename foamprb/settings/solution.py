@@ -25,6 +25,8 @@ _CONTROL, _SCHEMES = Path("system/controlDict"), Path("system/fvSchemes")
 _TIME = Annotated[float, Positive]
 MULTIPLE_TOLERANCE = 1e-6
 """Relative error of a write interval that counts as a multiple of the step."""
+STRIDE = 4
+"""Through how many tracking steps a step of an integrator that chooses its own may go by default."""
 MOST_STEPS = 2**53
 """From there on not every step has a number of its own in double precision."""
 
@@ -60,6 +62,11 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         with mistakes:
             if key in times and "deltaT" in times:
                 require(*times[key], times["deltaT"][1])
+    stride = STRIDE
+    with mistakes:
+        if "maxDeltaT" in dictionary.entries and "deltaT" in times:
+            longest = read_entry(dictionary, "maxDeltaT", _TIME)
+            stride = _stride(dictionary.entries["maxDeltaT"], longest, times["deltaT"][1])
     mistakes.raise_any()
     if solution.period is not None and not solution.transient:
         raise dictionary.entries["period"].mistake("needs a flow that changes in time: transient yes.")
@@ -70,6 +77,7 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
         writeInterval=times["writeInterval"][1] if "writeInterval" in times else end,
         shape=solution.integrationSchemes.shape,
         tolerance=solution.integrationSchemes.tolerance,
+        stride=stride,
         transient=solution.transient,
         period=solution.period,
         rotatingZones=solution.rotatingZones,
@@ -96,6 +104,16 @@ def _require_multiple(entry: Entry, interval: float, step: float) -> None:
     steps = max(round(interval / step), 1)
     if abs(steps * step - interval) > MULTIPLE_TOLERANCE * interval:
         raise entry.mistake(f"is {interval:g}. Allowed: a multiple of deltaT = {step:g}.")
+
+
+def _stride(entry: Entry, longest: float, step: float) -> int:
+    """The largest 2ᵏ or 3·2ᵏ of steps up to ``longest``, s; raise InputError if there is not even one."""
+    _require_steps(entry, longest, step)
+    if longest < step * (1.0 - MULTIPLE_TOLERANCE):
+        raise entry.mistake(f"is {longest:g}. Allowed: at least deltaT = {step:g}.")
+    times = max(1, int(longest / step * (1.0 + MULTIPLE_TOLERANCE)))
+    even = 1 << (times.bit_length() - 1)
+    return 3 * even // 2 if even > 1 and 3 * even // 2 <= times else even
 
 
 def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:

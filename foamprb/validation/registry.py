@@ -17,6 +17,7 @@ from foamprb.validation import (
     rotation,
     settling,
     shear,
+    strides,
     suspension,
     tension,
     tumbling,
@@ -51,6 +52,7 @@ CASES: dict[str, Case] = {
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", settling.settling),
     "order": Case("beyond the paper", order.order),
+    "longSteps": Case("beyond the paper; steps longer than Δt", strides.strides),
     "volume": Case("beyond the paper", extension.volume),
 }
 """A case is one function and its line here."""

@@ -55,7 +55,7 @@ def test_those_that_cost_alike_share_blocks():
     p = spheres(np.zeros((n, 3)), d=1e-6, rho=1.0, mu=1.0)
     p.status[:] = Status.ACTIVE
     p.host[:] = random.integers(0, 2**31 - 1, n)
-    p.substeps[:] = random.choice([1.0, 2.0, 64.0], n)
+    p.substeps[:] = random.choice([0.25, 1.0, 2.0, 64.0], n)
     long = random.random(n) < 0.5
     turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
     for shape, chosen in ((LONG, long), (ROUND, ~long)):
@@ -66,8 +66,8 @@ def test_those_that_cost_alike_share_blocks():
     order = in_blocks(p, np.arange(n))
     np.testing.assert_array_equal(np.sort(order), np.arange(n))
     orders = 2 * p.demanding[order] + (p.discount[order] > 0.0)
-    kinds = (8 * p.substeps[order] + 2 * orders + long[order]).reshape(-1, LANES)
-    assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 3 * 4 * 2 - 1
+    kinds = (32 * p.substeps[order] + 2 * orders + long[order]).reshape(-1, LANES)
+    assert np.count_nonzero(np.ptp(kinds, axis=1)) <= 4 * 4 * 2 - 1
     flat, hosts = kinds.ravel(), p.host[order]
     assert (np.diff(hosts)[flat[1:] == flat[:-1]] >= 0).all()
 

@@ -72,7 +72,8 @@ def assert_same(a: Particles, b: Particles):
 
 @pytest.mark.parametrize("calls", [(20,), (3, 1, 16)], ids=str)
 @pytest.mark.parametrize("start", [0.0, 0.2])
-def test_a_flow_that_changes_is_followed_from_one_of_its_times_to_the_next(calls, start):
+@pytest.mark.parametrize("stride", [1, 4])
+def test_a_flow_that_changes_is_followed_from_one_of_its_times_to_the_next(calls, start, stride):
     """In one call past several of them: the way of a tracer is the area under the velocity's corners."""
     times, speed = [0.0, 0.25, 0.5, 0.8, 1.3], [1.0, 0.0, 0.5, -0.5, 1.0]
     shape = block(2, 0.0)
@@ -83,7 +84,8 @@ def test_a_flow_that_changes_is_followed_from_one_of_its_times_to_the_next(calls
     p = spheres([[0.5, 0.5, 0.5]], d=1e-6, rho=1e3, mu=1e3, t0=start)
     medium = Medium(1.0, 1e3, (0.0, 0.0, 0.0))
     walls = [Rebound() for _ in flow.patches]
-    cloud = Cloud(p, flow, medium, walls, 0.05, Models(integrator="stokes"), threads=1, start=start)
+    models = Models(integrator="stokes", stride=stride)
+    cloud = Cloud(p, flow, medium, walls, 0.05, models, threads=1, start=start)
     for steps in calls:
         cloud.advance(steps)
     t = np.linspace(start, start + 1.0, 2001)

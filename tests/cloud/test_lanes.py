@@ -47,7 +47,7 @@ def in_vortex(flow, integrator, rows=slice(None), models=()):
     ratios = np.where(np.arange(N)[:, None] % 4 == 0, random.uniform(0.8, 1.2, (N, 3)), 1.0)
     set_rest_shape(p, ratios, Rotation.random(N, random_state=7).as_matrix())
     p.v[:], _ = flow.sample(x, flow.locate(x), 0.0)
-    chosen = Models(integrator=integrator, surroundings=models, rebounds=True)
+    chosen = Models(integrator=integrator, surroundings=models, rebounds=True, stride=4)
     medium = Medium(0.011, 1.0, (0.0, -7.0, -7.0))
     walls = [Mirror() if patch.name == "floor" else Rebound() for patch in flow.patches]
     limits = Limits(max_stretch=1.3)

@@ -68,7 +68,7 @@ def on_processor():
 @needs_numba_cuda
 class TestSimulated:
     @pytest.mark.parametrize("integrator", device_cases.INTEGRATORS)
-    @pytest.mark.parametrize("cloud", ["pipe_cloud", "box_cloud"])
+    @pytest.mark.parametrize("cloud", ["pipe_cloud", "box_cloud", "long_steps"])
     def test_device_and_processor_agree(self, cloud, integrator, on_device, on_processor):
         for name in Particles._fields:
             key = f"{cloud} {integrator}/{name}"

@@ -11,10 +11,15 @@ from foamprb.cloud.state import Status
 from foamprb.run.loop import _Pace
 
 
-def calls(wanted: float, target: int, most: float = 1e9) -> list[int]:
+def calls(wanted: float, target: int, most: float = 1e9, whole: int = 1, step: int = 0) -> list[int]:
     """Lengths of the calls to a target."""
     counts = {Status.PENDING: 1, Status.ACTIVE: 3}
-    cloud = SimpleNamespace(step=0, executor=SimpleNamespace(at_once=4 * most), counts=lambda: counts)
+    cloud = SimpleNamespace(
+        step=step,
+        executor=SimpleNamespace(at_once=4 * most),
+        counts=lambda: counts,
+        tracker=SimpleNamespace(whole=whole),
+    )
     pace, found = _Pace(), []
     pace._steps = wanted
     while cloud.step < target:
@@ -33,3 +38,9 @@ def test_calls_to_a_write_time_are_alike(wanted: float, lengths: list[int]) -> N
 
 def test_no_call_is_longer_than_the_executor_takes() -> None:
     assert calls(50.0, 100, most=40.0) == [40, 30, 30]
+
+
+def test_calls_end_where_steps_through_several_do() -> None:
+    assert calls(30.0, 100, whole=4) == [36, 32, 32]
+    assert calls(0.2, 11, whole=4) == [4, 4, 3]
+    assert calls(5.0, 22, whole=8, step=3) == [5, 8, 6]

@@ -108,6 +108,22 @@ def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch)
     assert results(case) == expected
 
 
+def test_steps_through_several_tracking_steps_do_not_depend_on_where_a_run_stops(case, monkeypatch):
+    """Nor on the number of threads; write times are no multiples of theirs."""
+    edit(case, r"shape\s+paper;", "shape rosenbrock;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.00054;")
+    assert main(["run", "-case", str(case)]) == 0
+    expected = results(case)
+    shutil.rmtree(case / "postProcessing")
+    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    for time in (0.0, 0.0009, 0.0017, 0.0043):
+        stop_after(case, time)
+    stopped = prepare(case).cloud
+    go_on(case, "-threads", "2")
+    assert results(case) == expected
+    assert stopped.tracker.stride == 4
+
+
 def test_a_later_end_time_continues_the_run(case, truth):
     edit(case, r"endTime\s+\S+;", f"endTime {EARLIER};")
     assert main(["run", "-case", str(case)]) == 0

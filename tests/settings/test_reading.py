@@ -73,6 +73,23 @@ def test_what_means_the_same_in_openfoam_is_accepted(read: Reader) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("entry", "stride"),
+    [
+        ("", 4),
+        ("maxDeltaT 2e-5;", 1),
+        ("maxDeltaT 3.9999e-5;", 1),
+        ("maxDeltaT 4e-5;", 2),
+        ("maxDeltaT 6e-5;", 3),
+        ("maxDeltaT 1.1e-4;", 4),
+        ("maxDeltaT 1.5e-4;", 6),
+        ("maxDeltaT 0.00032;", 16),
+    ],
+)
+def test_the_longest_step_is_two_four_or_so_tracking_steps(read: Reader, entry: str, stride: int) -> None:
+    assert read(("deltaT ", f"{entry} deltaT ")).solution.stride == stride
+
+
 def test_manual_injection(read: Reader, case: Path) -> None:
     settings = read(
         ("patchInjection; patch inlet; parcelsPerSecond 1000; duration 0.1;", "manualInjection; $more;"),
@@ -101,6 +118,9 @@ MISTAKES = [
         "writeInterval 3e-5; deltaT ",
         "solution/writeInterval is 3e-05. Allowed: a multiple of deltaT",
     ),
+    ("deltaT ", "maxDeltaT 1e-5; deltaT ", "solution/maxDeltaT is 1e-05. Allowed: at least deltaT = 2e-05."),
+    ("deltaT ", "maxDeltaT 0; deltaT ", "solution/maxDeltaT is '0'. Allowed: a number > 0."),
+    ("deltaT ", "maxDeltaT 1e300; deltaT ", "solution/maxDeltaT is 1e+300, with deltaT = 2e-05 that is"),
     (
         "deltaT ",
         "active false; deltaT ",

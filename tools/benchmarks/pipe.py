@@ -273,12 +273,15 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, s
     )
 
 
-def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: int) -> Path:
-    """Write the properties of a cloud with nothing in them that has a default; return the file."""
+def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: int, more: str = "") -> Path:
+    """Write the properties of a cloud with nothing in them that has a default; return the file.
+
+    But for what ``more`` adds to ``solution``.
+    """
     end, path = steps * dt, folder / "constant" / f"{cloud}Properties"
     _dictionary(
         path,
-        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; }}\n"
+        f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; {more} }}\n"
         f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; solid {{ type neoHooke; poissonsRatio 0.499; "
         f"shearModulus {RHO * NU * WALL_RATE / Ca:.9g}; }} }}\n"
         "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { all { "
@@ -309,6 +312,7 @@ def soft_cloud(
     Ca: float = 0.5,
     reach: float = 0.95,
     tolerance: float = np.inf,
+    stride: int = 1,
 ) -> Any:
     """n active particles that move with the flow; without tolerance in steps of fixed size, as OpenFOAM's."""
     import foamprb
@@ -321,7 +325,7 @@ def soft_cloud(
     particles = foamprb.spheres(x, d=D, rho=rho, mu=medium.mu * WALL_RATE / Ca)
     particles.v[:] = poiseuille(x)
     walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-    models = foamprb.Models(integrator=integrator, tolerance=tolerance)
+    models = foamprb.Models(integrator=integrator, tolerance=tolerance, stride=stride)
     return foamprb.Cloud(particles, flow, medium, walls, dt, models, threads)
 
 

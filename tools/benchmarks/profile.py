@@ -26,6 +26,7 @@ from foamprb.compile.link import link
 from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import sample, walk
 from foamprb.flow.walls import gap
+from foamprb.settings.solution import STRIDE
 
 
 class Stage(NamedTuple):
@@ -186,22 +187,25 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     return runs
 
 
-def share_of_use(flow: Any, n: int, Ca: float, steps: int = 20) -> float:
+def share_of_use(flow: Any, n: int, Ca: float, steps: int = 24) -> float:
     """Share of the lanes' steps of a default run that carry a particle, at least.
 
     It is that of lanes that would wait for the slowest of their block, and not take another particle.
     Particles of Ca at the wall are up to the wall, and blocks are filled anew after ``steps`` tracking steps.
     """
-    cloud = pipe.soft_cloud(flow, n, OPENFOAM_STEP, "auto", Ca=Ca, reach=REACH, tolerance=Models().tolerance)
+    cloud = pipe.soft_cloud(
+        flow, n, OPENFOAM_STEP, "auto", Ca=Ca, reach=REACH, tolerance=Models().tolerance, stride=STRIDE
+    )
     cloud.advance(steps)
     p = cloud.particles
     blocks = in_blocks(p, np.flatnonzero(p.status == foamprb.Status.ACTIVE))
     taken = np.zeros(n)
-    for _ in range(steps):
-        cloud.advance(1)
-        taken += p.substeps
-    whole = taken[blocks[: len(blocks) // LANES * LANES]].reshape(-1, LANES)
-    return float(whole.sum() / (LANES * whole.max(axis=1).sum()))
+    whole = cloud.tracker.whole
+    for _ in range(steps // whole):
+        cloud.advance(whole)
+        taken += whole * p.substeps
+    in_use = taken[blocks[: len(blocks) // LANES * LANES]].reshape(-1, LANES)
+    return float(in_use.sum() / (LANES * in_use.max(axis=1).sum()))
 
 
 def gap_cost(flow: Any, width: float, n: int, repeats: int) -> float:

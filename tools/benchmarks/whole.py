@@ -19,6 +19,8 @@ from benchmarks.tracker import OPENFOAM_STEP, SOLVER, openfoam_cost
 
 CAPILLARY_NUMBERS = (0.01, 0.5, 2.0)
 """At the wall."""
+SHORT = "Ca 0.5, maxDeltaT = deltaT"
+"""A run that is not the default: none of its steps is longer than OpenFOAM's."""
 REACH = 0.985
 """Largest distance of a particle from the axis, in radii of the pipe."""
 _WARM_UP = 5
@@ -49,11 +51,12 @@ def measure(options: Options) -> list[Row]:
     x = pipe.positions(n, reach=REACH)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
 
-    def ours(Ca: float) -> float:
-        write = partial(pipe.write_default_cloud, case, Ca=Ca, dt=OPENFOAM_STEP)
+    def ours(Ca: float, more: str = "") -> float:
+        write = partial(pipe.write_default_cloud, case, Ca=Ca, dt=OPENFOAM_STEP, more=more)
         return cost(case, steps, lambda count: write(f"soft{count}", steps=count))
 
     contestants = {f"Ca {Ca:g}": partial(ours, Ca) for Ca in CAPILLARY_NUMBERS}
+    contestants[SHORT] = lambda: ours(0.5, f"maxDeltaT {OPENFOAM_STEP:g};")
     if shutil.which(SOLVER):
         pipe.write_parcels(case, x)
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, n, steps)
@@ -62,5 +65,6 @@ def measure(options: Options) -> list[Row]:
     if "OpenFOAM" in costs:
         ratios = {name: value / costs["OpenFOAM"] for name, value in costs.items() if name != "OpenFOAM"}
         found += rows("whole", "default run over OpenFOAM's", ratios, "")
-        found += rows("whole", WORST_DEFAULT, {"": max(ratios.values())}, "")
+        worst = max(ratio for name, ratio in ratios.items() if name != SHORT)
+        found += rows("whole", WORST_DEFAULT, {"": worst}, "")
     return found

@@ -68,13 +68,15 @@ from foamprb.cloud.lanes import (
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.motion import (
     ACTIVE,
+    CLOSE,
     SHORTEST_STEP,
     PatchTable,
     end_block,
-    end_tracking_step,
+    end_tracking_steps,
     fail_small_step,
     interrupted,
     is_sound,
+    meets,
     overspent,
     reach_end,
 )
@@ -340,8 +342,9 @@ def track_adaptive(
     start: float,
     scratch: Scratch,
     tolerance: float,
+    most: int,
 ) -> int:
-    """Carry particles through ``steps`` tracking steps, each in steps h ≤ Δt of its own.
+    """Carry particles through ``steps`` tracking steps, each in steps of its own.
 
     Parameters
     ----------
@@ -350,6 +353,8 @@ def track_adaptive(
     tolerance
         Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, cut
         only by :func:`foamprb.body.error_control.longest_step`.
+    most
+        Through how many tracking steps one of their steps may go, 2ᵏ or 3·2ᵏ (:func:`stride_of`).
 
     Returns
     -------
@@ -388,8 +393,9 @@ def track_adaptive(
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
-            block[during.rest * LANES + i] = start + (current[i] + 1) * dt - t
-            if current[i] % LEARNED_FOR == 0:
+            scratch.stride[i] = stride_of(scratch, i, l_f, last, dt, most)
+            block[during.rest * LANES + i] = start + (current[i] + scratch.stride[i]) * dt - t
+            if current[i] % (LEARNED_FOR * scratch.stride[i]) == 0:
                 block[during.discount * LANES + i] = 0.0
         begin_stage(block, dt)
         for i in range(LANES):
@@ -410,6 +416,9 @@ def track_adaptive(
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
             third_slope(block, medium, enough)
+        if most > 1:
+            for i in range(LANES):
+                keep_short(flow, patches, scratch, i, dt, tolerance)
         accept_stage(block, tolerance)
 
         for i in range(LANES):
@@ -418,7 +427,7 @@ def track_adaptive(
             if overspent(scratch, i):
                 continue
             h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
-            t_end = start + (current[i] + 1) * dt
+            t_end = start + (current[i] + scratch.stride[i]) * dt
             error = block[at.error * LANES + i]
             third = block[during.third * LANES + i] > 0.0
             difference, by_path = block[during.difference * LANES + i], block[during.by_path * LANES + i]
@@ -434,17 +443,64 @@ def track_adaptive(
             whole = t_new >= t_end - SHORTEST_STEP * dt
             if whole:
                 t_new = t_end
-                # A step cut short by the end of Δt says nothing against the size before it.
+                # A step cut short by the end of a tracking step says nothing against the size before it.
                 allowed = max(allowed, size)
-            block[at.h * LANES + i] = min(dt, allowed)
+            block[at.h * LANES + i] = min(most * dt, allowed)
             goal = load3(block, at.new_x, i)
             held = holds_end(block, i, goal)
             ahead = scratch.ahead[i]
             scratch.mended[i] += reach_end(flow, patches, scratch, i, goal, ahead, held, t_new, h)
             if whole:
-                end_tracking_step(scratch, i)
+                end_tracking_steps(scratch, i)
     end_block(scratch)
     return walks_mended(scratch)
+
+
+def stride_of(s: Scratch, i: int, l_f: Tensor, last: int, dt: float, most: int) -> int:
+    """Through how many tracking steps the next step of lane i goes: as many as its size allows.
+
+    They are 2ᵏ or 3·2ᵏ, and begin at a multiple of that: the steps of a particle are so the same wherever
+    calls that begin and end at multiples of :func:`whole_strides` cut a run. None goes beyond ``last``; one
+    that begins close to a wall, not beyond the end of its tracking step.
+
+    Parameters
+    ----------
+    l_f
+        Velocity gradient of the fluid at the start, 1/s.
+    last, dt, most
+        As of :func:`track_adaptive`, and the tracking step after the last.
+    """
+    block, step = s.block, s.step[i]
+    if block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]:
+        return 1
+    size = min(block[at.h * LANES + i], longest_step(l_f)) + SHORTEST_STEP * dt
+    n = most
+    while n > 1 and (n * dt > size or step % n != 0 or step + n > last):
+        n = shorter(n)
+    return n
+
+
+def shorter(n: int) -> int:
+    """The next smaller number that is 2ᵏ or 3·2ᵏ, of one that is."""
+    return 2 * n // 3 if n % 3 == 0 else max(1, 3 * n // 4)
+
+
+def whole_strides(most: int) -> int:
+    """The least number of tracking steps into which all fit that :func:`stride_of` gives up to ``most``."""
+    return most if most == 1 else math.lcm(most, whole_strides(shorter(most)))
+
+
+def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
+    """Let lane i not take a step through several tracking steps that comes to a patch or close to a wall.
+
+    What happens there is found to Δt so, however long steps are elsewhere.
+    """
+    block = s.block
+    if s.stride[i] > 1 and block[at.moving * LANES + i] > 0.0 and block[at.error * LANES + i] <= tolerance:
+        goal = load3(block, at.new_x, i)
+        if meets(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
+            block[at.moving * LANES + i] = 0.0
+            block[at.h * LANES + i] = dt
 
 
 def wants_third(block: Any, i: int) -> bool:

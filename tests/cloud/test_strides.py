@@ -1,0 +1,208 @@
+"""Steps that go through several tracking steps, where the error allows it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from mesh_shapes import block, box_patches
+
+from foamprb import analytic
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.adaptive import shorter, whole_strides
+from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
+from foamprb.cloud.rebounds import rebounds_of
+from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.surroundings.brownian import BrownianMotion
+from foamprb.cloud.tracker import Models
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.series import SeriesFlow
+
+ADAPTIVE = ("rosenbrock", "stokes")
+HEAVY = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
+
+
+def in_shear(integrator, stride, dt=0.01, Ca=(1e-3, 0.1, 0.5), tolerance=1e-4):
+    """Bodies of several softness in a shear of rate 1, of shape Stokes number 0.01."""
+    p = spheres(np.zeros((len(Ca), 3)), d=2.0, rho=0.15, mu=1.0 / np.array(Ca))
+    models = Models(integrator=integrator, tolerance=tolerance, stride=stride)
+    return Cloud(p, analytic.shear(1.0), HEAVY, (), dt, models, threads=1)
+
+
+def towards_lid(integrator, stride, lid, d=0.02, z=(0.213,), dt=0.004, rate=1.0):
+    """Nearly rigid bodies in a stream w = rate (0.2 + z) in a cube, which carries them to its lid."""
+    mesh = build_mesh(shape := block(4, 0.0), box_patches(shape))
+    nodes, gradient = mesh.nodes, np.zeros((len(mesh.nodes), 3, 3))
+    gradient[:, 2, 2] = rate
+    u = np.outer(rate * (0.2 + nodes[:, 2]), [0.0, 0.0, 1.0])
+    p = spheres([[0.4, 0.6, each] for each in z], d=d, rho=1e-3, mu=1e5)
+    p.v[:, 2] = rate * (0.2 + p.x[:, 2])
+    flow = MeshFlow(mesh, u, gradient)
+    walls = [lid if each.name == "lid" else Rebound() for each in flow.patches]
+    models = Models(integrator=integrator, stride=stride, rebounds=True)
+    return Cloud(p, flow, HEAVY, walls, dt, models, threads=1)
+
+
+def arrival(z0, z):
+    """When what is carried from z0 comes to z, s."""
+    return np.log((0.2 + z) / (0.2 + np.asarray(z0)))
+
+
+def settled(cloud, z):
+    """The same, of which the bodies have their shapes in the stream, at z, ready for steps of eight Δt."""
+    cloud.advance(24)
+    p, flow = cloud.particles, cloud.flow
+    p.x[:, 2] = z
+    p.host[:] = flow.locate(p.x)
+    p.v[:], _ = flow.sample(p.x, p.host, 0.0)
+    p.h[:] = 8 * cloud.dt
+    return cloud
+
+
+def assert_same(a, b):
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x, y, err_msg=name)
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+class TestShear:
+    def test_a_step_is_as_long_as_its_error_and_the_stride_allow(self, integrator):
+        for stride in (1, 2, 3, 4):
+            cloud = in_shear(integrator, stride)
+            cloud.advance(72)
+            assert cloud.particles.substeps == pytest.approx(1.0 / stride)
+            assert np.all(cloud.particles.h <= stride * cloud.dt)
+        # Not longer than half the inverse of the gradient: 0.48 s, not 0.64 s.
+        cloud = in_shear(integrator, 256)
+        cloud.advance(2 * 768)
+        assert cloud.particles.substeps == pytest.approx(1.0 / 48.0)
+
+    def test_the_error_stays_below_the_tolerance_times_the_steps(self, integrator):
+        """Over the first shear times, of all bodies, as it does in steps of Δt."""
+        exact = in_shear(integrator, 1, dt=1e-3, tolerance=1e-8)
+        exact.advance(3000)
+        F = exact.particles.F
+        scale = np.linalg.norm(F, axis=1)
+        for stride in (1, 4, 16):
+            cloud = in_shear(integrator, stride)
+            cloud.advance(300)
+            error = np.linalg.norm(cloud.particles.F - F, axis=1) / scale
+            assert np.all(error < 1e-4 * 300 / stride)
+
+    def test_all_come_to_the_end_of_a_call_and_no_farther(self, integrator):
+        cloud = in_shear(integrator, 4)
+        for steps in (64, 7, 1, 3):
+            cloud.advance(steps)
+            np.testing.assert_array_equal(cloud.particles.t, cloud.start + cloud.step * cloud.dt)
+
+    def test_where_calls_end_at_multiples_of_the_stride_they_change_no_bit(self, integrator):
+        whole, parts = (in_shear(integrator, 4) for _ in range(2))
+        whole.advance(64)
+        for steps in (12, 24, 28):
+            parts.advance(steps)
+        assert_same(whole.particles, parts.particles)
+
+    def test_one_that_appears_within_a_step_goes_on_at_the_multiples(self, integrator):
+        clouds = in_shear(integrator, 1, tolerance=1e-7), in_shear(integrator, 4)
+        for cloud in clouds:
+            cloud.particles.t0[:] = cloud.particles.t[:] = 0.05, 0.0533, 0.06
+            cloud.particles.status[:] = Status.PENDING
+            cloud.advance(64)
+            np.testing.assert_array_equal(cloud.particles.t, cloud.time)
+        exact, late = (cloud.particles.F for cloud in clouds)
+        assert np.abs(late - exact).max() < 1e-4 * 64 / 4
+        assert clouds[1].particles.substeps == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("stride", [1, 8])
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+class TestPatches:
+    """What happens there is found to the chord of a path in Δt, 2e-6 s, not in eight, 1.3e-4 s."""
+
+    START = np.linspace(0.113, 0.213, 40)
+
+    @pytest.mark.parametrize("d", [0.02, 0.2])
+    def test_a_body_sticks_where_and_when_it_touches_the_wall(self, integrator, stride, d):
+        cloud = towards_lid(integrator, stride, Stick(), d, self.START)
+        cloud.advance(384)
+        p = cloud.particles
+        assert np.all(p.status == Status.STUCK)
+        assert p.t == pytest.approx(arrival(self.START, 1.0 - 0.5 * d), abs=1e-5)
+        assert p.x[:, 2] == pytest.approx(1.0 - 0.5 * d, abs=1e-5)
+
+    def test_it_leaves_where_and_when_its_centre_does(self, integrator, stride):
+        cloud = towards_lid(integrator, stride, Escape(), z=self.START)
+        cloud.advance(384)
+        p = cloud.particles
+        assert np.all(p.status == Status.ESCAPED)
+        assert p.t == pytest.approx(arrival(self.START, 1.0), abs=1e-5)
+        np.testing.assert_allclose(p.x, [[0.4, 0.6, 1.0]] * len(p.x), atol=1e-9)
+
+    def test_it_bounces_when_it_touches_the_wall(self, integrator, stride):
+        cloud = towards_lid(integrator, stride, Rebound(e=0.9), 0.2, self.START)
+        cloud.advance(384)
+        found = rebounds_of(cloud.take_rebounds())
+        first = [found.t[found.number == k].min() for k in range(len(self.START))]
+        assert first == pytest.approx(arrival(self.START, 0.9), abs=1e-5)
+
+    def test_a_mirror_does_not_cut_steps(self, integrator, stride):
+        """It is not touched: a body's centre goes through it and comes back as its own image."""
+        cloud = settled(towards_lid(integrator, stride, Mirror(), dt=0.02, rate=1e-3), 0.9999)
+        for z in (0.999908, 0.9999):
+            cloud.advance(8)
+            assert cloud.particles.substeps[0] == pytest.approx(1.0 / stride)
+            assert cloud.particles.x[0, 2] == pytest.approx(z, abs=1e-6) or stride < 8
+        assert cloud.particles.x[0, 2] < 1.0
+
+    def test_close_to_a_wall_steps_are_those_of_tracking(self, integrator, stride):
+        """Less than a radius away, also of one that goes off; farther off they are as long as ever."""
+        for gap, last in ((0.7, max(0.25, 1.0 / stride)), (2.0, 1.0 / stride)):
+            cloud = settled(towards_lid(integrator, stride, Stick(), dt=0.02, rate=-0.15), 0.99 - 0.01 * gap)
+            cloud.advance(8)
+            # After the first one a step of one, of two and of four are left.
+            assert cloud.particles.substeps[0] == pytest.approx(last)
+
+
+def test_calls_that_change_no_bit_are_as_short_as_can_be():
+    assert [whole_strides(n) for n in (1, 2, 3, 4, 6, 8, 12, 16)] == [1, 2, 6, 12, 12, 24, 24, 48]
+    numbers = [64]
+    while numbers[-1] > 1:
+        numbers.append(shorter(numbers[-1]))
+    assert numbers == [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1]
+
+
+@pytest.mark.parametrize("calls", [(96,), (24, 72), (48, 24, 24)], ids=str)
+def test_what_an_aligned_call_holds_changes_no_bit_in_a_flow_that_changes(calls):
+    """No step goes past a time of the flow, wherever a call ends."""
+    mesh = build_mesh(shape := block(3, 0.1), box_patches(shape))
+    x = mesh.nodes - 0.5
+    rate = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+
+    def read(k):
+        return 0.03 * (3 + k) * x @ rate.T, np.tile(0.03 * (3 + k) * rate, (len(x), 1, 1))
+
+    def cloud():
+        flow = SeriesFlow(mesh, [0.0, 0.13, 0.31, 0.7, 1.2], read)
+        p = spheres(0.3 + 0.4 * np.random.default_rng(1).random((20, 3)), d=1e-2, rho=1.0, mu=10.0)
+        models = Models(integrator="stokes", stride=8)
+        return Cloud(p, flow, HEAVY, [Rebound() for _ in flow.patches], 0.01, models, threads=1)
+
+    whole, parts = cloud(), cloud()
+    whole.advance(96)
+    for steps in calls:
+        parts.advance(steps)
+    assert_same(whole.particles, parts.particles)
+    assert whole.particles.substeps.max() <= 0.25
+
+
+def test_steps_of_fixed_size_and_what_surrounds_a_body_keep_them_to_the_tracking_step():
+    for models in (
+        Models(integrator="paper", stride=4),
+        Models(integrator="stokes", tolerance=math.inf, stride=4),
+        Models(integrator="stokes", surroundings=(BrownianMotion(T=300.0),), stride=4),
+    ):
+        p = spheres(np.zeros((1, 3)), d=1.0, rho=1.0, mu=1.0)
+        assert Cloud(p, analytic.shear(1.0), HEAVY, (), 0.01, models, threads=1).tracker.stride == 1
