@@ -209,12 +209,15 @@ def find_out(
         sort_stage(block)
         new_integrals(block)
         report_stage(block, mu)
-        for i in range(min(LANES, n - start)):
-            for c in range(9):
+        m = min(LANES, n - start)
+        for c in range(9):
+            for i in range(m):
                 found[c, start + i] = block[(at.Q + c) * LANES + i]
-            for c in range(3):
+        for c in range(3):
+            for i in range(m):
                 found[9 + c, start + i] = block[(at.stretch + c) * LANES + i]
-            for c in range(ALL_ROWS - ROWS):
+        for c in range(ALL_ROWS - ROWS):
+            for i in range(m):
                 found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
 
 
