@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from benchmarks import pipe
+from benchmarks import pipe, plain
 from benchmarks.records import Results, Row, isolated, peak_memory, read_rows
 from benchmarks.report import TARGETS, Target, written_table
 from benchmarks.roofline import Counting
@@ -29,6 +29,21 @@ def test_pipe_mesh_holds_the_exact_flow(tmp_path, random):
     hosts = flow.locate(x)
     u, _ = flow.sample(x[hosts >= 0], hosts[hosts >= 0], 0.0)
     assert np.abs(u - pipe.poiseuille(x[hosts >= 0])).max() < 0.05 * pipe.MEAN
+
+
+def test_the_scheme_in_plain_numpy_is_the_compiled_one():
+    """To what each of the two leaves of its frames' skewness."""
+    x, dt, steps = pipe.positions(40), 2e-5, 50
+    flow = foamprb.analytic.pipe(pipe.RADIUS, pipe.MEAN, pipe.LENGTH)
+    cloud = pipe.soft_cloud(flow, len(x), dt)
+    cloud.advance(steps)
+    (state,) = plain.carry(x, steps, dt)
+    p = cloud.particles
+    np.testing.assert_allclose(np.transpose(state.F), p.F, atol=1e-10)
+    np.testing.assert_allclose(np.transpose(state.A), p.A, atol=1e-8 * pipe.WALL_RATE)
+    np.testing.assert_allclose(np.transpose(state.x), p.x, atol=1e-13)
+    np.testing.assert_allclose(np.transpose(state.v), p.v, atol=1e-10)
+    assert np.abs(p.F - np.eye(3).ravel()).max() > 0.2
 
 
 def test_sizes_of_the_grids():

@@ -41,7 +41,7 @@ def measure(options: Options) -> list[Row]:
         steps = {i: fewest_steps(i, exact, largest) for i in ("paper", "rosenbrock", "stokes")}
         clocks = {}
         for integrator, number in steps.items():
-            cloud = pipe.soft_cloud(flow, n, study.WATER.time / number, integrator, water=True)
+            cloud = pipe.soft_cloud(flow, n, study.WATER.time / number, integrator, fluid=pipe.WATER)
             cloud.advance(5)
             clocks[integrator] = lambda c=cloud: _cost(c, 20)
         costs = interleaved(clocks, repeats)

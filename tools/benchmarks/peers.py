@@ -1,4 +1,4 @@
-"""Other trackers of points on the same mesh, in turns with foamprb's soft particles."""
+"""Other trackers of points on the same mesh, and the paper's scheme in plain numpy, in turns with foamprb."""
 
 from __future__ import annotations
 
@@ -8,14 +8,20 @@ from typing import Any
 
 import numpy as np
 import pyvista
-from vtkmodules.vtkCommonDataModel import vtkCellLocator, vtkDataObject
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
+from vtkmodules.vtkCommonDataModel import vtkCellLocator, vtkDataObject, vtkUnstructuredGrid
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkCommonMath import vtkRungeKutta2
-from vtkmodules.vtkFiltersFlowPaths import vtkLagrangianMatidaIntegrationModel, vtkLagrangianParticleTracker
+from vtkmodules.vtkFiltersFlowPaths import (
+    vtkLagrangianMatidaIntegrationModel,
+    vtkLagrangianParticleTracker,
+    vtkParticleTracer,
+)
 
 import foamprb
-from benchmarks import pipe
+from benchmarks import pipe, plain
 from benchmarks.records import Options, Row, cpu_of, interleaved, rows
-from benchmarks.tracker import SOLVER, Tracker, openfoam_cost
+from benchmarks.tracker import OPENFOAM_STEP, SOLVER, STEP, Tracker, openfoam_cost
 
 _CELL_LENGTHS = 0.1
 
@@ -89,6 +95,51 @@ def matida(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, steps: int) 
     return 1e6 * spent / (paths.n_points - paths.n_cells)
 
 
+class _Steady(VTKPythonAlgorithmBase):
+    """A grid that is the same at many times."""
+
+    def __init__(self, grid: pyvista.UnstructuredGrid, times: list[float]) -> None:
+        super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkUnstructuredGrid")
+        self.grid, self.times = grid, times
+
+    def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
+        information, times = outputs.GetInformationObject(0), self.times
+        information.Set(vtkStreamingDemandDrivenPipeline.TIME_STEPS(), times, len(times))
+        information.Set(vtkStreamingDemandDrivenPipeline.TIME_RANGE(), [times[0], times[-1]], 2)
+        return 1
+
+    def RequestData(self, _request: Any, _inputs: Any, outputs: Any) -> int:
+        key = vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
+        time = outputs.GetInformationObject(0).Get(key)
+        out = vtkUnstructuredGrid.GetData(outputs)
+        out.ShallowCopy(self.grid)
+        out.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), time)
+        return 1
+
+
+def particle_tracer(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, steps: int) -> float:
+    """Microseconds of CPU per point and Δt of ParaView's and VTK's filter Particle Tracer: massless points.
+
+    It is told that mesh and seeds do not change, and takes one step or more between two times of the flow.
+    """
+    times = [OPENFOAM_STEP * k for k in range(steps + 2)]
+    source, tracer = _Steady(grid, times), vtkParticleTracer()
+    tracer.SetInputConnection(0, source.GetOutputPort())
+    tracer.SetInputDataObject(1, start)
+    tracer.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "U")
+    tracer.SetComputeVorticity(False)
+    tracer.SetMeshOverTimeToStatic()
+    tracer.SetStaticSeeds(True)
+    tracer.UpdateTimeStep(times[1])
+    spent = cpu_of(lambda: tracer.UpdateTimeStep(times[-1]))
+    return 1e6 * spent / (steps * tracer.GetOutput().GetNumberOfPoints())
+
+
+def plain_numpy(x: pipe.Floats, steps: int) -> float:
+    """Microseconds of CPU per particle-step of the paper's scheme in plain numpy, without a mesh."""
+    return 1e6 * cpu_of(lambda: plain.carry(x, steps, STEP["paper"])) / (steps * len(x))
+
+
 def measure(options: Options) -> list[Row]:
     """Microseconds of CPU per particle-step, and the same over foamprb's."""
     n, steps, repeats = (500, 20, 1) if options.quick else (10_000, 50, 5)
@@ -103,6 +154,8 @@ def measure(options: Options) -> list[Row]:
             grid, start, order, steps
         )
     contestants["vtkLagrangianParticleTracker"] = lambda: matida(grid, start, steps)
+    contestants["vtkParticleTracer, ParaView's"] = lambda: particle_tracer(grid, start, steps)
+    contestants["the paper's scheme in numpy"] = lambda: plain_numpy(pipe.positions(n), steps)
     if shutil.which(SOLVER):
         pipe.write_parcels(case, pipe.positions(10 * n))
         contestants["OpenFOAM"] = lambda: openfoam_cost(case, 10 * n, steps)

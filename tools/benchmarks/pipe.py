@@ -22,6 +22,21 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
+class Fluid(NamedTuple):
+    """A fluid, and particles in it."""
+
+    nu: float
+    """m²/s."""
+    rho: float
+    """kg/m³."""
+    rho_s: float
+    """Density of the particles, kg/m³."""
+
+
+AIR, WATER = Fluid(NU, RHO, RHO_S), Fluid(1e-6, 1000.0, 1050.0)
+"""In air the particles' inertia counts; in water it does not, and the program chooses accordingly."""
+
+
 class Grid(NamedTuple):
     """Cells on a quarter of the wall, from the inner square to the wall, and along the pipe."""
 
@@ -206,13 +221,13 @@ def poiseuille(x: Floats) -> Floats:
     return u
 
 
-def write_control(folder: Path, dt: float, end: float) -> None:
-    """Write OpenFOAM's ``controlDict`` of a run that writes nothing."""
+def write_control(folder: Path, dt: float, end: float, interval: int = 1_000_000) -> None:
+    """Write OpenFOAM's ``controlDict`` of a run that writes every so many steps, by default nothing."""
     _dictionary(
         folder / "system" / "controlDict",
         "application icoUncoupledKinematicParcelFoam; startFrom startTime; startTime 0; stopAt endTime; "
-        f"endTime {end:.9g}; deltaT {dt:g}; writeControl timeStep; writeInterval 1000000; "
-        "writeFormat binary; timeFormat general; timePrecision 9; runTimeModifiable false;",
+        f"endTime {end:.12g}; deltaT {dt:.12g}; writeControl timeStep; writeInterval {interval}; "
+        "writeFormat ascii; writePrecision 14; timeFormat general; timePrecision 9; runTimeModifiable false;",
     )
 
 
@@ -273,7 +288,9 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, s
     )
 
 
-def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: int, more: str = "") -> Path:
+def write_default_cloud(
+    folder: Path, cloud: str, Ca: float, dt: float, steps: int, fluid: Fluid = AIR, more: str = ""
+) -> Path:
     """Write the properties of a cloud with nothing in them that has a default; return the file.
 
     But for what ``more`` adds to ``solution``.
@@ -282,8 +299,9 @@ def write_default_cloud(folder: Path, cloud: str, Ca: float, dt: float, steps: i
     _dictionary(
         path,
         f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end:.9g}; {more} }}\n"
-        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; solid {{ type neoHooke; poissonsRatio 0.499; "
-        f"shearModulus {RHO * NU * WALL_RATE / Ca:.9g}; }} }}\n"
+        f"constantProperties {{ rho0 {fluid.rho_s}; rhoInf {fluid.rho}; nu {fluid.nu}; "
+        "solid { type neoHooke; poissonsRatio 0.499; "
+        f"shearModulus {fluid.rho * fluid.nu * WALL_RATE / Ca:.9g}; }} }}\n"
         "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { all { "
         'type manualInjection; SOI 0; U0 (0 0 0); positionsFile "softCloudPositions"; '
         "ignoreOutOfBounds true; sizeDistribution { type fixedValue; fixedValueDistribution { "
@@ -308,7 +326,7 @@ def soft_cloud(
     dt: float,
     integrator: str = "paper",
     threads: int = 1,
-    water: bool = False,
+    fluid: Fluid = AIR,
     Ca: float = 0.5,
     reach: float = 0.95,
     tolerance: float = np.inf,
@@ -318,11 +336,8 @@ def soft_cloud(
     import foamprb
 
     x = positions(n, reach=reach)
-    medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
-    rho = RHO_S
-    if water:
-        medium, rho = foamprb.Medium(1e-3, 1000.0, (0.0, -9.81, 0.0)), 1050.0
-    particles = foamprb.spheres(x, d=D, rho=rho, mu=medium.mu * WALL_RATE / Ca)
+    medium = foamprb.Medium(fluid.rho * fluid.nu, fluid.rho, (0.0, -9.81, 0.0))
+    particles = foamprb.spheres(x, d=D, rho=fluid.rho_s, mu=medium.mu * WALL_RATE / Ca)
     particles.v[:] = poiseuille(x)
     walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
     models = foamprb.Models(integrator=integrator, tolerance=tolerance, stride=stride)

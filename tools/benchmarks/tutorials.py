@@ -1,6 +1,10 @@
 """What a default run costs in flows that were not made for it: OpenFOAM's tutorials, solved by OpenFOAM.
 
 The cloud is what ``foamprb init`` writes, but for places all over the mesh, as often as there is volume.
+
+How right the places are is measured too, of particles that are released at rest: what the steps in time are
+off by, each program against itself with much shorter steps. OpenFOAM's error goes with Δt, which says by what
+its Δt is to be divided for ours to be reached.
 """
 
 from __future__ import annotations
@@ -10,6 +14,7 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -21,7 +26,7 @@ from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, isolated, rows
 from benchmarks.report import WORST_TUTORIAL
 from benchmarks.tracker import SOLVER, openfoam_cost, openfoam_environment
-from benchmarks.whole import cost, run
+from benchmarks.whole import costs, run
 
 EXAMPLES = Path("/usr/share/doc/openfoam-examples/examples/incompressible")
 RHO = 1.2
@@ -30,6 +35,12 @@ CAPILLARY_NUMBERS = (0.01, 0.5)
 """At the mean shear rate, as ``foamprb init`` has it."""
 LEFT = 0.85
 """Share of the parcels that are still in the flow at the end."""
+_FINE, _FINEST = 16, 128
+"""What OpenFOAM's Δt is divided by: where its error goes with Δt, and for the places that count as right."""
+_TIGHT, _SHORT = 1e-8, 64
+"""Tolerance of our places that count as right, and what Δt is divided by there."""
+_FOLLOWED, _FOR = 2000, 20
+"""Particles that are followed, and for how many Δt."""
 
 
 class Tutorial(NamedTuple):
@@ -136,8 +147,9 @@ def write_cloud(case: Path, settings: Settings, Ca: float, steps: int) -> Path:
     """Write the properties for a run of so many steps; return the file."""
     text, end = settings.text, f"{steps * settings.dt:.9g}"
     values = {"endTime": end, "writeInterval": end, "shearModulus": f"{settings.modulus / Ca:.9g}"}
+    values["deltaT"] = f"{settings.dt:.9g}"
     for key, value in values.items():
-        text = re.sub(rf"{key}\s+[\d.e+-]+", f"{key} {value}", text)
+        text = re.sub(rf"\b{key}\s+[\d.e+-]+", f"{key} {value}", text)
     path = case / "constant" / f"soft{steps}Properties"
     path.write_text(text, encoding="utf-8")
     return path
@@ -150,25 +162,94 @@ def patches_of(case: Path) -> str:
     return " ".join(f"{p.name} {{ type {kinds[p.type]}; }}" for p in flow.patches if p.type in kinds)
 
 
+def our_places(case: str, dictionary: str, steps: int, tolerance: float | None = None) -> list[list[float]]:
+    """Where particles released at rest are after so many steps; where they began if they have ended."""
+    from foamprb import Status, prepare
+
+    job = prepare(case, dictionary=Path(dictionary))
+    cloud = job.cloud
+    if tolerance is not None:
+        models = replace(cloud.models, tolerance=tolerance)
+        p, flow, medium, walls = cloud.particles, cloud.flow, cloud.medium, cloud.interactions
+        cloud = foamprb.Cloud(p, flow, medium, walls, cloud.dt, models)
+    cloud.particles.v[:] = 0.0
+    cloud.carry(steps)
+    p = cloud.particles
+    found: list[list[float]] = np.where((p.status == Status.ACTIVE)[:, None], p.x, p.x0).tolist()
+    return found
+
+
+def their_places(case: Path, n: int, dt: float, time: float) -> pipe.Floats:
+    """The same of OpenFOAM's parcels after a time, s, in steps of ``dt``."""
+    # Its parcels take one step more, before the start.
+    pipe.write_control(case, dt, time - dt, round(time / dt) - 1)
+    _sh(case, SOLVER)
+    (folder,) = (path for path in case.iterdir() if re.fullmatch(r"[\d.e-]+", path.name) and path.name != "0")
+    cloud = folder / "lagrangian" / "kinematicCloud"
+    numbers = {
+        name: np.array(re.findall(r"[-\d.e+]+", (cloud / name).read_text().split("\n(\n")[1]), dtype=float)
+        for name in ("positions", "origId")
+    }
+    shutil.rmtree(folder)
+    found = np.full((n, 3), np.nan)
+    found[numbers["origId"].astype(int)] = numbers["positions"].reshape(-1, 4)[:, :3]
+    return found
+
+
+def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[str, float]:
+    """Medians of what the places are off by over the way, by the subjects of :func:`compare`."""
+    pipe.write_positions(case / "constant" / "softCloudPositions", x)
+    pipe.write_parcels(case, x, settings.d, settings.rho, patches_of(case))
+
+    def off(places: pipe.Floats, right: pipe.Floats) -> float:
+        way = np.linalg.norm(right - x, axis=1)
+        moved = way > 0.0
+        error = np.linalg.norm(places - right, axis=1)[moved] / way[moved]
+        # Who has ended in one of them has no place.
+        return float(np.median(error[error < 1.0]))
+
+    def ours(Ca: float, divided: int, *tolerance: float) -> pipe.Floats:
+        cloud = write_cloud(case, settings._replace(dt=settings.dt / divided), Ca, _FOR * divided)
+        found = isolated(our_places, str(case), str(cloud), _FOR * divided, *tolerance)
+        return np.array(found.result)
+
+    found = {f"{name}, Ca {Ca:g}": off(ours(Ca, 1), ours(Ca, _SHORT, _TIGHT)) for Ca in CAPILLARY_NUMBERS}
+    dt, time = settings.dt, _FOR * settings.dt
+    right = their_places(case, len(x), dt / _FINEST, time)
+    for key, divided in (("OpenFOAM", 1), (f"OpenFOAM, Δt/{_FINE}", _FINE)):
+        found[f"{name}, {key}"] = off(their_places(case, len(x), dt / divided, time), right)
+    return found
+
+
 def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
-    """Cost per particle-step in one tutorial's flow, and over OpenFOAM's."""
+    """Cost per particle-step in one tutorial's flow, and over OpenFOAM's, also at equal error."""
     case = solve(name, pipe.scratch_folder() / f"tutorial_{name}")
     settings, x = first_settings(case), places(case, n)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
     pipe.write_parcels(case, x, settings.d, settings.rho, patches_of(case))
 
     def ours(Ca: float) -> float:
-        return cost(case, steps, partial(write_cloud, case, settings, Ca))
+        return costs(case, (steps,), partial(write_cloud, case, settings, Ca))[-1]
+
+    def theirs(divided: int) -> float:
+        return openfoam_cost(case, n, steps, settings.dt / divided, LEFT)
 
     # What is compiled is not measured.
     isolated(run, str(case), str(write_cloud(case, settings, 1.0, 1)))
     contestants = {f"{name}, Ca {Ca:g}": partial(ours, Ca) for Ca in CAPILLARY_NUMBERS}
-    contestants[f"{name}, OpenFOAM"] = lambda: openfoam_cost(case, n, steps, settings.dt, LEFT)
-    costs = interleaved(contestants, repeats)
-    theirs = costs[f"{name}, OpenFOAM"]
-    ratios = {key: value / theirs for key, value in costs.items() if "OpenFOAM" not in key}
-    found = rows("tutorials", "cost in a tutorial's flow", costs, "us/particle-step", n)
-    return found + rows("tutorials", "default run in a tutorial's flow over OpenFOAM's", ratios, "")
+    soft = tuple(contestants)
+    rigid, fine = f"{name}, OpenFOAM", f"{name}, OpenFOAM, Δt/{_FINE}"
+    contestants |= {rigid: partial(theirs, 1), fine: partial(theirs, _FINE)}
+    found_costs = interleaved(contestants, repeats)
+    found = rows("tutorials", "cost in a tutorial's flow", found_costs, "us/particle-step", n)
+    ratios = {key: found_costs[key] / found_costs[rigid] for key in soft}
+    found += rows("tutorials", "default run in a tutorial's flow over OpenFOAM's", ratios, "")
+    off = errors(case, name, settings, x[:_FOLLOWED])
+    found += rows("tutorials", f"error of the place after {_FOR} Δt over the way", off, "")
+    # So many of OpenFOAM's steps in one Δt have our error.
+    needed = {key: _FINE * off[fine] / off[key] for key in soft}
+    equal = {key: found_costs[key] / (needed[key] * found_costs[fine]) for key in soft}
+    return found + rows("tutorials", "the same at equal error of the place", equal, "")
 
 
 def measure(options: Options) -> list[Row]:

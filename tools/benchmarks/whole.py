@@ -1,6 +1,6 @@
 """What a user's run costs: ``foamprb run`` with its default settings, against OpenFOAM's rigid point spheres.
 
-Automatic integrator, error control, touching ellipsoids, checkpoints, particles up to the wall. Two runs that
+Automatic integrator, error control, touching ellipsoids, checkpoints, particles up to the wall. Runs that
 differ in length only are subtracted, so that start, injection and output fall away.
 """
 
@@ -9,7 +9,9 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 from benchmarks import pipe
@@ -19,6 +21,8 @@ from benchmarks.tracker import OPENFOAM_STEP, SOLVER, openfoam_cost
 
 CAPILLARY_NUMBERS = (0.01, 0.5, 2.0)
 """At the wall."""
+FLUIDS = {"": pipe.AIR, ", water": pipe.WATER}
+"""By what the rows add to Ca."""
 SHORT = "Ca 0.5, maxDeltaT = deltaT"
 """A run that is not the default: none of its steps is longer than OpenFOAM's."""
 REACH = 0.985
@@ -35,35 +39,63 @@ def run(case: str, dictionary: str) -> dict[str, Any]:
     return {"particle-steps": pipe.particle_steps(job.cloud)}
 
 
-def cost(case: Path, steps: int, write: Callable[[int], Path]) -> float:
-    """Microseconds of CPU per particle-step; ``write`` writes the properties of a cloud for so many steps."""
+def costs(case: Path, lengths: tuple[int, ...], write: Callable[[int], Path]) -> list[float]:
+    """Microseconds of CPU per particle-step between runs of some lengths and the next longer, and in all.
+
+    Parameters
+    ----------
+    lengths
+        In steps, beyond those of a first run that is shorter than all.
+    write
+        Writes the properties of a cloud for so many steps.
+    """
     spent = []
-    for count in (_WARM_UP, _WARM_UP + steps):
-        child = isolated(run, str(case), str(write(count)))
+    for count in (0, *lengths):
+        child = isolated(run, str(case), str(write(_WARM_UP + count)))
         spent.append((child.cpu, child.result["particle-steps"]))
-    return 1e6 * (spent[1][0] - spent[0][0]) / (spent[1][1] - spent[0][1])
+    pairs = [*pairwise(spent), (spent[0], spent[-1])]
+    return [1e6 * (after[0] - before[0]) / (after[1] - before[1]) for before, after in pairs]
 
 
 def measure(options: Options) -> list[Row]:
     """Cost per particle-step by stiffness, and over OpenFOAM's at the same Δt."""
-    n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 7)
+    n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 5)
     case = pipe.case("40k")
     x = pipe.positions(n, reach=REACH)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
+    halves: dict[str, list[list[float]]] = {}
 
-    def ours(Ca: float, more: str = "") -> float:
-        write = partial(pipe.write_default_cloud, case, Ca=Ca, dt=OPENFOAM_STEP, more=more)
-        return cost(case, steps, lambda count: write(f"soft{count}", steps=count))
+    def ours(name: str, Ca: float, fluid: pipe.Fluid, more: str = "") -> float:
+        write = partial(pipe.write_default_cloud, case, Ca=Ca, dt=OPENFOAM_STEP, fluid=fluid, more=more)
+        lengths = steps // 2, steps
+        first, second, both = costs(case, lengths, lambda count: write(f"soft{count}", steps=count))
+        halves.setdefault(name, []).append([first, second])
+        return both
 
-    contestants = {f"Ca {Ca:g}": partial(ours, Ca) for Ca in CAPILLARY_NUMBERS}
-    contestants[SHORT] = lambda: ours(0.5, f"maxDeltaT {OPENFOAM_STEP:g};")
+    def theirs(fluid: pipe.Fluid) -> float:
+        pipe.write_dictionaries(case, fluid.nu, fluid.rho)
+        pipe.write_parcels(case, x, rho=fluid.rho_s)
+        return openfoam_cost(case, n, steps)
+
+    contestants: dict[str, Callable[[], float]] = {}
+    for fluid in FLUIDS:
+        for Ca in CAPILLARY_NUMBERS:
+            name = f"Ca {Ca:g}{fluid}"
+            contestants[name] = partial(ours, name, Ca, FLUIDS[fluid])
+    contestants[SHORT] = partial(ours, SHORT, 0.5, pipe.AIR, f"maxDeltaT {OPENFOAM_STEP:g};")
     if shutil.which(SOLVER):
-        pipe.write_parcels(case, x)
-        contestants["OpenFOAM"] = lambda: openfoam_cost(case, n, steps)
-    costs = interleaved(contestants, repeats)
-    found = rows("whole", "cost of a default run", costs, "us/particle-step", n)
-    if "OpenFOAM" in costs:
-        ratios = {name: value / costs["OpenFOAM"] for name, value in costs.items() if name != "OpenFOAM"}
+        contestants |= {f"OpenFOAM{fluid}": partial(theirs, FLUIDS[fluid]) for fluid in FLUIDS}
+    found_costs = interleaved(contestants, repeats)
+    found = rows("whole", "cost of a default run", found_costs, "us/particle-step", n)
+    time = 0.5e3 * steps * OPENFOAM_STEP
+    for k, quantity in enumerate((f"in its first {time:g} ms, from rest", f"in the next {time:g} ms")):
+        parts = {name: median(half[k] for half in values) for name, values in halves.items()}
+        found += rows("whole", quantity, parts, "us/particle-step", n)
+    if "OpenFOAM" in found_costs:
+        ratios = {
+            name: found_costs[name] / found_costs["OpenFOAM, water" if "water" in name else "OpenFOAM"]
+            for name in halves
+        }
         found += rows("whole", "default run over OpenFOAM's", ratios, "")
         worst = max(ratio for name, ratio in ratios.items() if name != SHORT)
         found += rows("whole", WORST_DEFAULT, {"": worst}, "")
