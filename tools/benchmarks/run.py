@@ -1,7 +1,7 @@
 """A whole run, 1000 steps of a million particles with output, against its computation alone.
 
-By the integrator ``paper``, and by the one that is chosen by default: at OpenFOAM's Δt, and at the shorter one
-of ``paper``, several of which then go into a step.
+By the integrator ``paper``, and by the one that is chosen by default: at OpenFOAM's Δt, and at the shorter
+one of ``paper``, several of which then go into a step.
 """
 
 from __future__ import annotations
