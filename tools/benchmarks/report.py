@@ -19,6 +19,7 @@ TABLES = (
 OVER_OPENFOAM = "cost over OpenFOAM's"
 WORST_DEFAULT = "worst default run over OpenFOAM's"
 WORST_TUTORIAL = "worst default run in a tutorial's flow over OpenFOAM's"
+INFO = "info, 1M cells"
 USEFUL = "share of lane-steps of use in a default run"
 GAP = "cost of the gap to the wall"
 SAME = "same to the last bit"
@@ -112,6 +113,7 @@ TARGETS = (
     Target("the same by `paper`, of which the steps are the cheapest", _got(OVER_COMPUTING, "paper"), 1.1),
     Target("share of a default run's time in which it waits for output", _got(WAITING, "default"), 0.1),
     Target("`foamprb -help`, s", _got("start", "-help"), 0.4),
+    Target("`foamprb info` of 1e6 cells, s", _got("start", INFO), 2),
     Target("compilation in the first run, s on the wall: it less a later one", _compiled, 10),
     Target("first run says that it compiles", _got("first run says so"), 1, least=True),
     Target(

@@ -1,4 +1,4 @@
-"""How long the program takes to start: its help, its first run with compilation, and a later one.
+"""How long the program takes to start: help, the first run with compilation, a later one, ``info`` of a mesh.
 
 The run has the settings that a user has by default, with the integrator that takes most to compile.
 """
@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from benchmarks import pipe
 from benchmarks.records import TOOLS, Options, Row, rows
+from benchmarks.report import INFO
 from benchmarks.tracker import OPENFOAM_STEP
 
 FIRST_RUNS = 5
@@ -51,12 +52,14 @@ def measure(options: Options) -> list[Row]:
     pipe.write_positions(case / "constant" / "softCloudPositions", pipe.positions(100))
     pipe.write_default_cloud(case, "softCloud", 0.5, OPENFOAM_STEP, 1)
     run = ("run", "-case", str(case), "-threads", "1")
-    starts: dict[str, list[Start]] = {"-help": [], "first run": [], "second run": []}
+    large = pipe.case("40k" if options.quick else "1M")
+    starts: dict[str, list[Start]] = {"-help": [], "first run": [], "second run": [], INFO: []}
     for _ in range(1 if options.quick else FIRST_RUNS):
         with tempfile.TemporaryDirectory() as cache:
             starts["first run"].append(_foamprb(cache, *run))
             starts["second run"] += [_foamprb(cache, *run) for _ in range(repeats)]
             starts["-help"] += [_foamprb(cache, "-help") for _ in range(repeats)]
+            starts[INFO].append(_foamprb(cache, "info", "-case", str(large)))
     walls = {name: statistics.median(start.wall for start in those) for name, those in starts.items()}
     cpu = {name: statistics.median(start.cpu for start in those) for name, those in starts.items()}
     found = rows("start", "start", walls, "s") + rows("start", "CPU of the start", cpu, "s")
