@@ -86,7 +86,7 @@ class Rows(NamedTuple):
     most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed", lasting=True)]
     most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed", lasting=True)]
     taken: Annotated[
-        int, Row(1, "1", "steps taken so far in this tracking step, also those repeated", lasting=True)
+        int, Row(1, "1", "steps taken since the last whole tracking step, also those repeated", lasting=True)
     ]
     substeps: Annotated[
         int, Row(1, "1", "the same of the last tracking step that is done", of="substeps", saved=True)

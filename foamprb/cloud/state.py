@@ -104,7 +104,10 @@ class Particles(NamedTuple):
     ]
     demanding: Annotated[Array, Variable((), "i1", "", "1 if steps like its last one go to order 3, else 0")]
     substeps: Annotated[
-        Array, Variable((), "f8", "1", "time steps of its last tracking step, with those that were repeated")
+        Array,
+        Variable(
+            (), "f8", "1", "time steps of its last tracking step, also those repeated; a share of a long one"
+        ),
     ]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]

@@ -110,7 +110,7 @@ TARGETS = (
     Target(
         "1e6 particles, 1000 steps: default run over computing alone", _got(OVER_COMPUTING, "default"), 1.1
     ),
-    Target("the same by `paper`, of which the steps are the cheapest", _got(OVER_COMPUTING, "paper"), 1.1),
+    Target("the same by `paper`", _got(OVER_COMPUTING, "paper"), 1.1),
     Target("share of a default run's time in which it waits for output", _got(WAITING, "default"), 0.1),
     Target("`foamprb -help`, s", _got("start", "-help"), 0.4),
     Target("`foamprb info` of 1e6 cells, s", _got("start", INFO), 2),
