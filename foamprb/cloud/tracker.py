@@ -409,6 +409,10 @@ _ROOM, _MORE_ROOM = 1000, 4
 
 def check(models: Models, tense: bool) -> None:
     """Raise InputError if the models do not go together; ``tense`` as of :class:`Tracker`."""
+    if models.stride < 1 or models.stride != int(models.stride):
+        raise InputError(
+            f"the stride is {models.stride:g}. Allowed: whole numbers of tracking steps, 1 or more"
+        )
     integrator = INTEGRATORS[models.integrator]
     reason = integrator.refuses(models.traction, models.material, tense)
     if reason:

@@ -17,6 +17,7 @@ from foamprb.cloud.rebounds import rebounds_of
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.tracker import Models
+from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.series import SeriesFlow
@@ -196,6 +197,23 @@ def test_what_an_aligned_call_holds_changes_no_bit_in_a_flow_that_changes(calls)
         parts.advance(steps)
     assert_same(whole.particles, parts.particles)
     assert whole.particles.substeps.max() <= 0.25
+
+
+@pytest.mark.parametrize("stride", [0, -4, 2.5])
+def test_a_stride_that_is_no_number_of_steps_is_refused(stride):
+    with pytest.raises(InputError, match=f"the stride is {stride}. Allowed: whole numbers"):
+        in_shear("stokes", stride)
+
+
+@pytest.mark.parametrize("stride", [5, 7])
+def test_any_number_of_steps_will_do(stride):
+    whole, parts = (in_shear("stokes", stride) for _ in range(2))
+    n = whole_strides(stride)
+    whole.advance(2 * n)
+    parts.advance(n)
+    parts.advance(n)
+    assert_same(whole.particles, parts.particles)
+    assert whole.particles.substeps == pytest.approx(1.0 / stride)
 
 
 def test_steps_of_fixed_size_and_what_surrounds_a_body_keep_them_to_the_tracking_step():
