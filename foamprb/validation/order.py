@@ -10,18 +10,12 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row
-from foamprb.validation.references.inertia import soft_sphere
 from foamprb.validation.references.shear import SHEAR, inertialess_history
 from foamprb.validation.runs import (
     DIAMETER,
-    MU_F,
-    POISSONS_RATIO,
-    RHO_S,
-    START,
-    WALL_RATE,
     advance_to,
-    air_around,
     pipe_cloud,
+    soft_in_pipe,
     unit_cloud,
 )
 
@@ -29,16 +23,7 @@ from foamprb.validation.runs import (
 def _with_inertia(name: str, steps: Floats) -> Floats:
     """Error of x/d and F against the reference in the pipe after 2 ms, for each step, s."""
     end, Ca = 2e-3, 0.5
-    own = soft_sphere(
-        DIAMETER / 2,
-        RHO_S,
-        MU_F * WALL_RATE / Ca,
-        POISSONS_RATIO,
-        air_around(),
-        START,
-        np.array([0.0, end]),
-        tolerance=1e-9,
-    )
+    own = soft_in_pipe(Ca, np.array([0.0, end]))
     errors = []
     for dt in steps:
         cloud = pipe_cloud(Ca, float(dt), Models(integrator=name, tolerance=math.inf))

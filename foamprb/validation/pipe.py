@@ -11,12 +11,11 @@ from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
 from foamprb.flow.base import Flow
 from foamprb.validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
-from foamprb.validation.references.inertia import RigidHistory, SoftHistory, rigid_sphere, soft_sphere
+from foamprb.validation.references.inertia import RigidHistory, SoftHistory, rigid_sphere
 from foamprb.validation.runs import (
     DIAMETER,
     MU_F,
     PIPE_RADIUS,
-    POISSONS_RATIO,
     RHO_S,
     SETTLING,
     START,
@@ -25,6 +24,7 @@ from foamprb.validation.runs import (
     history,
     measures,
     pipe_cloud,
+    soft_in_pipe,
 )
 
 RIGID = "rigid sphere's equations of motion by solve_ivp"
@@ -125,12 +125,7 @@ def rigid(quick: bool) -> Outcome:
 
 @cache
 def _soft(Ca: float, drag: str, end: float = _END) -> SoftHistory:
-    times = np.linspace(0.0, end, 81)
-    mu = MU_F * WALL_RATE / Ca
-    floor = -PIPE_RADIUS
-    return soft_sphere(
-        DIAMETER / 2.0, RHO_S, mu, POISSONS_RATIO, air_around(), START, times, drag, floor, 1e-6
-    )
+    return soft_in_pipe(Ca, np.linspace(0.0, end, 81), drag, -PIPE_RADIUS, 1e-6)
 
 
 @cache

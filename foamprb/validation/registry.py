@@ -52,7 +52,7 @@ CASES: dict[str, Case] = {
     "extension": Case("beyond the paper", extension.steady_extension),
     "settling": Case("beyond the paper", settling.settling),
     "order": Case("beyond the paper", order.order),
-    "longSteps": Case("beyond the paper; steps longer than Δt", strides.strides),
+    "longSteps": Case("beyond the paper", strides.strides),
     "volume": Case("beyond the paper", extension.volume),
 }
 """A case is one function and its line here."""

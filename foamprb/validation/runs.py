@@ -19,7 +19,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Flow
 from foamprb.validation.case import Floats
-from foamprb.validation.references.inertia import Surroundings, poiseuille
+from foamprb.validation.references.inertia import SoftHistory, Surroundings, poiseuille, soft_sphere
 from foamprb.validation.references.shear import shear_shape
 
 NEARLY_INCOMPRESSIBLE = 0.499999
@@ -153,6 +153,23 @@ def air_around() -> Surroundings:
     """The air in the exact pipe, for the references."""
     flow = poiseuille(PIPE_RADIUS, MEAN_VELOCITY)
     return Surroundings(MU_F, RHO_F, np.array([0.0, -GRAVITY, 0.0]), flow)
+
+
+def soft_in_pipe(
+    Ca: float,
+    times: Floats,
+    drag: str = "oberbeck",
+    floor: float | None = None,
+    tolerance: float = 1e-9,
+) -> SoftHistory:
+    """The reference for the paper's particle in the exact pipe, released at rest, at ``times`` (m,), s.
+
+    ``Ca`` is that at the wall; the rest as of :func:`foamprb.validation.references.inertia.soft_sphere`.
+    """
+    mu = MU_F * WALL_RATE / Ca
+    return soft_sphere(
+        DIAMETER / 2.0, RHO_S, mu, POISSONS_RATIO, air_around(), START, times, drag, floor, tolerance
+    )
 
 
 class History(NamedTuple):

@@ -9,18 +9,11 @@ from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.settings.solution import STRIDE
 from foamprb.validation.case import Floats, Outcome, Row
-from foamprb.validation.references.inertia import soft_sphere
 from foamprb.validation.references.shear import SHEAR, inertialess_history
 from foamprb.validation.runs import (
-    DIAMETER,
-    MU_F,
-    POISSONS_RATIO,
-    RHO_S,
-    START,
-    WALL_RATE,
     advance_to,
-    air_around,
     pipe_cloud,
+    soft_in_pipe,
     unit_cloud,
 )
 
@@ -55,16 +48,7 @@ def strides(quick: bool) -> Outcome:
             shear = unit_cloud(analytic.shear(1.0), Ca, 1e-6, _SHEAR_STEP, models)
             rows += _rows(shear, own, _SHEAR_END, f"stokes, shear, Ca = {Ca:g}")
     for Ca in CAPILLARY[1:2] if quick else CAPILLARY:
-        own = soft_sphere(
-            DIAMETER / 2,
-            RHO_S,
-            MU_F * WALL_RATE / Ca,
-            POISSONS_RATIO,
-            air_around(),
-            START,
-            np.array([0.0, _PIPE_END]),
-            tolerance=1e-9,
-        ).F[-1]
+        own = soft_in_pipe(Ca, np.array([0.0, _PIPE_END])).F[-1]
         for stride in (1, STRIDE):
             pipe = pipe_cloud(Ca, _PIPE_STEP, Models(integrator="rosenbrock", stride=stride))
             rows += _rows(pipe, own, _PIPE_END, f"rosenbrock, pipe, Ca = {Ca:g}")
