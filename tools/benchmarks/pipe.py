@@ -277,7 +277,7 @@ def write_soft_cloud(folder: Path, n: int, dt: float, steps: int, writes: int, s
         folder / "constant" / "softCloudProperties",
         f"solution {{ deltaT {dt:g}; endTime {end:.9g}; writeInterval {end / writes:.9g}; "
         f"integrationSchemes {{ shape {scheme}; }} }}\n"
-        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; "
+        f"constantProperties {{ rho0 {RHO_S}; rhoInf {RHO}; nu {NU}; "
         "solid { type neoHooke; poissonsRatio 0.499; shearModulus 0.05; } }\n"
         "subModels { particleForces { ellipsoidDrag; gravity; } injectionModels { inlet { "
         f"type patchInjection; patch inlet; parcelsPerSecond {n / (0.9 * end):.9g}; "

@@ -75,7 +75,11 @@ def measure(options: Options) -> list[Row]:
     def theirs(fluid: pipe.Fluid) -> float:
         pipe.write_dictionaries(case, fluid.nu, fluid.rho)
         pipe.write_parcels(case, x, rho=fluid.rho_s)
-        return openfoam_cost(case, n, steps)
+        try:
+            return openfoam_cost(case, n, steps)
+        finally:
+            # Other parts use the case as well.
+            pipe.write_dictionaries(case, pipe.NU, pipe.RHO)
 
     contestants: dict[str, Callable[[], float]] = {}
     for fluid in FLUIDS:
