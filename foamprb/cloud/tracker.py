@@ -409,9 +409,9 @@ _ROOM, _MORE_ROOM = 1000, 4
 
 def check(models: Models, tense: bool) -> None:
     """Raise InputError if the models do not go together; ``tense`` as of :class:`Tracker`."""
-    if models.stride < 1 or models.stride != int(models.stride):
+    if not isinstance(models.stride, int | np.integer) or models.stride < 1:
         raise InputError(
-            f"the stride is {models.stride:g}. Allowed: whole numbers of tracking steps, 1 or more"
+            f"the stride is {models.stride}. Allowed: whole numbers of tracking steps, 1 or more"
         )
     integrator = INTEGRATORS[models.integrator]
     reason = integrator.refuses(models.traction, models.material, tense)

@@ -199,7 +199,7 @@ def test_what_an_aligned_call_holds_changes_no_bit_in_a_flow_that_changes(calls)
     assert whole.particles.substeps.max() <= 0.25
 
 
-@pytest.mark.parametrize("stride", [0, -4, 2.5])
+@pytest.mark.parametrize("stride", [0, -4, 2.5, 4.0, math.nan, math.inf])
 def test_a_stride_that_is_no_number_of_steps_is_refused(stride):
     with pytest.raises(InputError, match=f"the stride is {stride}. Allowed: whole numbers"):
         in_shear("stokes", stride)

@@ -46,6 +46,14 @@ def test_the_scheme_in_plain_numpy_is_the_compiled_one():
     assert np.abs(p.F - np.eye(3).ravel()).max() > 0.2
 
 
+def test_a_run_with_output_is_in_air_whatever_another_part_has_left(tmp_path):
+    case = pipe.write_case(tmp_path, GRID)
+    pipe.write_dictionaries(case, pipe.WATER.nu, pipe.WATER.rho)
+    pipe.write_soft_cloud(case, 10, 2e-5, 10, 1)
+    medium = foamprb.prepare(case).cloud.medium
+    assert (medium.mu, medium.rho) == pytest.approx((pipe.NU * pipe.RHO, pipe.RHO))
+
+
 def test_sizes_of_the_grids():
     assert pipe.GRIDS["5k"].cells == 4992
     assert pipe.GRIDS["40k"].cells == 39_936
