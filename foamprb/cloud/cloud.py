@@ -272,7 +272,7 @@ class Cloud:
             An earlier copy that nobody needs any more, whose memory is used again.
         """
         into = None if before is None else before.particles
-        particles = self.particles.copy_changing(into, self.tracker.changing)
+        particles = self.particles.copy_changing(into, self.tracker.changing, self.threads)
         return Snapshot(particles, self.flow, self.time, self.step, self.recovered, self.reach)
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:

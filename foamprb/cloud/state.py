@@ -6,6 +6,7 @@ What is saved, restarted and written is read off this declaration (:data:`VARIAB
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from concurrent.futures import ThreadPoolExecutor
 from enum import IntEnum
 from typing import Annotated, Any, NamedTuple, TypeAlias, get_type_hints
 
@@ -132,7 +133,9 @@ class Particles(NamedTuple):
         """The particles of the given rows: copied, or of a slice as they are."""
         return Particles(*(array[rows] for array in self))
 
-    def copy_changing(self, into: Particles | None = None, names: Collection[str] | None = None) -> Particles:
+    def copy_changing(
+        self, into: Particles | None = None, names: Collection[str] | None = None, threads: int = 1
+    ) -> Particles:
         """The same state, with copies of the arrays that change.
 
         Parameters
@@ -141,16 +144,23 @@ class Particles(NamedTuple):
             An earlier copy of as many particles, whose memory is used again.
         names
             Which these are; by default all that may.
+        threads
+            How many copy.
         """
-        arrays = self._asdict()
-        for name in CHANGING if names is None else names:
-            array, place = arrays[name], None if into is None else getattr(into, name)
+
+        def copied(name: str) -> Array:
+            array: Array = getattr(self, name)
+            place: Array | None = None if into is None else getattr(into, name)
             if place is None or place is array or place.shape != array.shape:
-                arrays[name] = array.copy()
-            else:
-                np.copyto(place, array)
-                arrays[name] = place
-        return Particles(**arrays)
+                return array.copy()
+            np.copyto(place, array)
+            return place
+
+        # The largest first, so that all are done at about the same time.
+        changing = sorted(CHANGING if names is None else names, key=lambda name: -getattr(self, name).nbytes)
+        with ThreadPoolExecutor(threads) as pool:
+            copies = dict(zip(changing, pool.map(copied, changing), strict=True))
+        return self._replace(**copies)
 
 
 VARIABLES: dict[str, Variable] = {

@@ -356,11 +356,7 @@ def shares_of(
     (step, count), (dt, start) = steps, times
     pending = p.status[rows] == Status.PENDING
     active, waiting = rows[~pending], rows[pending]
-    blocks = -(-len(active) // LANES)
-    strides = max(1, min(number, blocks))
-    active = in_blocks(p, active)
-    turn = np.arange(len(active)) // LANES % strides
-    found = [Share(active[turn == k], step, count) for k in range(strides) if blocks]
+    found = [Share(dealt, step, count) for dealt in _deal(in_blocks(p, active), number)]
 
     # One step early, as the loop has these times to other last bits.
     due = np.maximum(np.floor((p.t0[waiting] - start) / dt) - 1.0, step)
@@ -373,6 +369,19 @@ def shares_of(
         group = order[begin : begin + most]
         first = int(due[group[0]])
         found.append(Share(in_blocks(p, waiting[group]), first, step + count - first))
+    return found
+
+
+def _deal(rows: NDArray[np.int64], number: int) -> list[NDArray[np.int64]]:
+    """Deal out blocks of rows in turn, to so many if there are as many blocks."""
+    blocks = -(-len(rows) // LANES)
+    missing = blocks * LANES - len(rows)
+    whole = np.pad(rows, (0, missing)).reshape(blocks, LANES)
+    hands = min(number, blocks)
+    found = [whole[k::hands].ravel() for k in range(hands)]
+    if missing:
+        last = (blocks - 1) % hands
+        found[last] = found[last][:-missing]
     return found
 
 

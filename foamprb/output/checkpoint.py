@@ -132,7 +132,7 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
         If the file cannot be written.
     """
     arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
-    rows = {name: len(array) for name, array in arrays.items() if _is_one_row(array)}
+    rows = {name: len(array) for name, array in arrays.items() if is_one_row(array)}
     header = {"time": checkpoint.time, "arrays": list(arrays), "rows": rows, **checkpoint.header}
     with atomic_write(path) as temporary, temporary.open("wb") as file:
         summed = _Summed(file)
@@ -168,7 +168,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
     return Checkpoint(header.pop("time"), header, arrays)
 
 
-def _is_one_row(array: NDArray[Any]) -> bool:
+def is_one_row(array: NDArray[Any]) -> bool:
     """Whether a contiguous array has more than one row, and all are alike to the last bit."""
     if array.ndim == 0 or len(array) < 2 or not array.size or array.itemsize not in (1, 2, 4, 8):
         return False

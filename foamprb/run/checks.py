@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
-from foamprb.cloud.measures import shear_rate_at
+from foamprb.cloud.measures import as_slice, shear_rate_at
 from foamprb.cloud.state import Particles
 
 STEADY_CAPILLARY = 0.3
@@ -45,7 +45,8 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     """Return the dimensionless groups of the particles that one injection model releases."""
     rows = np.flatnonzero(cloud.particles.injector == injector)
     # A few at a time: copies of all would need as much memory again.
-    parts = [_ranges(cloud, cloud.particles.take(rows[k : k + _CHUNK])) for k in range(0, len(rows), _CHUNK)]
+    chosen = (as_slice(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK))
+    parts = [_ranges(cloud, cloud.particles.take(some)) for some in chosen]
     found = np.array(parts) if parts else np.full((1, 6, 2), np.nan)
     lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
     rate, capillary, reynolds, stokes, step, size = (

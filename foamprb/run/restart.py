@@ -24,7 +24,7 @@ from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
-from foamprb.output.checkpoint import Checkpoint
+from foamprb.output.checkpoint import Checkpoint, is_one_row
 from foamprb.output.pvd import Entry, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 
@@ -56,7 +56,9 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}
     for what, arrays in ((_PARTICLES, cloud.particles._asdict()), ("flow", cloud.flow.traits())):
-        marks |= {f"{what}/{name}": _sums(array) for name, array in arrays.items()}
+        most = max((len(np.atleast_1d(array)) for array in arrays.values()), default=0)
+        weights = np.random.default_rng(0).random(most)
+        marks |= {f"{what}/{name}": _sums(array, weights) for name, array in arrays.items()}
     return marks
 
 
@@ -213,24 +215,31 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield name, value.name if isinstance(value, Path) else value
 
 
-def _sums(array: ArrayLike) -> Sums:
+def _sums(array: ArrayLike, weights: NDArray[np.float64]) -> Sums:
     """Return what tells an array from another: a checksum of integers, else sums of each column.
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
+
+    Parameters
+    ----------
+    weights
+        Of the rows in the second sum: random numbers, as many at least.
     """
     values = np.atleast_1d(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
-    rows = np.atleast_1d(values)
-    columns = rows.reshape(len(rows), math.prod(rows.shape[1:]))
-    random = np.random.default_rng(0)
+    columns = values.reshape(len(values), math.prod(values.shape[1:]))
+    weights = weights[: len(columns)]
+    if is_one_row(np.ascontiguousarray(columns)):
+        # As in many arrays of a cloud: to find that out takes less than the sums.
+        columns, weights = columns[:1], weights.mean(keepdims=True)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
         chunk = columns[start : start + _CHUNK]
         if not np.isfinite(chunk).all():
             chunk = np.nan_to_num(chunk, posinf=0.0, neginf=0.0)
-        total += np.abs(chunk).sum(axis=0), random.random(len(chunk)) @ chunk
-    return [[float(columns.size)], *(total / max(len(columns), 1)).tolist()]
+        total += np.abs(chunk).sum(axis=0), weights[start : start + _CHUNK] @ chunk
+    return [[float(values.size)], *(total / max(len(columns), 1)).tolist()]
 
 
 def _differences(old: Mapping[str, str | Sums], new: Mapping[str, str | Sums]) -> list[str]:

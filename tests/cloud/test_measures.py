@@ -162,9 +162,10 @@ def test_longest_semi_axis_is_bounded_by_those_that_move(cloud):
     assert longest_semi_axis(cloud) == 0.0
 
 
-def test_a_copy_of_what_changes_stays_as_it_was(flow):
+@pytest.mark.parametrize("threads", [1, 3])
+def test_a_copy_of_what_changes_stays_as_it_was(flow, threads):
     p = spheres(np.zeros((3, 3)), d=1e-6, rho=1000.0, mu=1.0)
-    cloud = Cloud(p, flow, Medium(MU, 1.0, (0.0, 0.0, 0.0)), [], 1e-5, threads=1)
+    cloud = Cloud(p, flow, Medium(MU, 1.0, (0.0, 0.0, 0.0)), [], 1e-5, threads=threads)
     cloud.advance(1)
     snapshot = cloud.snapshot()
     before = [array.copy() for array in snapshot.particles]

@@ -27,6 +27,7 @@ from foamprb.cloud.executor import Threads
 from foamprb.errors import RunStopped
 from foamprb.output import atomic
 from foamprb.output.pvd import Series
+from foamprb.run import restart
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"
 EARLIER = 0.003
@@ -227,6 +228,22 @@ def test_changed_physics_is_refused_by_name(name, stopped, capsys):
     assert re.search(expected, text), text
     assert "-overwrite" in text
     assert results(stopped) == before
+
+
+@pytest.mark.parametrize("row", [np.array([1.0, -3.0, 0.0]), np.array([np.nan, 2.0, 1e-7])])
+def test_rows_that_are_alike_leave_the_fingerprint_of_any_others(row):
+    """They are summed in a shorter way: with one that differs in its last bit all are, to the same sums."""
+    rows, weights = np.tile(row, (700_000, 1)), np.random.default_rng(0).random(700_000)
+    nearly, others = rows.copy(), rows.copy()
+    nearly[-1, 1] = np.nextafter(nearly[-1, 1], np.inf)
+    others[:, 1] *= 1.0 + 1e-8
+    size, total, weighted = restart._sums(rows, weights)
+    assert size == [2_100_000.0]
+    known = np.nan_to_num(row)
+    np.testing.assert_allclose(total, np.abs(known), rtol=1e-15)
+    np.testing.assert_allclose(weighted, known * weights.mean(), rtol=1e-13)
+    assert restart._agree([size, total, weighted], restart._sums(nearly, weights))
+    assert not restart._agree([size, total, weighted], restart._sums(others, weights))
 
 
 def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
