@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 import foamprb
 from foamprb.cloud.cloud import Cloud, Snapshot
@@ -56,9 +56,10 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
         texts |= {f"patch {patch.name}": interaction}
     marks: Fingerprint = {name: str(value) for name, value in texts.items()}
     for what, arrays in ((_PARTICLES, cloud.particles._asdict()), ("flow", cloud.flow.traits())):
-        most = max((len(np.atleast_1d(array)) for array in arrays.values()), default=0)
+        values = {name: np.atleast_1d(array) for name, array in arrays.items()}
+        most = max((len(array) for array in values.values() if array.dtype.kind == "f"), default=0)
         weights = np.random.default_rng(0).random(most)
-        marks |= {f"{what}/{name}": _sums(array, weights) for name, array in arrays.items()}
+        marks |= {f"{what}/{name}": _sums(array, weights) for name, array in values.items()}
     return marks
 
 
@@ -215,17 +216,19 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield name, value.name if isinstance(value, Path) else value
 
 
-def _sums(array: ArrayLike, weights: NDArray[np.float64]) -> Sums:
+def _sums(values: NDArray[Any], weights: NDArray[np.float64]) -> Sums:
     """Return what tells an array from another: a checksum of integers, else sums of each column.
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
 
     Parameters
     ----------
+    values
+        An array of at least one axis, (n, ...).
     weights
-        Of the rows in the second sum: random numbers, as many at least.
+        Of the rows in the second sum: n random numbers or more, where the values are no integers. They tell
+        the order of the rows.
     """
-    values = np.atleast_1d(array)
     if values.dtype.kind != "f":
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
     columns = values.reshape(len(values), math.prod(values.shape[1:]))

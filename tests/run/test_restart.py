@@ -215,6 +215,10 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda c: edit(c, r"-0\.00165", "-0.00165001", "constant/softCloudPositions"),
         "particles at the start/x has changed",
     ),
+    "two places exchanged": (
+        lambda c: edit(c, r"(\(0 -0\.00165 0\)) (\([^)]+\))", r"\2 \1", "constant/softCloudPositions"),
+        "particles at the start/x has changed",
+    ),
     "flow": (hasten, "flow/nodes has changed"),
 }
 
