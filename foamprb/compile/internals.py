@@ -167,14 +167,18 @@ def _machine_code() -> _Changes:
     used = ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals", "_finalized")
     _need(JITCodeLibrary, *used, "add_linking_library", "_get_module_for_linking", "_optimize_functions")
     _need(CPUCallConv, "_get_arg_packer", "decode_arguments", "call_function")
+    _need(binding, "create_new_function_pass_manager")
 
     class Library(JITCodeLibrary):  # type: ignore[misc]
-        """Code of which all functions go through the same passes."""
+        """Code of which functions are made short one by one, and good once they are together."""
 
         def _optimize_functions(self, ll_module: Any) -> None:
-            # Numba sets the passes up anew for each, also for those that are only declared.
+            # Numba has all of LLVM's passes here, anew for each function, and all of them once more later.
             ll_module.data_layout = self._codegen._data_layout
-            passes, builder = self._codegen._function_pass_manager()
+            passes, builder = binding.create_new_function_pass_manager(), self._codegen._pass_builder()
+            passes.add_sroa_pass()
+            passes.add_simplify_cfg_pass()
+            passes.add_instruction_combine_pass()
             for function in ll_module.functions:
                 if not function.is_declaration:
                     passes.run(function, builder)
@@ -599,14 +603,17 @@ def _integers() -> _Changes:
 
 
 def _needless() -> _Changes:
-    """Numba does not look for closures, nor for operations on whole arrays: the formulas have neither.
+    """Numba does not look for what the formulas have not: closures, ``with``, operations on whole arrays.
 
     Gains 0.9 s; without it, it looks.
     """
-    from numba.core.typed_passes import NopythonRewrites
-    from numba.core.untyped_passes import InlineClosureLikes
+    from numba.core.typed_passes import InlineOverloads, NopythonRewrites
+    from numba.core.untyped_passes import InlineClosureLikes, WithLifting
 
-    return _Changes(passes={role: {InlineClosureLikes: None, NopythonRewrites: None} for role in _ROLES})
+    needless: dict[type, type | None] = dict.fromkeys(
+        (InlineClosureLikes, WithLifting, InlineOverloads, NopythonRewrites)
+    )
+    return _Changes(passes=dict.fromkeys(_ROLES, needless))
 
 
 def _cache() -> _Changes:

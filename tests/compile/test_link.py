@@ -345,9 +345,10 @@ def test_two_registers_full_go_side_by_side_where_that_is_asked_for(cache):
         np.testing.assert_allclose(values, expected, rtol=1e-15)
         (assembly,) = f.inspect_asm().values()
         found.append(re.findall(r"(vsqrtpd|vdivpd)[^\n]*%zmm", assembly))
+    # Whether the loop over them is unrolled is LLVM's affair.
     alone, together = found
-    assert alone == 2 * ["vsqrtpd", "vdivpd", "vsqrtpd"]
-    assert together == ["vsqrtpd", "vsqrtpd", "vdivpd", "vdivpd", "vsqrtpd", "vsqrtpd"]
+    assert alone[:3] == ["vsqrtpd", "vdivpd", "vsqrtpd"]
+    assert together[:6] == ["vsqrtpd", "vsqrtpd", "vdivpd", "vdivpd", "vsqrtpd", "vsqrtpd"]
 
 
 def test_what_else_a_function_carries_does_not_change_its_code(cache, monkeypatch):
