@@ -7,7 +7,7 @@ at a time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, NamedTuple
 
@@ -32,6 +32,7 @@ from foamprb.body.tensor import (
     skew,
     sym,
     to_frame,
+    transpose,
 )
 from foamprb.body.traction import disturbance
 from foamprb.cloud.block import (
@@ -65,6 +66,8 @@ class FoundRows(NamedTuple):
     """Below the rows of a block, what is found out about its particles."""
 
     gradient: Annotated[int, Row(9, "1", "F·F₀⁻¹, the deformation gradient from the shape at rest")]
+    glyph: Annotated[int, Row(9, "m", "columns of R F one after the other")]
+    axes: Annotated[int, Row(3, "m", "semi-axes in falling order")]
     orientation: Annotated[int, Row(4, "1", "the frame's quaternion w, x, y, z")]
     stresslet: Annotated[int, Row(6, "N m", "components xx yy zz xy yz xz")]
     spin: Annotated[int, Row(3, "1/s", "angular velocity")]
@@ -74,6 +77,8 @@ class FoundRows(NamedTuple):
 
 result = offsets(FoundRows, ROWS)
 ALL_ROWS = end(result)
+_FIRST = tuple(result)
+_SIZES = dict(zip(result._fields, np.diff((*result, ALL_ROWS)).tolist(), strict=True))
 
 
 class Context(NamedTuple):
@@ -87,8 +92,8 @@ class Context(NamedTuple):
     """In the same order."""
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
-    found: Floats
-    """The :class:`FoundRows` of all particles."""
+    found: Mapping[str, Floats]
+    """The :class:`FoundRows` of all particles by name, (n, k)."""
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
@@ -161,6 +166,8 @@ def report_stage(block: Any, mu: float) -> None:
         block[result.orientation * LANES + i] = w
         store3(block, result.orientation + 1, i, (x, y, z))
         J, R = det(F), block[at.R * LANES + i]
+        store9(block, result.glyph, i, scale(R, transpose(F)))
+        store3(block, result.axes, i, (R * stretches[0], R * stretches[1], R * stretches[2]))
         block[result.volume_ratio * LANES + i] = J
         l, body = load9(block, at.l, i), dot(load9(block, at.A, i), inverse(F))
         block[result.rate * LANES + i] = shear_rate(l)
@@ -176,9 +183,18 @@ def report_stage(block: Any, mu: float) -> None:
 
 
 def find_out(
-    F: Floats, A: Floats, Q: Floats, F0: Floats, R: Floats, l: Floats, mu: float, block: Floats, found: Floats
+    F: Floats,
+    A: Floats,
+    Q: Floats,
+    F0: Floats,
+    R: Floats,
+    l: Floats,
+    mu: float,
+    block: Floats,
+    frames: Floats,
+    found: tuple[Floats, ...],
 ) -> None:
-    """Put the frame, the stretches and the :class:`FoundRows` of n particles into ``found``.
+    """Find out the frames, the stretches and the :class:`FoundRows` of n particles.
 
     Parameters
     ----------
@@ -190,8 +206,10 @@ def find_out(
         Viscosity of the fluid, Pa s.
     block
         Working memory, (ALL_ROWS · LANES,).
+    frames
+        Takes 9 rows of the frame and 3 of the stretches, (12, n).
     found
-        (36, n): 9 of the frame, 3 of the stretches, 24 of the rows.
+        Take the :class:`FoundRows`, each (n, k).
     """
     n = F.shape[0]
     for start in range(0, n, LANES):
@@ -212,13 +230,15 @@ def find_out(
         m = min(LANES, n - start)
         for c in range(9):
             for i in range(m):
-                found[c, start + i] = block[(at.Q + c) * LANES + i]
+                frames[c, start + i] = block[(at.Q + c) * LANES + i]
         for c in range(3):
             for i in range(m):
-                found[9 + c, start + i] = block[(at.stretch + c) * LANES + i]
-        for c in range(ALL_ROWS - ROWS):
+                frames[9 + c, start + i] = block[(at.stretch + c) * LANES + i]
+        for q in range(len(found)):
+            values, first = found[q], _FIRST[q]
             for i in range(m):
-                found[12 + c, start + i] = block[(ROWS + c) * LANES + i]
+                for c in range(values.shape[1]):
+                    values[start + i, c] = block[(first + c) * LANES + i]
 
 
 _STAGES = (stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage)
@@ -247,23 +267,9 @@ def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> flo
     return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
 
 
-def _glyph(c: Context) -> Floats:
-    """Columns of R F one after the other: what ParaView's Tensor Glyph draws as the deformed unit sphere."""
-    F = c.particles.F.reshape(-1, 3, 3)
-    return (c.particles.R[:, None, None] * F.transpose(0, 2, 1)).reshape(-1, 9)
-
-
-def _semi_axes(c: Context) -> Floats:
-    return np.stack(c.stretches, axis=1) * c.particles.R[:, None]
-
-
-def _found(at: int, n: int) -> Callable[[Context], Floats]:
-    """So many rows of what was found out, as an array with a row per particle."""
-    return lambda c: c.found[at - ROWS : at - ROWS + n].T
-
-
-def _found_one(at: int) -> Callable[[Context], Floats]:
-    return lambda c: c.found[at - ROWS]
+def _found(name: str) -> Callable[[Context], Floats]:
+    """What was found out, by its name among the :class:`FoundRows`."""
+    return lambda c: c.found[name] if _SIZES[name] > 1 else c.found[name][:, 0]
 
 
 MEASURES: dict[str, Measure] = {
@@ -273,16 +279,16 @@ MEASURES: dict[str, Measure] = {
     "age": Measure("s", lambda c: c.particles.t - c.particles.t0),
     "origId": Measure("", lambda c: c.rows),
     "active": Measure("", lambda c: c.particles.status == Status.ACTIVE),
-    "deformationGradient": Measure("1", _found(result.gradient, 9)),
-    "glyph": Measure("m", _glyph),
-    "semiAxes": Measure("m", _semi_axes),
-    "orientation": Measure("1", _found(result.orientation, 4)),
+    "deformationGradient": Measure("1", _found("gradient")),
+    "glyph": Measure("m", _found("glyph")),
+    "semiAxes": Measure("m", _found("axes")),
+    "orientation": Measure("1", _found("orientation")),
     "taylorDeformation": Measure("1", lambda c: taylor_deformation(c.stretches[0], c.stretches[2])),
-    "stresslet": Measure("N m", _found(result.stresslet, 6)),
-    "J": Measure("1", _found_one(result.volume_ratio)),
-    "angularVelocity": Measure("1/s", _found(result.spin, 3)),
-    "shearRate": Measure("1/s", _found_one(result.rate)),
-    "capillaryNumber": Measure("1", lambda c: c.mu * c.found[result.rate - ROWS] / c.particles.mu),
+    "stresslet": Measure("N m", _found("stresslet")),
+    "J": Measure("1", _found("volume_ratio")),
+    "angularVelocity": Measure("1/s", _found("spin")),
+    "shearRate": Measure("1/s", _found("rate")),
+    "capillaryNumber": Measure("1", lambda c: c.mu * c.found["rate"][:, 0] / c.particles.mu),
     "status": Measure("", lambda c: c.particles.status),
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),
@@ -290,9 +296,10 @@ MEASURES: dict[str, Measure] = {
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
-``deformationGradient`` is F·F₀⁻¹, from the shape at rest; ``orientation`` is the :func:`quaternion` of the
-frame; ``taylorDeformation`` is that of the longest and the shortest axis; the components of ``stresslet`` are
-xx yy zz xy yz xz; ``capillaryNumber`` is that of the shear rate where the particle is.
+``deformationGradient`` is F·F₀⁻¹, from the shape at rest; ``glyph`` is what ParaView's Tensor Glyph draws
+as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the frame; ``taylorDeformation`` is
+that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
+``capillaryNumber`` is that of the shear rate where the particle is.
 """
 
 
@@ -390,12 +397,12 @@ def _prepare(
     chosen = as_slice(rows)
     p = particles.take(chosen)
     l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
-    found = np.empty((12 + ALL_ROWS - ROWS, len(rows)))
-    block = new_block(ALL_ROWS)
-    _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, found)
-    F, frame, l_f = tuple(p.F.T), tuple(found[:9]), tuple(l.T)
+    frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
+    found = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
+    _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, frames, tuple(found.values()))
+    F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
-    return Context(p, F, frame, (found[9], found[10], found[11]), l_f, found[12:], numbers, time, mu)
+    return Context(p, F, frame, (frames[9], frames[10], frames[11]), l_f, found, numbers, time, mu)
 
 
 @cache

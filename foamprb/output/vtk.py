@@ -270,7 +270,7 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
 
 
 def poly_data(snapshot: PointCloud) -> vtkPolyData:
-    """A cloud as VTK has it, with what :func:`write_snapshot` writes."""
+    """A cloud as VTK has it, with what :func:`write_snapshot` writes; it shares the memory of the arrays."""
     data = vtkPolyData()
     points = vtkPoints()
     points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))
@@ -302,7 +302,7 @@ def _vertices(n: int) -> vtkCellArray:
 
 def _vtk_array(name: str, array: NDArray[Any]) -> Any:
     plain = array.astype(np.int8) if array.dtype == np.bool_ else array
-    result = numpy_to_vtk(np.ascontiguousarray(plain), deep=True)
+    result = numpy_to_vtk(np.ascontiguousarray(plain))
     result.SetName(name)
     return result
 
