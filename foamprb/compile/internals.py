@@ -173,15 +173,20 @@ def _machine_code() -> _Changes:
         """Code of which functions are made short one by one, and good once they are together."""
 
         def _optimize_functions(self, ll_module: Any) -> None:
-            # Numba has all of LLVM's passes here, anew for each function, and all of them once more later.
+            # Numba sets the passes up anew for each, also for those that are only declared.
             ll_module.data_layout = self._codegen._data_layout
-            passes, builder = binding.create_new_function_pass_manager(), self._codegen._pass_builder()
-            passes.add_sroa_pass()
-            passes.add_simplify_cfg_pass()
-            passes.add_instruction_combine_pass()
+            passes, builder = self._function_passes()
             for function in ll_module.functions:
                 if not function.is_declaration:
                     passes.run(function, builder)
+
+        def _function_passes(self) -> tuple[Any, Any]:
+            # Not all that LLVM has, as numba does: what is linked goes through these once more.
+            passes = binding.create_new_function_pass_manager()
+            passes.add_sroa_pass()
+            passes.add_simplify_cfg_pass()
+            passes.add_instruction_combine_pass()
+            return passes, self._codegen._pass_builder()
 
     class Inlined(Library):
         """Intermediate code that becomes a part of others, with what it inlines itself."""
@@ -248,6 +253,11 @@ def _machine_code() -> _Changes:
 
     class Ready(Separate):
         """The same, of what is so already but for what stands in functions of their own."""
+
+        def _function_passes(self) -> tuple[Any, Any]:
+            # There are no others later: of stages, which take a tenth longer without.
+            passes: tuple[Any, Any] = self._codegen._function_pass_manager()
+            return passes
 
         def finalize(self) -> None:
             passes = binding.create_new_module_pass_manager()
