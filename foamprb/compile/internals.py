@@ -39,7 +39,7 @@ import numba
 from llvmlite import binding, ir  # type: ignore[import-untyped]
 
 from foamprb.compile.cache import Store
-from foamprb.compile.trace import Code, UntraceableError, trace
+from foamprb.compile.trace import LANES, Code, UntraceableError, trace
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["Internals", "Role", "internals", "use_cache_for_cuda"]
@@ -172,21 +172,23 @@ def _machine_code() -> _Changes:
     class Library(JITCodeLibrary):  # type: ignore[misc]
         """Code of which functions are made short one by one, and good once they are together."""
 
+        of_stage = False
+        """Whether it is good before: loops over lanes would not all be vectorised, and what is traced goes
+        through no other passes."""
+
         def _optimize_functions(self, ll_module: Any) -> None:
             # Numba sets the passes up anew for each, also for those that are only declared.
             ll_module.data_layout = self._codegen._data_layout
-            passes, builder = self._function_passes()
+            if self.of_stage:
+                passes, builder = self._codegen._function_pass_manager()
+            else:
+                passes, builder = binding.create_new_function_pass_manager(), self._codegen._pass_builder()
+                passes.add_sroa_pass()
+                passes.add_simplify_cfg_pass()
+                passes.add_instruction_combine_pass()
             for function in ll_module.functions:
                 if not function.is_declaration:
                     passes.run(function, builder)
-
-        def _function_passes(self) -> tuple[Any, Any]:
-            # Not all that LLVM has, as numba does: what is linked goes through these once more.
-            passes = binding.create_new_function_pass_manager()
-            passes.add_sroa_pass()
-            passes.add_simplify_cfg_pass()
-            passes.add_instruction_combine_pass()
-            return passes, self._codegen._pass_builder()
 
     class Inlined(Library):
         """Intermediate code that becomes a part of others, with what it inlines itself."""
@@ -235,6 +237,8 @@ def _machine_code() -> _Changes:
     class Separate(Entry):
         """Intermediate code that others call, optimised, with that of all that it calls."""
 
+        of_stage = True
+
         def add_ir_module(self, ir_module: Any) -> None:
             for function in ir_module.functions:
                 # Llvmlite knows no attributes of this kind. It means nothing to other processors.
@@ -253,11 +257,6 @@ def _machine_code() -> _Changes:
 
     class Ready(Separate):
         """The same, of what is so already but for what stands in functions of their own."""
-
-        def _function_passes(self) -> tuple[Any, Any]:
-            # There are no others later: of stages, which take a tenth longer without.
-            passes: tuple[Any, Any] = self._codegen._function_pass_manager()
-            return passes
 
         def finalize(self) -> None:
             passes = binding.create_new_module_pass_manager()
@@ -388,6 +387,7 @@ def _machine_code() -> _Changes:
 
         def run_pass(self, state: Any) -> bool:
             library = Inlined(state.targetctx.codegen(), state.func_id.func_qualname)
+            library.of_stage = _is_of_stage(state.func_id.func)
             return lower(self, state, library, for_code)
 
     @register_pass(mutates_CFG=True, analysis_only=False)
@@ -423,6 +423,12 @@ def _machine_code() -> _Changes:
         rebuild={"separate": rebuild},
         called=_Called(Ready, for_code, not_executable),
     )
+
+
+def _is_of_stage(function: Any) -> bool:
+    """Whether a function goes through the lanes of a block, its first argument."""
+    code = function.__code__
+    return {LANES, "range"} <= {*code.co_names} and code.co_varnames[:1] == ("block",)
 
 
 _WIDE = '"prefer-vector-width"="512"'

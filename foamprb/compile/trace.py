@@ -19,9 +19,10 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["Code", "UntraceableError", "branch", "trace"]
+__all__ = ["LANES", "Code", "UntraceableError", "branch", "trace"]
 
-_LANES = "LANES"
+LANES = "LANES"
+"""By which name stages know the number of lanes."""
 
 
 class UntraceableError(Exception):
@@ -410,9 +411,9 @@ def trace(
     UntraceableError
         If the function is no stage.
     """
-    if _LANES not in function.__code__.co_names:
+    if LANES not in function.__code__.co_names:
         raise UntraceableError("no lanes")
-    lanes = int(function.__globals__[_LANES])
+    lanes = int(function.__globals__[LANES])
     code, again = (Code(lanes, math.gcd(lanes, together), flags, passes) for passes in (1, 2))
     for each in (code, again):
         try:
@@ -447,7 +448,7 @@ def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> A
     if value is np or value is math:
         return _functions(code)
     if isinstance(value, np.integer):
-        return _Lanes(value) if name == _LANES else int(value)
+        return _Lanes(value) if name == LANES else int(value)
     text = getattr(value, "py_func", None)
     if text is None:
         return value
