@@ -120,9 +120,13 @@ def end_tracking_steps(s: Scratch, i: int) -> None:
     s.step[i] += s.stride[i]
 
 
-def overspent(s: Scratch, i: int) -> bool:
-    """Whether lane i has taken more steps than it may in one tracking step; it then fails."""
-    if s.block[at.taken * LANES + i] <= s.bounds.sub_steps:
+def overspent(s: Scratch, i: int, rest: float) -> bool:
+    """Whether lane i has taken more steps than it may for a tracking step; it then fails.
+
+    ``rest`` is what was left of its stretch before the last step, in tracking steps.
+    """
+    begun = s.stride[i] - math.ceil(rest) + 1
+    if s.block[at.taken * LANES + i] <= s.bounds.sub_steps * max(1, begun):
         return False
     fail(s, i, SUB_STEPS)
     return True

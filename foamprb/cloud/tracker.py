@@ -26,7 +26,7 @@ from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.forces.base import Force
 from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
-from foamprb.cloud.integrators.adaptive import whole_strides
+from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import Bounds
@@ -95,8 +95,8 @@ class Models:
     rebounds: bool = False
     """Whether it is noted where and when particles bounce off (:meth:`Tracker.take_rebounds`)."""
     stride: int = 1
-    """Through how many tracking steps Δt a step of ``stokes`` or ``rosenbrock`` may go where its error allows
-    it, 2ᵏ or 3·2ᵏ. None goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+    """How many tracking steps Δt long a step of ``stokes`` or ``rosenbrock`` may be where its error allows
+    it. None goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
 
 
 class Tracker:
@@ -176,7 +176,7 @@ class Tracker:
         if integrator.adaptive and models.tolerance < np.inf and not models.surroundings:
             self.stride = models.stride
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
-        self.whole = whole_strides(self.stride)
+        self.whole = stretch_of(self.stride)
         """Calls that begin and end at multiples of so many steps may cut a run anywhere: no bit changes."""
         self._rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0

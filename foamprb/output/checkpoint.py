@@ -1,9 +1,10 @@
 """Checkpoints: files of a header and arrays, with a checksum.
 
 A file is one line that names format and version, the header as one line of JSON, the arrays as numpy's
-``.npy`` one after the other in the order of the header's ``arrays``, and XXH3, of 64 bits, of all that. Where all
-rows of an array are alike, as in many of a cloud's, the file has one of them, and the header's ``rows`` says
-how many there are. The last two files stay on disk, so that a run can resume when one of them is damaged.
+``.npy`` one after the other in the order of the header's ``arrays``, and XXH3, of 64 bits, of all that. Where
+all rows of an array are alike, as in many of a cloud's, the file has one of them, and the header's ``rows``
+says how many there are. The last two files stay on disk, so that a run can resume when one of them is
+damaged.
 """
 
 from __future__ import annotations

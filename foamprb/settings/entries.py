@@ -102,9 +102,9 @@ class Solution:
             Positive,
             Meaning(
                 "[longest step](integrators.md#steps-longer-than-deltat) of integrators that choose their "
-                "own: up to there 2, 3, 4, 6, 8, … times `deltaT` if the error allows it",
+                "own, if the error allows it",
                 "s",
-                "four times `deltaT`",
+                "eight times `deltaT`",
             ),
         ]
         | None

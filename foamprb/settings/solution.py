@@ -25,8 +25,8 @@ _CONTROL, _SCHEMES = Path("system/controlDict"), Path("system/fvSchemes")
 _TIME = Annotated[float, Positive]
 MULTIPLE_TOLERANCE = 1e-6
 """Relative error of a write interval that counts as a multiple of the step."""
-STRIDE = 4
-"""Through how many tracking steps a step of an integrator that chooses its own may go by default."""
+STRIDE = 8
+"""How many tracking steps long a step of an integrator that chooses its own may be by default."""
 MOST_STEPS = 2**53
 """From there on not every step has a number of its own in double precision."""
 
@@ -107,13 +107,11 @@ def _require_multiple(entry: Entry, interval: float, step: float) -> None:
 
 
 def _stride(entry: Entry, longest: float, step: float) -> int:
-    """The largest 2ᵏ or 3·2ᵏ of steps up to ``longest``, s; raise InputError if there is not even one."""
+    """The largest number of steps up to ``longest``, s; raise InputError if there is not even one."""
     _require_steps(entry, longest, step)
     if longest < step * (1.0 - MULTIPLE_TOLERANCE):
         raise entry.mistake(f"is {longest:g}. Allowed: at least deltaT = {step:g}.")
-    times = max(1, int(longest / step * (1.0 + MULTIPLE_TOLERANCE)))
-    even = 1 << (times.bit_length() - 1)
-    return 3 * even // 2 if even > 1 and 3 * even // 2 <= times else even
+    return max(1, int(longest / step * (1.0 + MULTIPLE_TOLERANCE)))
 
 
 def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:

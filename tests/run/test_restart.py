@@ -112,7 +112,7 @@ def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch)
 def test_steps_through_several_tracking_steps_do_not_depend_on_where_a_run_stops(case, monkeypatch):
     """Nor on the number of threads; write times are no multiples of theirs."""
     edit(case, r"shape\s+paper;", "shape rosenbrock;")
-    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.00054;")
+    edit(case, r"writeInterval\s+\S+;", "writeInterval 0.00154;")
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     shutil.rmtree(case / "postProcessing")
@@ -122,7 +122,7 @@ def test_steps_through_several_tracking_steps_do_not_depend_on_where_a_run_stops
     stopped = prepare(case).cloud
     go_on(case, "-threads", "2")
     assert results(case) == expected
-    assert stopped.tracker.stride == 4
+    assert stopped.tracker.stride == 8
 
 
 def test_a_later_end_time_continues_the_run(case, truth):

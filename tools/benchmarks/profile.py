@@ -187,7 +187,7 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
     return runs
 
 
-def share_of_use(flow: Any, n: int, Ca: float, steps: int = 24) -> float:
+def share_of_use(flow: Any, n: int, Ca: float, steps: int = 8 * STRIDE) -> float:
     """Share of the lanes' steps of a default run that carry a particle, at least.
 
     It is that of lanes that would wait for the slowest of their block, and not take another particle.

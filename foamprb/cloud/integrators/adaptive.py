@@ -1,8 +1,8 @@
 """The compiled loop of the integrators of order 3(2), each particle with error-controlled steps of its own.
 
-A tracking step Δt is cut into as many steps h as the tolerance asks for; the size that a particle found is
-part of its state. As in all loops (:mod:`foamprb.cloud.advance`), the lanes of a block go side by side and
-all alike.
+A tracking step Δt, or a stretch of them, is cut into as many steps h as the tolerance asks for; the size that
+a particle found is part of its state. As in all loops (:mod:`foamprb.cloud.advance`), the lanes of a block go
+side by side and all alike.
 
 A step evaluates the body's equations at its start, at a quarter of it, and for the lanes that need order 3
 at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.error_control import (
     LEARNED_FOR,
+    MOST,
     chord_error,
     largest,
     learned_share,
@@ -111,7 +112,8 @@ class StepRows(NamedTuple):
     difference: Annotated[int, Row(1, "1", "difference of the solutions of order 2 and 3")]
     path: Annotated[int, Row(1, "1", "error of the path over its length")]
     by_path: Annotated[int, Row(1, "1", "length of the next step over that of this one, by that error")]
-    rest: Annotated[int, Row(1, "s", "what is left of the tracking step", 1.0)]
+    rest: Annotated[int, Row(1, "s", "what is left of the stretch", 1.0)]
+    again: Annotated[int, Row(1, "", "1 after a step whose error was too large, else 0", lasting=True)]
     ahead: Annotated[int, Row(3, "m", "where the step was to lead when its end was sampled")]
     room: Annotated[int, Row(1, "m", "how far off its end may be, along each axis, in the same host")]
 
@@ -121,6 +123,8 @@ STEP_ROWS = end(during)
 
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
+_STRETCH = 8
+"""Stretches are so many times as long as the longest step: rounding to whole steps then costs little."""
 _MANY = 6
 """So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first. More than
 there are lanes would wait for ever."""
@@ -246,8 +250,8 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
-def begin_stage(block: Any, dt: float) -> None:
-    """Let a step begin with the fluid as the flow has it, and find out how long it is, in tracking steps Δt.
+def begin_stage(block: Any) -> None:
+    """Let a step begin with the fluid as the flow has it.
 
     What was sampled are ``start_u`` and ``start_l``, and ∂u/∂t in the place of Du/Dt.
     """
@@ -255,12 +259,6 @@ def begin_stage(block: Any, dt: float) -> None:
         l = load9(block, during.start_l, i)
         store_fluid(block, i, load3(block, during.start_u, i), l, load3(block, at.DuDt, i))
         store9(block, at.new_F, i, load9(block, at.F, i))
-        rest, size, longest = block[during.rest * LANES + i], block[at.h * LANES + i], longest_step(l)
-        size = select(longest < size, longest, size)
-        half = 0.5 * rest
-        # A little more than one step left is two equal ones, not one and a sliver; round-off is not more.
-        size = select(size >= rest - SHORTEST_STEP * dt, rest, select(half < size, half, size))
-        block[at.dt * LANES + i] = select(block[at.moving * LANES + i] > 0.0, size, block[at.dt * LANES + i])
 
 
 def path_pace(block: Any, i: int, tolerance: float) -> None:
@@ -354,13 +352,13 @@ def track_adaptive(
         Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, cut
         only by :func:`foamprb.body.error_control.longest_step`.
     most
-        Through how many tracking steps one of their steps may go, 2ᵏ or 3·2ᵏ (:func:`stride_of`).
+        How many tracking steps long one of their steps may be (:func:`stretch_of`).
 
     Returns
     -------
     The number of walks that failed and were mended by the tree.
     """
-    last = step + steps
+    last, stretch = step + steps, stretch_of(most)
     enough = tolerance if tolerance < math.inf else 0.0
     block, current = scratch.block, scratch.step
     idle_lanes(block, dt)
@@ -393,11 +391,13 @@ def track_adaptive(
             store3(block, during.start_u, i, u)
             store9(block, during.start_l, i, l_f)
             store3(block, at.DuDt, i, u_t)
-            scratch.stride[i] = stride_of(scratch, i, l_f, last, dt, most)
-            block[during.rest * LANES + i] = start + (current[i] + scratch.stride[i]) * dt - t
-            if current[i] % (LEARNED_FOR * scratch.stride[i]) == 0:
+            scratch.stride[i] = min((current[i] // stretch + 1) * stretch, last) - current[i]
+            rest = start + (current[i] + scratch.stride[i]) * dt - t
+            left = steps_left(block, i, rest, l_f, dt, most)
+            block[during.rest * LANES + i], block[at.dt * LANES + i] = rest, rest / left
+            if forgets(scratch, i, left, stretch):
                 block[during.discount * LANES + i] = 0.0
-        begin_stage(block, dt)
+        begin_stage(block)
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
                 look_around(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
@@ -424,27 +424,34 @@ def track_adaptive(
         for i in range(LANES):
             if not block[at.moving * LANES + i] > 0.0:
                 continue
-            if overspent(scratch, i):
+            if overspent(scratch, i, block[during.rest * LANES + i] / dt):
                 continue
             h, size = block[at.dt * LANES + i], block[at.h * LANES + i]
             t_end = start + (current[i] + scratch.stride[i]) * dt
             error = block[at.error * LANES + i]
             third = block[during.third * LANES + i] > 0.0
             difference, by_path = block[during.difference * LANES + i], block[during.by_path * LANES + i]
-            allowed = h * step_factor(third, difference, by_path, tolerance)
+            factor = step_factor(third, difference, by_path, tolerance)
+            allowed = h * factor
             if not error <= tolerance:
                 block[at.h * LANES + i] = allowed
+                block[during.again * LANES + i] = 1.0
                 if allowed < _SMALLEST * dt:
                     fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
+            # A step cut short says nothing against the size before it, unless by its error.
+            if factor >= MOST:
+                allowed = max(allowed, size)
+            # What was too long a moment ago is not tried again at once.
+            if block[during.again * LANES + i] > 0.0:
+                allowed = min(allowed, size)
+            block[during.again * LANES + i] = 0.0
             t_new = block[at.t * LANES + i] + h
             whole = t_new >= t_end - SHORTEST_STEP * dt
             if whole:
                 t_new = t_end
-                # A step cut short by the end of a tracking step says nothing against the size before it.
-                allowed = max(allowed, size)
             block[at.h * LANES + i] = min(most * dt, allowed)
             goal = load3(block, at.new_x, i)
             held = holds_end(block, i, goal)
@@ -456,38 +463,40 @@ def track_adaptive(
     return walks_mended(scratch)
 
 
-def stride_of(s: Scratch, i: int, l_f: Tensor, last: int, dt: float, most: int) -> int:
-    """Through how many tracking steps the next step of lane i goes: as many as its size allows.
+def stretch_of(most: int) -> int:
+    """The stretch of tracking steps for which a particle takes as many steps as its error asks for.
 
-    They are 2ᵏ or 3·2ᵏ, and begin at a multiple of that: the steps of a particle are so the same wherever
-    calls that begin and end at multiples of :func:`whole_strides` cut a run. None goes beyond ``last``; one
-    that begins close to a wall, not beyond the end of its tracking step.
+    Within it they begin and end anywhere, up to ``most`` tracking steps long. It begins at a multiple of its
+    length: the steps of a particle are so the same wherever calls that begin and end at multiples of it cut a
+    run.
+    """
+    return 1 if most == 1 else _STRETCH * most
+
+
+def steps_left(block: Any, i: int, rest: float, l_f: Tensor, dt: float, most: int) -> float:
+    """How many steps of one length lane i takes for what is left of its stretch, if its size stays as it is.
+
+    Close to a wall none is longer than Δt.
 
     Parameters
     ----------
+    rest
+        What is left, s; round-off is no step.
     l_f
         Velocity gradient of the fluid at the start, 1/s.
-    last, dt, most
-        As of :func:`track_adaptive`, and the tracking step after the last.
+    dt, most
+        As of :func:`track_adaptive`.
     """
-    block, step = s.block, s.step[i]
-    if block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]:
-        return 1
-    size = min(block[at.h * LANES + i], longest_step(l_f)) + SHORTEST_STEP * dt
-    n = most
-    while n > 1 and (n * dt > size or step % n != 0 or step + n > last):
-        n = shorter(n)
-    return n
+    close = block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]
+    size = min(block[at.h * LANES + i], dt if close else most * dt, longest_step(l_f))
+    return float(max(1.0, np.ceil((rest - SHORTEST_STEP * dt) / size)))
 
 
-def shorter(n: int) -> int:
-    """The next smaller number that is 2ᵏ or 3·2ᵏ, of one that is."""
-    return 2 * n // 3 if n % 3 == 0 else max(1, 3 * n // 4)
-
-
-def whole_strides(most: int) -> int:
-    """The least number of tracking steps into which all fit that :func:`stride_of` gives up to ``most``."""
-    return most if most == 1 else math.lcm(most, whole_strides(shorter(most)))
+def forgets(s: Scratch, i: int, left: float, stretch: int) -> bool:
+    """Whether lane i measures anew what it has learned: with one step of eight, and early in a stretch."""
+    if s.block[at.taken * LANES + i] > 0.0 or left >= LEARNED_FOR:
+        return left % LEARNED_FOR == 0.0
+    return bool(s.step[i] // stretch % (LEARNED_FOR // left) == 0.0)
 
 
 def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
@@ -496,7 +505,8 @@ def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, to
     What happens there is found to Δt so, however long steps are elsewhere.
     """
     block = s.block
-    if s.stride[i] > 1 and block[at.moving * LANES + i] > 0.0 and block[at.error * LANES + i] <= tolerance:
+    long = block[at.dt * LANES + i] > (1.0 + SHORTEST_STEP) * dt
+    if long and block[at.moving * LANES + i] > 0.0 and block[at.error * LANES + i] <= tolerance:
         goal = load3(block, at.new_x, i)
         if meets(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
             block[at.moving * LANES + i] = 0.0
