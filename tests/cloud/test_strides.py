@@ -79,7 +79,7 @@ class TestShear:
         # Not longer than half the inverse of the gradient, which is 0.5 s.
         cloud = in_shear(integrator, 256)
         cloud.advance(2 * 2048)
-        assert cloud.particles.substeps == pytest.approx(41.0 / 2048.0)
+        assert cloud.particles.substeps == pytest.approx(21.0 / 1024.0)
 
     @pytest.mark.parametrize(("steps", "taken"), [(64, 26), (5, 2), (6, 3), (1, 1)])
     def test_steps_need_not_end_with_tracking_steps(self, integrator, steps, taken):

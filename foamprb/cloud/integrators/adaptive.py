@@ -123,8 +123,9 @@ STEP_ROWS = end(during)
 
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
-_STRETCH = 8
-"""Stretches are so many times as long as the longest step: rounding to whole steps then costs little."""
+_STRETCH = 4
+"""Stretches are so many times as long as the longest step: rounding to whole steps then costs little, and the
+first calls, which do not yet know what belongs in a block, are short."""
 _MANY = 6
 """So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first. More than
 there are lanes would wait for ever."""
