@@ -14,7 +14,7 @@ says that the solution of order 2 will do, and two evaluations are enough. Its e
 is ½ h² N', that is 0.21 h N''/N' δ₁. N changes at the rate ρ at which the elastic stress relaxes, or at
 that of the fluid's gradient, and θ = ½ min(1, h (ρ + max |∂u_i/∂x_j|)) is more than twice as much. Else the
 third evaluation is made, and δ₂, the difference of the two solutions, is the error of order 2. From then on
-as much of θ δ₁ counts as δ₂ says (:func:`learned_share`), for at most eight Δt. That of the
+as much of θ δ₁ counts as δ₂ says (:func:`learned_share`), for some eight steps. That of the
 solution which is kept is of order h⁴ and found to be about 1/6 δ₂^(4/3), so that a step is accepted for
 
     δ₂^(4/3) ≤ tolerance,   and the next is   0.9 (tolerance^(3/4)/δ₂)^(1/3) times as long.
@@ -40,7 +40,7 @@ FLUID_SHARE = 1.0 / 32.0
 SECOND_SHARE = 0.5
 """θ of a step in which N has all the time to change."""
 DISTRUST, LEAST_SHARE, LEARNED_FOR = 1.5, 0.25, 8
-"""Of :func:`learned_share`: over the error that was found; the least; after so many Δt it is learned anew."""
+"""Of :func:`learned_share`: over the error found; the least; after so many steps it is learned anew."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
 LONGEST = 0.5

@@ -174,7 +174,7 @@ class Scratch(NamedTuple):
     asked: Any
     """One number without meaning: what was read in advance, which the compiler must believe to be of use."""
     stride: Any
-    """LANES whole numbers: through how many tracking steps the step of each goes."""
+    """LANES whole numbers: the tracking steps of the stretch that each is in."""
 
 
 SHELF, LABELS, COUNTS = 15 * LANES, 8, 5

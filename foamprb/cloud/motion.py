@@ -47,7 +47,7 @@ PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 SEEN = 1.0 + NEAR
 """Distance from a body's centre, in semi-axes, from which on it does not see walls."""
 CLOSE = 1.0
-"""A body with a smaller gap to a wall, in radii, takes no step through several tracking steps."""
+"""A body with a smaller gap to a wall, in radii, takes no step longer than a tracking step."""
 SHORTEST_STEP = 1e-6
 """A first step shorter than this share of Δt is left to the next."""
 UNLISTED = 1
@@ -114,7 +114,7 @@ def end_block(s: Scratch) -> None:
 
 
 def end_tracking_steps(s: Scratch, i: int) -> None:
-    """Let lane i go on to the tracking step after those through which its step went."""
+    """Let lane i go on to the tracking step after its stretch, which is done."""
     s.block[at.substeps * LANES + i] = s.block[at.taken * LANES + i] / s.stride[i]
     s.block[at.taken * LANES + i] = 0.0
     s.step[i] += s.stride[i]

@@ -107,7 +107,7 @@ class Particles(NamedTuple):
     substeps: Annotated[
         Array,
         Variable(
-            (), "f8", "1", "time steps of its last tracking step, also those repeated; a share of a long one"
+            (), "f8", "1", "time steps per tracking step in its last stretch of these, also those repeated"
         ),
     ]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]

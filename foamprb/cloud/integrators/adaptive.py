@@ -501,7 +501,7 @@ def forgets(s: Scratch, i: int, left: float, stretch: int) -> bool:
 
 
 def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
-    """Let lane i not take a step through several tracking steps that comes to a patch or close to a wall.
+    """Let lane i not take a step longer than a tracking step that comes to a patch or close to a wall.
 
     What happens there is found to Δt so, however long steps are elsewhere.
     """
