@@ -43,6 +43,9 @@ DISTRUST, LEAST_SHARE, LEARNED_FOR = 1.5, 0.25, 8
 """Of :func:`learned_share`: over the error found; the least; after so many steps it is learned anew."""
 SAFETY, LEAST, MOST = 0.9, 0.2, 2.0
 """Aim at this share of the step allowed, and the smallest and the largest factor between two steps."""
+GROWTH = 1.5
+"""A step is at most so much longer than what the one before it was meant to be. With steps that double, soft
+bodies err more after their release, in no less time."""
 LONGEST = 0.5
 """Longest step times the largest component of the fluid's velocity gradient.
 
@@ -188,3 +191,25 @@ def step_factor(third: bool, difference: float, by_path: float, tolerance: float
     if third:
         factor = SAFETY * (tolerance**0.75 / (difference + 1e-300)) ** (1.0 / 3.0)
     return min(MOST, max(LEAST, min(factor, by_path)))
+
+
+def next_size(h: float, size: float, factor: float, rejected: bool) -> float:
+    """Size of the steps that follow a step, s.
+
+    Parameters
+    ----------
+    h
+        The step, s.
+    size
+        What it was meant to be, s: at least h, as it may have been cut short.
+    factor
+        :func:`step_factor`.
+    rejected
+        Whether the step before it was not taken.
+    """
+    allowed = h * factor
+    # A step cut short says nothing against the size before it, unless by its error.
+    if factor >= MOST:
+        allowed = max(allowed, size)
+    # What was too long a moment ago is not tried again at once.
+    return min(allowed, size if rejected else GROWTH * size)

@@ -97,6 +97,29 @@ def test_step_factor():
         assert control.step_factor(False, 0.0, by_path, tolerance) == control.LEAST
 
 
+def test_next_size():
+    """At most half as long again as was meant; a step cut short does not cut the next but by its error."""
+    assert control.next_size(1.0, 1.0, control.MOST, False) == control.GROWTH
+    assert control.next_size(1.0, 1.0, control.MOST, True) == 1.0
+    assert control.next_size(1.0, 1.0, 1.2, False) == 1.2
+    assert control.next_size(1.0, 1.0, 0.4, True) == 0.4
+    assert control.next_size(0.1, 1.0, control.MOST, False) == 1.0
+    assert control.next_size(0.1, 1.0, 1.2, False) == pytest.approx(0.12)
+
+
+@given(
+    stretch=st.integers(1, 32),
+    share=st.floats(1e-3, 1.0),
+)
+def test_a_stretch_is_soon_cut_no_more_than_its_errors_ask_for(stretch, share):
+    """Whatever the size was, where nothing speaks against a step as long as all that is left."""
+    longest, size = stretch / np.ceil(stretch * share), 1e-3
+    for _ in range(40):
+        left = np.ceil(stretch / size - 1e-9)
+        size = min(longest, control.next_size(stretch / left, size, control.MOST, False))
+    assert np.ceil(stretch / size - 1e-9) == np.ceil(stretch / longest - 1e-9)
+
+
 def test_what_counts_after_a_step_of_order_three_is_what_it_found():
     share = control.learned_share(np.array([0.1, 1.0, 4.0, 9.0, np.inf]), 10.0)
     np.testing.assert_allclose(share, [0.25, 0.25, 0.6, 1.0, 1.0])

@@ -23,11 +23,11 @@ from numpy.typing import NDArray
 
 from foamprb.body.error_control import (
     LEARNED_FOR,
-    MOST,
     chord_error,
     largest,
     learned_share,
     longest_step,
+    next_size,
     path_factor,
     share_of_slope,
     step_factor,
@@ -433,21 +433,15 @@ def track_adaptive(
             third = block[during.third * LANES + i] > 0.0
             difference, by_path = block[during.difference * LANES + i], block[during.by_path * LANES + i]
             factor = step_factor(third, difference, by_path, tolerance)
-            allowed = h * factor
             if not error <= tolerance:
-                block[at.h * LANES + i] = allowed
+                block[at.h * LANES + i] = h * factor
                 block[during.again * LANES + i] = 1.0
-                if allowed < _SMALLEST * dt:
+                if h * factor < _SMALLEST * dt:
                     fail_small_step(scratch, i)
                 continue
             if not is_sound(scratch, i):
                 continue
-            # A step cut short says nothing against the size before it, unless by its error.
-            if factor >= MOST:
-                allowed = max(allowed, size)
-            # What was too long a moment ago is not tried again at once.
-            if block[during.again * LANES + i] > 0.0:
-                allowed = min(allowed, size)
+            allowed = next_size(h, size, factor, block[during.again * LANES + i] > 0.0)
             block[during.again * LANES + i] = 0.0
             t_new = block[at.t * LANES + i] + h
             whole = t_new >= t_end - SHORTEST_STEP * dt
