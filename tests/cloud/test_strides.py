@@ -9,6 +9,7 @@ import pytest
 from mesh_shapes import block, box_patches
 
 from foamprb import analytic
+from foamprb.body.error_control import GROWTH
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.adaptive import stretch_of
@@ -88,6 +89,15 @@ class TestShear:
         cloud.advance(64)
         cloud.advance(steps)
         assert cloud.particles.substeps == pytest.approx(taken / steps)
+
+    def test_steps_grow_by_a_half_at_most(self, integrator):
+        """From s, n of them come no farther than s (1.5ⁿ − 1)/0.5; about so far if no error is too large."""
+        cloud = in_shear(integrator, 1, tolerance=10.0)
+        cloud.advance(1)
+        cloud.particles.h[:] = 0.01 * cloud.dt
+        cloud.advance(1)
+        least = math.log(1.0 + (GROWTH - 1.0) / 0.01, GROWTH)
+        assert np.all((cloud.particles.substeps >= least) & (cloud.particles.substeps < least + 3.0))
 
     def test_the_error_stays_below_the_tolerance_times_the_steps(self, integrator):
         """Over the first shear times, of all bodies, as it does in steps of Δt."""

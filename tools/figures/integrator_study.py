@@ -491,7 +491,9 @@ def advance(
     step: Callable[..., Step], bodies: Bodies, fluid: Fluid, flow: Flow, x: tuple, F: tuple, end: float,
     dt: float, tolerance: float, probe: int = 0,
 ) -> Run:  # fmt: skip
-    """Steps of each body's own within tracking steps dt, as the compiled loop takes them.
+    """Steps of each body's own within tracking steps dt, as long as the errors of those before let them be.
+
+    The compiled loop cuts what is left into equal steps, and lets them grow more slowly.
 
     Parameters
     ----------
