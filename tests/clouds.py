@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from foamprb.output.vtk import Parts, PointCloud
+from foamprb.results.vtk import Parts, PointCloud
 
 
 def cloud(time: float = 0.1, n: int = 4) -> PointCloud:

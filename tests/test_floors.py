@@ -50,7 +50,7 @@ def test_no_import_runs_up_and_none_in_a_circle():
         ),
         ("flow/walk.py", "from foamprb.flow.series import SeriesFlow", "No import runs up within flow"),
         ("flow/mesh/faces.py", "from foamprb.flow.mesh.mesh import Mesh", "No import runs in a circle"),
-        ("output/tables.py", "from foamprb.body import tensor", "output and dictionary know no physics"),
+        ("results/tables.py", "from foamprb.body import tensor", "results and dictionary know no physics"),
         ("cloud/state.py", "from foamprb.dictionary.positions import read_positions", "cloud reads no files"),
         ("flow/base.py", "import foamprb", "Only cli comes through the door"),
     ],

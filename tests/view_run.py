@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.measures import quaternion
 from foamprb.cloud.state import Status
-from foamprb.output.pvd import Series
-from foamprb.output.tables import write_table
-from foamprb.output.vtk import PointCloud
+from foamprb.results.pvd import Series
+from foamprb.results.tables import write_table
+from foamprb.results.vtk import PointCloud
 
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 INJECTORS = ("soft", "stiff")

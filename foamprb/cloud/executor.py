@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from foamprb.cloud.cloud import Cloud, Snapshot
-    from foamprb.output.pvd import Series
+    from foamprb.results.pvd import Series
 
 __all__ = ["Executor", "Threads", "longest_semi_axis"]
 
@@ -104,7 +104,7 @@ class Executor(ABC):
         stem
             The snapshot's file without its ending.
         """
-        from foamprb.output.pvd import with_ending
+        from foamprb.results.pvd import with_ending
 
         return (with_ending(stem, ".vtp"),)
 

@@ -17,7 +17,7 @@ from foamprb.cloud.measures import (
 )
 from foamprb.cloud.state import Particles
 from foamprb.flow.base import Sampled
-from foamprb.output.vtk import Parts, PointCloud
+from foamprb.results.vtk import Parts, PointCloud
 
 
 def report(

@@ -14,7 +14,7 @@ from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, STATUS_NAMES, Memory, O
 from foamprb.cloudfunctions.rows import close_ended, names_of, open_rows
 from foamprb.dictionary.constraints import AtLeastOne, Choice, Meaning, Positive
 from foamprb.errors import InputError
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 __all__ = ["POWER_LAWS", "Haemolysis", "PowerLaw", "effective_shear_rate", "index_of_haemolysis"]
 

@@ -14,7 +14,7 @@ from foamprb.cloudfunctions.crossings import crossings
 from foamprb.cloudfunctions.rows import close_ended, masses, names_of, open_rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Only, Positive, Vector3
 from foamprb.errors import InputError
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 __all__ = ["ParticleCollector"]
 

@@ -15,7 +15,7 @@ from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, STATUS_NAMES, Memory, O
 from foamprb.cloudfunctions.rows import close_ended, names_of, open_rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
-from foamprb.output.tables import Column, write_table
+from foamprb.results.tables import Column, write_table
 
 __all__ = ["ParticleHistogram"]
 

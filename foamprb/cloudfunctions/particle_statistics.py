@@ -16,7 +16,7 @@ from foamprb.cloudfunctions.rows import close_ended, open_rows
 from foamprb.dictionary.constraints import AtLeastOne
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.output.foam import PatchValues, write_scalar_field
+from foamprb.results.foam import PatchValues, write_scalar_field
 
 __all__ = ["ParticleStatistics"]
 

@@ -12,7 +12,7 @@ from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud, Rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
-from foamprb.output.vtk import Tracks, write_tracks
+from foamprb.results.vtk import Tracks, write_tracks
 
 __all__ = ["ParticleTracks"]
 

@@ -18,8 +18,8 @@ from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import columns, masses, names_of
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
-from foamprb.output.names import file_name
-from foamprb.output.tables import write_table
+from foamprb.results.names import file_name
+from foamprb.results.tables import write_table
 
 __all__ = ["PatchPostProcessing"]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloudfunctions.base import Memory, Rows
-from foamprb.output.tables import Column
+from foamprb.results.tables import Column
 
 __all__ = ["close_ended", "columns", "masses", "names_of", "open_rows"]
 

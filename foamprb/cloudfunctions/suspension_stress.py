@@ -13,7 +13,7 @@ from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows
 from foamprb.cloudfunctions.rows import names_of
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 __all__ = ["SuspensionStress"]
 

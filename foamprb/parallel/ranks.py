@@ -26,11 +26,11 @@ from foamprb.cloud.executor import AT_ONCE, Executor
 from foamprb.cloud.rebounds import in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
-from foamprb.output.pvd import Series, with_ending
-from foamprb.output.vtk import write_pieces
 from foamprb.parallel.exchange import plan_exchange
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Share, Worker, piece_file
+from foamprb.results.pvd import Series, with_ending
+from foamprb.results.vtk import write_pieces
 from foamprb.settings.libs import loaded_libs
 
 log = logging.getLogger("foamprb")

@@ -22,9 +22,9 @@ from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.sampling import sample_with
-from foamprb.output.vtk import PieceArray, write_snapshot
 from foamprb.parallel.exchange import RECORD, pack, unpack
 from foamprb.parallel.shared_memory import Windows
+from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
 _LONGEST_NAP = 1e-3

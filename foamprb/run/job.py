@@ -43,7 +43,7 @@ from foamprb.flow.read.source import (
 )
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
-from foamprb.output.tables import require_kind
+from foamprb.results.tables import require_kind
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
 from foamprb.settings.reading import read_settings
@@ -65,7 +65,7 @@ class Job:
     precompiler: Precompiler | None = None
     """The other process that compiles the loop, if there is one."""
     tables: str = "csv"
-    """The kind of the tables, one of :data:`foamprb.output.tables.KINDS`."""
+    """The kind of the tables, one of :data:`foamprb.results.tables.KINDS`."""
 
     @property
     def observed(self) -> ObservedCloud:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from foamprb.flow.base import Caveat
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 from foamprb.run.checks import doubts, groups
 from foamprb.run.job import Job
 

@@ -24,8 +24,8 @@ from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.errors import InputError
-from foamprb.output.checkpoint import Checkpoint, is_one_row
-from foamprb.output.pvd import Entry, files_of, read_pvd, with_ending
+from foamprb.results.checkpoint import Checkpoint, is_one_row
+from foamprb.results.pvd import Entry, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 
 log = logging.getLogger("foamprb")

@@ -20,13 +20,13 @@ from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.memory import OutOfMemory, ran_out
-from foamprb.output.atomic import only_writer, remove_unfinished
-from foamprb.output.background import Writer
-from foamprb.output.checkpoint import Checkpoint, Checkpoints
-from foamprb.output.manifest import Manifest
-from foamprb.output.paraview_state import write_state
-from foamprb.output.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.output.tables import KINDS, Column, find_table, write_table
+from foamprb.results.atomic import only_writer, remove_unfinished
+from foamprb.results.background import Writer
+from foamprb.results.checkpoint import Checkpoint, Checkpoints
+from foamprb.results.manifest import Manifest
+from foamprb.results.paraview_state import write_state
+from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
+from foamprb.results.tables import KINDS, Column, find_table, write_table
 from foamprb.run.job import Job
 from foamprb.run.record import RECORD, renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until

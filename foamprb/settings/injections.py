@@ -12,7 +12,7 @@ from foamprb.cloud.injection.shapes import SHAPES, Shape, Sphere
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, refuse_unknown, selected
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
-from foamprb.output.names import fault_of_word
+from foamprb.results.names import fault_of_word
 from foamprb.settings import entries
 from foamprb.settings.settings import Fluid, InjectionSettings, Solid
 

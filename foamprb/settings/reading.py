@@ -20,7 +20,7 @@ from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, Source, unquoted
 from foamprb.dictionary.values import Files
 from foamprb.errors import InputError
-from foamprb.output.names import fault_of_folder, fault_of_word
+from foamprb.results.names import fault_of_folder, fault_of_word
 from foamprb.settings import entries
 from foamprb.settings.fluid import of_region, read_fluid, read_gravity
 from foamprb.settings.injections import read_injections

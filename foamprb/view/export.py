@@ -15,10 +15,10 @@ from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.source import Source, read_flow
-from foamprb.output.foam import remove_lagrangian, write_lagrangian
-from foamprb.output.ovito import write_dump
-from foamprb.output.vtk import PointCloud
-from foamprb.output.vtkhdf import write_vtkhdf
+from foamprb.results.foam import remove_lagrangian, write_lagrangian
+from foamprb.results.ovito import write_dump
+from foamprb.results.vtk import PointCloud
+from foamprb.results.vtkhdf import write_vtkhdf
 from foamprb.view.results import Results, open_results
 
 __all__ = ["KINDS", "export"]

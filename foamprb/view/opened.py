@@ -13,8 +13,8 @@ import pyvista
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
-from foamprb.output.tables import KINDS, find_table, read_table
-from foamprb.output.vtk import PointCloud, poly_data
+from foamprb.results.tables import KINDS, find_table, read_table
+from foamprb.results.vtk import PointCloud, poly_data
 from foamprb.view.results import Results, open_results
 
 __all__ = ["Run", "open_run"]

@@ -19,7 +19,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.memory import require, wants
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
     Style,

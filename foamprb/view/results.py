@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.vtk_reader import vtk_messages
-from foamprb.output.pvd import Entry, read_pvd
-from foamprb.output.tables import find_table, read_table
+from foamprb.results.pvd import Entry, read_pvd
+from foamprb.results.tables import find_table, read_table
 
 Floats = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import fates_of, gather, require_array, told
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane

@@ -15,8 +15,8 @@ from pipe_case import copy_of_pipe, edit, short_case
 from foamprb import execute, open_run, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
-from foamprb.output.manifest import Manifest
-from foamprb.output.names import fault_of_folder
+from foamprb.results.manifest import Manifest
+from foamprb.results.names import fault_of_folder
 
 BLOCK = """cloudFunctions
 {

@@ -20,8 +20,8 @@ from pipe_case import edit, short_case
 from transient_case import write_transient_case
 
 from foamprb.cli import main
-from foamprb.output.pieces import XMLPPolyDataReader
-from foamprb.output.pvd import read_pvd
+from foamprb.results.pieces import XMLPPolyDataReader
+from foamprb.results.pvd import read_pvd
 
 pytestmark = [
     pytest.mark.mpi,

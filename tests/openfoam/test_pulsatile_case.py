@@ -14,7 +14,7 @@ from paths import ROOT
 import foamprb
 from foamprb.cli import main
 from foamprb.flow.read.decomposed import read_decomposed_case, read_decomposed_series
-from foamprb.output.pvd import read_pvd
+from foamprb.results.pvd import read_pvd
 
 pytestmark = pytest.mark.openfoam
 

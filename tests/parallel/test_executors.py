@@ -16,10 +16,10 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import never
 from foamprb.compile.helper import available_threads
 from foamprb.errors import InputError, RunStopped
-from foamprb.output.pvd import Series, read_pvd
 from foamprb.parallel import launch
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
+from foamprb.results.pvd import Series, read_pvd
 
 
 class Apart(Threads):

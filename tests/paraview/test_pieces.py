@@ -9,8 +9,8 @@ import subprocess
 import pytest
 from clouds import cloud, in_parts
 
-from foamprb.output.pvd import Series
-from foamprb.output.vtk import layout, write_pieces, write_snapshot
+from foamprb.results.pvd import Series
+from foamprb.results.vtk import layout, write_pieces, write_snapshot
 
 pytestmark = [
     pytest.mark.paraview,

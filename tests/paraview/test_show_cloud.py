@@ -15,8 +15,8 @@ from pvpython import pvpython
 from view_run import with_orientation
 
 from foamprb.cloud.state import Status
-from foamprb.output.pvd import Series
-from foamprb.output.vtk import PointCloud
+from foamprb.results.pvd import Series
+from foamprb.results.vtk import PointCloud
 
 SCRIPT = ROOT / "tools" / "paraview" / "show_cloud.py"
 PIPE = ROOT / "cases" / "pipe"

@@ -13,9 +13,9 @@ from PIL import Image
 from pvpython import pvpython
 from view_run import clouds, motion, with_orientation, write_run
 
-from foamprb.output.paraview_state import write_state
-from foamprb.output.pvd import Series
-from foamprb.output.vtk import PointCloud
+from foamprb.results.paraview_state import write_state
+from foamprb.results.pvd import Series
+from foamprb.results.vtk import PointCloud
 
 pytestmark = [
     pytest.mark.paraview,

@@ -9,7 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 
-from foamprb.output.vtk import Tracks, write_tracks
+from foamprb.results.vtk import Tracks, write_tracks
 
 pytestmark = [
     pytest.mark.paraview,

@@ -9,7 +9,7 @@ import pyvista
 from pipe_case import copy_of_pipe, edit, fates
 
 from foamprb.cli import main
-from foamprb.output.pvd import read_pvd
+from foamprb.results.pvd import read_pvd
 
 BLOCK = """cloudFunctions
 {

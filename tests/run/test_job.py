@@ -18,7 +18,7 @@ from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
-from foamprb.output.pvd import read_pvd
+from foamprb.results.pvd import read_pvd
 from foamprb.run.job import likely_integrator, prepare
 from foamprb.settings.reading import read_settings
 

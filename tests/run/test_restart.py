@@ -25,8 +25,8 @@ from foamprb.cli import main
 from foamprb.cloud.cloud import Snapshot
 from foamprb.cloud.executor import Threads
 from foamprb.errors import RunStopped
-from foamprb.output import atomic
-from foamprb.output.pvd import Series
+from foamprb.results import atomic
+from foamprb.results.pvd import Series
 from foamprb.run import restart
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"

@@ -19,10 +19,10 @@ from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
-from foamprb.output import atomic
-from foamprb.output.checkpoint import Checkpoints
-from foamprb.output.manifest import Manifest
-from foamprb.output.pvd import Entry, Series, read_pvd
+from foamprb.results import atomic
+from foamprb.results.checkpoint import Checkpoints
+from foamprb.results.manifest import Manifest
+from foamprb.results.pvd import Entry, Series, read_pvd
 
 TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
 HITS = "hits { type patchPostProcessing; patches (wall outlet); }"

@@ -17,7 +17,7 @@ from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.openfoam import read_case
 from foamprb.flow.read.series import read_series
 from foamprb.flow.series import SeriesFlow
-from foamprb.output.pvd import read_pvd
+from foamprb.results.pvd import read_pvd
 from foamprb.run.job import prepare
 
 

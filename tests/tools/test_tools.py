@@ -11,7 +11,7 @@ from benchmarks.roofline import Counting
 from figures import projection
 
 import foamprb
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 GRID = pipe.Grid(6, 3, 8)
 

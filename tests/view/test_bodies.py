@@ -10,8 +10,8 @@ import pytest
 from view_run import INJECTORS, clouds, motion, write_run
 
 from foamprb.errors import InputError
-from foamprb.output.pvd import Series
-from foamprb.output.vtk import write_snapshot
+from foamprb.results.pvd import Series
+from foamprb.results.vtk import write_snapshot
 from foamprb.view.bodies import UNNAMED, fates_of, gather, require_array, told
 from foamprb.view.results import open_results
 

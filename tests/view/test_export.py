@@ -14,7 +14,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 import foamprb
 from foamprb import read_case
 from foamprb.cli import main
-from foamprb.output.ovito import write_dump
+from foamprb.results.ovito import write_dump
 
 
 @pytest.fixture
@@ -141,7 +141,7 @@ def test_what_cannot_be_exported_is_said(case, capsys, tmp_path_factory):
 
 
 def test_a_stress_has_openfoams_order(tmp_path):
-    from foamprb.output.foam import write_lagrangian
+    from foamprb.results.foam import write_lagrangian
 
     stress = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, np.nan]])
     folder = tmp_path / "0.1/lagrangian/c"

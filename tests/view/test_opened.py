@@ -11,7 +11,7 @@ from view_run import motion, write_run
 
 import foamprb
 from foamprb.errors import InputError
-from foamprb.output.tables import read_table, write_table
+from foamprb.results.tables import read_table, write_table
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import pytest
 from view_run import motion, write_run
 
 from foamprb.cli import main
-from foamprb.output.paraview_state import write_state
+from foamprb.results.paraview_state import write_state
 
 
 @pytest.fixture

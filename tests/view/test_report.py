@@ -12,7 +12,7 @@ from view_run import PATCHES, motion, write_run
 
 from foamprb import memory
 from foamprb.cli import main
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits

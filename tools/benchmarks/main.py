@@ -88,7 +88,7 @@ def main(arguments: list[str] | None = None) -> int:
             print(f"{part:12s} {_first_line(part)}")
         return 0
     from benchmarks.report import write_report, written_table
-    from foamprb.output.tables import write_table
+    from foamprb.results.tables import write_table
 
     parsed.output.mkdir(parents=True, exist_ok=True)
     kept = {part: [r for r in read_rows(parsed.output / CSV) if r.part == part] for part in PARTS}

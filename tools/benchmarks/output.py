@@ -17,7 +17,7 @@ import foamprb
 from benchmarks import pipe
 from benchmarks.records import MEGA, Options, Row, interleaved, rows, wall_of
 from foamprb.cloud.report import report
-from foamprb.output.vtk import Parts, write_snapshot
+from foamprb.results.vtk import Parts, write_snapshot
 
 COMPRESSORS = ("None", "LZ4", "ZLib")
 

@@ -90,7 +90,7 @@ class Results:
 
 
 def read_rows(path: Path) -> list[Row]:
-    """Rows of a file that :func:`foamprb.output.tables.write_table` wrote, none if it is absent."""
+    """Rows of a file that :func:`foamprb.results.tables.write_table` wrote, none if it is absent."""
     if not path.is_file():
         return []
     with path.open(encoding="utf-8", newline="") as file:

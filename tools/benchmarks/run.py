@@ -38,7 +38,7 @@ def with_output(case: str) -> dict[str, float]:
     """What ``foamprb run`` does: its seconds on the wall, and those in which it waited for output."""
     from foamprb import execute, prepare
     from foamprb.cloud.cloud import Cloud
-    from foamprb.output.background import Writer
+    from foamprb.results.background import Writer
 
     job = prepare(case)
     waited = 0.0

@@ -47,7 +47,7 @@ from foamprb.body.tensor import (
     transpose,
     vector_dot,
 )
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 Array = np.ndarray
 TOLERANCE = 1e-4

@@ -19,7 +19,7 @@ import numpy as np
 import foamprb
 from foamprb.body.imex import relaxation_time
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 
 class Pipe(NamedTuple):

@@ -17,7 +17,7 @@ import numpy as np
 
 import foamprb
 from foamprb.body.drag import DRAGS
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 NU, RHO = 1.491e-5, 1.208
 WALL_SHEAR_RATE, RADIUS, DIAMETER = 923.8, 2.1e-3, 5e-6

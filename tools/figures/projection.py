@@ -26,7 +26,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from benchmarks.records import Results, read_rows
 from benchmarks.report import number, table
 
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 RADIUS, LENGTH, WALL_RATE, GRAVITY = 2.1e-3, 0.75, 923.8, 9.81
 D, RHO_S, MU_F, RHO_F = 5e-6, 2560.0, 1.208 * 1.491e-5, 1.208

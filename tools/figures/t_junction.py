@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import foamprb
-from foamprb.output.tables import write_table
+from foamprb.results.tables import write_table
 
 Floats = NDArray[np.float64]
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
 from foamprb.memory import OutOfMemory
-from foamprb.output.atomic import atomic_write
-from foamprb.output.names import file_name
+from foamprb.results.atomic import atomic_write
+from foamprb.results.names import file_name
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.opened import Run, open_run

@@ -12,9 +12,9 @@ from limits import limit_of_file_size
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.output.pieces import XMLPPolyDataReader
-from foamprb.output.pvd import Entry, Series, files_of, read_pvd
-from foamprb.output.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
+from foamprb.results.pieces import XMLPPolyDataReader
+from foamprb.results.pvd import Entry, Series, files_of, read_pvd
+from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
 
 
 @pytest.mark.parametrize("n", [0, 1, 4])

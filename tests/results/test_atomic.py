@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, forget, only_writer, remove_unfinished
+from foamprb.results.atomic import atomic_write, forget, only_writer, remove_unfinished
 
 
 def test_writes_whole_file_and_nothing_else(tmp_path: Path) -> None:
@@ -66,11 +66,11 @@ def test_file_has_the_permissions_of_any_new_file(tmp_path: Path) -> None:
 
 WRITERS = {
     "table.csv": """
-        from foamprb.output.tables import write_table
+        from foamprb.results.tables import write_table
         write_table(path, {f"c{i}": np.random.default_rng(i).random(2_000_000) for i in range(20)})
     """,
     "cloud.vtp": """
-        from foamprb.output.vtk import PointCloud, write_snapshot
+        from foamprb.results.vtk import PointCloud, write_snapshot
         values = np.random.default_rng(0).random((3_000_000, 9))
         snapshot = PointCloud(0.0, values[:, :3].copy(), {f"F{i}": values for i in range(5)})
         write_snapshot(path, snapshot)

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foamprb.errors import InputError
-from foamprb.output.checkpoint import (
+from foamprb.results.checkpoint import (
     VERSION,
     Checkpoint,
     Checkpoints,
@@ -94,7 +94,7 @@ def test_every_changed_byte_and_every_cut_shows(
 def test_another_version_is_refused_by_its_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store = Checkpoints(tmp_path)
     with monkeypatch.context() as patch:
-        patch.setattr("foamprb.output.checkpoint.VERSION", VERSION + 1)
+        patch.setattr("foamprb.results.checkpoint.VERSION", VERSION + 1)
         store.write(checkpoint())
     with pytest.raises(InputError, match=f"of format {VERSION + 1}; .* reads format {VERSION}"):
         store.latest()
@@ -124,7 +124,7 @@ def test_the_last_two_are_kept(tmp_path: Path) -> None:
 def test_a_damaged_one_gives_way_to_the_one_before(
     tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("foamprb.output.checkpoint.log.propagate", True)
+    monkeypatch.setattr("foamprb.results.checkpoint.log.propagate", True)
     store = Checkpoints(tmp_path)
     for time in (0.1, 0.2):
         store.write(checkpoint(time))

@@ -23,7 +23,7 @@ import xxhash
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, forget, remove_unfinished
+from foamprb.results.atomic import atomic_write, forget, remove_unfinished
 
 log = logging.getLogger("foamprb")
 

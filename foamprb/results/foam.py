@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 
 __all__ = ["PatchValues", "remove_lagrangian", "write_lagrangian", "write_scalar_field"]
 

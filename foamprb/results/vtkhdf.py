@@ -12,8 +12,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write
-from foamprb.output.vtk import PointCloud, poly_data
+from foamprb.results.atomic import atomic_write
+from foamprb.results.vtk import PointCloud, poly_data
 
 __all__ = ["write_vtkhdf"]
 

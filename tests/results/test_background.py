@@ -15,10 +15,10 @@ from foamprb import execute, prepare
 from foamprb.cli import main
 from foamprb.cloud.cloud import Cloud
 from foamprb.errors import RunStopped
-from foamprb.output import pvd
-from foamprb.output.background import Writer
-from foamprb.output.checkpoint import Checkpoints
-from foamprb.output.pvd import Series
+from foamprb.results import pvd
+from foamprb.results.background import Writer
+from foamprb.results.checkpoint import Checkpoints
+from foamprb.results.pvd import Series
 
 PATIENCE = 60.0
 """Seconds after which what is waited for will not come."""

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foamprb.output.atomic import atomic_write
-from foamprb.output.vtk import PointCloud
+from foamprb.results.atomic import atomic_write
+from foamprb.results.vtk import PointCloud
 
 __all__ = ["write_dump"]
 

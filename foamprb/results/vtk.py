@@ -18,7 +18,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 
 _BLOCK_BYTES = 1 << 20
 """Compressed at a time: VTK's own 32 kB would cost a quarter more time."""

@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write, forget
-from foamprb.output.vtk import Parts, PointCloud, write_snapshot
+from foamprb.results.atomic import atomic_write, forget
+from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
 
 def files_of(path: Path) -> tuple[Path, ...]:

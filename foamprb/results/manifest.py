@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 
 FORMAT = 1
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 
 __all__ = ["write_state"]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.output import atomic
-from foamprb.output.manifest import Manifest
+from foamprb.results import atomic
+from foamprb.results.manifest import Manifest
 
 
 def files(folder: Path, *names: str) -> list[Path]:

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foamprb.errors import InputError
-from foamprb.output.tables import find_table, read_table, require_kind, write_table
+from foamprb.results.tables import find_table, read_table, require_kind, write_table
 
 
 def read(path: Path) -> list[list[str]]:

@@ -17,7 +17,7 @@ import orjson
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.output.atomic import atomic_write
+from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
