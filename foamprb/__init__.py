@@ -90,7 +90,7 @@ if TYPE_CHECKING:
     from foamprb.run.job import Job, prepare
     from foamprb.run.loop import execute
     from foamprb.settings.fluid import read_medium
-    from foamprb.view.opened import open_run
+    from foamprb.view.results import open_run
 
 __version__ = version("foamprb")
 
@@ -126,7 +126,7 @@ _HOMES = {
     "execute": "foamprb.run.loop",
     "log_ratio": "foamprb.body.tensor",
     "measure": "foamprb.cloud.measures",
-    "open_run": "foamprb.view.opened",
+    "open_run": "foamprb.view.results",
     "prepare": "foamprb.run.job",
     "read_case": "foamprb.flow.read.openfoam",
     "read_medium": "foamprb.settings.fluid",

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError, suggestion
-from foamprb.view.results import NEEDED, Fates, Results, Snapshot
+from foamprb.results.vtk import PointCloud
+from foamprb.view.results import NEEDED, Run, Table
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -151,12 +152,12 @@ class Bodies:
         )
 
 
-def offered(results: Results) -> tuple[str, ...]:
+def offered(run: Run) -> tuple[str, ...]:
     """Names of the arrays by which bodies can be coloured, in the order of the files."""
-    return tuple(name for name in results.components if name not in SHAPE_ARRAYS)
+    return tuple(name for name in run.components if name not in SHAPE_ARRAYS)
 
 
-def require_array(results: Results, text: str) -> tuple[str, str]:
+def require_array(run: Run, text: str) -> tuple[str, str]:
     """Split ``name`` or ``name:component`` into an array and one of its components.
 
     Besides the arrays that are :func:`offered` there are ``fate``, and what ``fates.csv`` tells.
@@ -171,10 +172,10 @@ def require_array(results: Results, text: str) -> tuple[str, str]:
         If there is no such array or component; the message says what was probably meant.
     """
     name, _, part = text.partition(":")
-    names = (*offered(results), "fate", *(TOLD if results.has_fates else ()))
+    names = (*offered(run), "fate", *(TOLD if run.has_fates else ()))
     if name not in names:
         raise InputError(f"-colour {text}: no such array. {suggestion(name, names)}")
-    parts = ("",) if name in results.names else components_of(name, results.components.get(name, 1))
+    parts = ("",) if name in run.names else components_of(name, run.components.get(name, 1))
     if part and part not in parts:
         allowed = suggestion(part, (p for p in parts if p)) if parts != ("",) else "It has no components."
         raise InputError(f"-colour {text}: no such component of {name}. {allowed}")
@@ -194,7 +195,7 @@ def label_of(name: str) -> str:
 
 
 def gather(
-    results: Results,
+    run: Run,
     frames: Sequence[int],
     arrays: Sequence[str] | None = None,
     most: int | None = None,
@@ -203,8 +204,8 @@ def gather(
 
     Parameters
     ----------
-    results
-        The files.
+    run
+        Its results.
     frames
         Indices of the times, rising.
     arrays
@@ -217,13 +218,13 @@ def gather(
     InputError
         If a file is damaged, or a particle is in it twice.
     """
-    chosen = offered(results) if arrays is None else tuple(arrays)
+    chosen = offered(run) if arrays is None else tuple(arrays)
     wanted = tuple(dict.fromkeys((*NEEDED, *chosen)))
-    snapshots = [results.snapshot(k, wanted) for k in frames]
+    snapshots = [run.cloud(k, wanted) for k in frames]
     all_ids = np.unique(np.concatenate([s.arrays["origId"] for s in snapshots]).astype(np.int64))
     if most is not None and len(all_ids) > most:
         all_ids = all_ids[np.arange(most) * len(all_ids) // most]
-    rows, places = zip(*(_rows(results, k, s, all_ids) for k, s in zip(frames, snapshots, strict=True)),
+    rows, places = zip(*(_rows(run, k, s, all_ids) for k, s in zip(frames, snapshots, strict=True)),
                        strict=True)  # fmt: skip
     m, n = len(frames), len(all_ids)
 
@@ -248,17 +249,17 @@ def gather(
     source = _nearest_present(present)
     column = np.arange(n)
     radius = np.nan_to_num(0.5 * d[source, column][0])
-    meanings = results.names.get("status", ())
+    meanings = run.names.get("status", ())
     status = Codes("status", label_of("status"), meanings, _codes(table("status", 1, np.float64), meanings))
     fields: dict[str, Field] = {}
     codes: dict[str, Codes] = {}
     for name in chosen:
-        if name in results.names:
-            values = _codes(table(name, 1, np.float64), results.names[name])
-            codes[name] = Codes(name, label_of(name), results.names[name], _constant(values, present))
+        if name in run.names:
+            values = _codes(table(name, 1, np.float64), run.names[name])
+            codes[name] = Codes(name, label_of(name), run.names[name], _constant(values, present))
         else:
-            unit = results.units.get(name, "")
-            fields[name] = _field(name, "" if unit == "1" else unit, table(name, results.components[name]),
+            unit = run.units.get(name, "")
+            fields[name] = _field(name, "" if unit == "1" else unit, table(name, run.components[name]),
                                   present)  # fmt: skip
     times = np.array([snapshot.time for snapshot in snapshots])
     shape = np.nan_to_num(F[source, column]).astype(np.float32)
@@ -266,34 +267,31 @@ def gather(
     return Bodies(times, all_ids, radius, place, shape, present, status, fields, codes)
 
 
-def told(bodies: Bodies, fates: Fates) -> dict[str, Field]:
+def told(bodies: Bodies, fates: Table) -> dict[str, Field]:
     """What ``fates.csv`` tells of each body, as arrays that never change."""
-    place = np.minimum(np.searchsorted(fates.ids, bodies.ids), max(len(fates.ids) - 1, 0))
-    found = fates.ids[place] == bodies.ids if len(fates.ids) else np.zeros(len(bodies.ids), dtype=bool)
-
-    def column(values: Floats) -> Singles:
-        chosen = np.full(len(bodies.ids), np.nan, dtype=np.float32)
-        chosen[found] = values[place[found]]
-        return chosen[None, :, None]
-
-    values = (fates.start, fates.end, fates.capillary)
-    return {
-        name: Field(name, label, unit, ("",), column(own))
-        for (name, (label, unit)), own in zip(TOLD.items(), values, strict=True)
-    }
+    ids = fates["id"]
+    place = np.minimum(np.searchsorted(ids, bodies.ids), max(len(ids) - 1, 0))
+    found = ids[place] == bodies.ids if len(ids) else np.zeros(len(bodies.ids), dtype=bool)
+    columns = {}
+    for name, (label, unit) in TOLD.items():
+        values = np.full(len(bodies.ids), np.nan, dtype=np.float32)
+        values[found] = fates[name][place[found]]
+        columns[name] = Field(name, label, unit, ("",), values[None, :, None])
+    return columns
 
 
-def fates_of(bodies: Bodies, results: Results, fates: Fates | None) -> Codes:
+def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
     """What became of the bodies, (1, n): "active", "stuck on wall", "escaped through outlet", ….
 
     It is read off the last of the bodies' times, unless ``fates.csv`` tells.
     """
-    statuses = results.names.get("status", ())
-    patches = results.names.get("patch", ())
+    statuses = run.names.get("status", ())
+    patches = run.names.get("patch", ())
     patch_codes = bodies.codes.get("patch")
     words = []
     if fates is not None:
-        by_id = dict(zip(fates.ids.tolist(), zip(fates.fate, fates.patch, strict=True), strict=True))
+        columns = (fates[name].tolist() for name in ("id", "fate", "patch"))
+        by_id = {number: (fate, patch) for number, fate, patch in zip(*columns, strict=True)}
         words = [_fate(*by_id.get(body, ("unknown", ""))) for body in bodies.ids.tolist()]
     else:
         last = bodies.status.codes[-1]
@@ -315,12 +313,12 @@ def _fate(status: str, patch: str) -> str:
 
 
 def _rows(
-    results: Results, index: int, snapshot: Snapshot, ids: NDArray[np.int64]
+    run: Run, index: int, cloud: PointCloud, ids: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Rows of a snapshot that are among the bodies, and their places there."""
-    own = snapshot.arrays["origId"].astype(np.int64)
+    own = cloud.arrays["origId"].astype(np.int64)
     if len(np.unique(own)) < len(own):
-        file = results.folder / results.entries[index].file
+        file = run.folder / run.entries[index].file
         raise InputError(f"{file}: a particle is in it twice. Run the particles anew: foamprb run.")
     places = np.minimum(np.searchsorted(ids, own), len(ids) - 1) if len(ids) else np.zeros(0, dtype=np.int64)
     rows = np.flatnonzero(ids[places] == own) if len(ids) else np.zeros(0, dtype=np.int64)

@@ -219,14 +219,14 @@ class Page:
         paths, ids = self._scene.paths, self._scene.bodies.ids
         if paths is None or len(ids) == 0:
             return None
-        place = np.minimum(np.searchsorted(ids, paths.ids), len(ids) - 1)
+        place = np.minimum(np.searchsorted(ids, paths.tracks["origId"]), len(ids) - 1)
         # Of bodies that are not shown there are paths as well.
-        place = np.where(ids[place] == paths.ids, place, -1)
+        place = np.where(ids[place] == paths.tracks["origId"], place, -1)
         return {
             "bodies": self._column(pack(place)),
             "start": self._column(pack(paths.start)),
             "points": self._packed(pack_points(paths.points, grid)),
-            "times": self._packed(pack_values(paths.times)),
+            "times": self._packed(pack_values(paths.values["time"])),
         }
 
     def _field(self, field: Field, packed: Packed) -> dict[str, Any]:

@@ -1,87 +1,61 @@
-"""The files of ``postProcessing/<cloud>/`` as arrays: snapshots, fates and tracks."""
+"""Results of a run, read from the files of one cloud: arrays, tables, data frames, meshes of pyvista."""
 
 from __future__ import annotations
 
+import importlib
+import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pyvista
 from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.pvd import Entry, read_pvd
-from foamprb.results.tables import find_table, read_table
+from foamprb.results.tables import KINDS, find_table, read_table
+from foamprb.results.vtk import PointCloud, Tracks, poly_data
 
-Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    import pyvista
+
+__all__ = ["NEEDED", "Run", "Table", "open_run"]
+
+Table = dict[str, NDArray[Any]]
 
 NEEDED = ("origId", "d", "glyph", "status")
 """Point arrays without which a body cannot be drawn."""
 
-_HOW = "Run the particles first: foamprb run."
-_AGAIN = "Run the particles anew: foamprb run."
+_FRAMES = ("pandas", "polars")
+_WORDS = ("fate", "patch")
+"""Columns of text, also where every patch has a number for a name."""
+_OF_FATES = {"id": np.int64, "t0": np.float64, "t1": np.float64, "Ca": np.float64, "fate": str, "patch": str}
+_AGAIN = "Run the particles again: foamprb run."
 
 
-class Snapshot(NamedTuple):
-    """A cloud of n bodies at one time."""
-
-    time: float
-    """s."""
-    points: Floats
-    """Positions, (n, 3), m."""
-    arrays: dict[str, NDArray[Any]]
-    """Point arrays by name, (n,) or (n, k)."""
-
-
-class Fates(NamedTuple):
-    """Columns of the table ``fates``, a row for each of n bodies."""
-
-    ids: NDArray[np.int64]
-    fate: list[str]
-    patch: list[str]
-    """Where it ended; empty for one that did not."""
-    start: Floats
-    """Time of release, s."""
-    end: Floats
-    """Time to which it was tracked, s."""
-    capillary: Floats
-    """Capillary number of the settings."""
-
-
-class Paths(NamedTuple):
-    """Polylines of m bodies, one after the other."""
-
-    ids: NDArray[np.int64]
-    """(m,)"""
-    points: Floats
-    """(n, 3), m."""
-    times: Floats
-    """(n,), s."""
-    start: NDArray[np.int64]
-    """Where each path begins among the points, and n, (m + 1,)."""
-
-
-@dataclass(frozen=True)
-class Results:
-    """What a run of one cloud left on disk.
+@dataclass(frozen=True, repr=False)
+class Run:
+    """Results of one cloud of a case. A file is read when its contents are requested.
 
     Parameters
     ----------
     folder
         ``postProcessing/<cloud>``.
     name
-        The cloud.
+        Name of the cloud.
     entries
-        The times and their files, in order of time; at least one.
+        Times and their files, in order of time; at least one.
     units
-        Unit of each array by name, as the files give it.
+        Unit of each point array by name.
     names
-        For an array of codes, what 0, 1, … mean.
+        For each array of codes, the meanings of 0, 1, ….
     components
-        Number of components of each array by name, in the order of the files.
+        Number of components of each point array by name, in the order of the files.
     """
 
     folder: Path
@@ -91,154 +65,263 @@ class Results:
     names: Mapping[str, tuple[str, ...]]
     components: Mapping[str, int]
 
-    def snapshot(self, index: int, arrays: Iterable[str] | None = None) -> Snapshot:
-        """Read the cloud of one time, by default with all its arrays.
+    def __repr__(self) -> str:
+        times = self.times
+        return (
+            f"<Run of {self.name}: {len(times)} times from {times[0]:g} to {times[-1]:g} s in {self.folder}>"
+        )
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Written times, (m,), s."""
+        return np.array([entry.time for entry in self.entries])
+
+    @cached_property
+    def record(self) -> dict[str, Any]:
+        """Contents of ``run.json``: settings, versions, mesh, warnings. Empty without that file."""
+        file = self.folder / "run.json"
+        if not file.exists():
+            return {}
+        try:
+            found = json.loads(file.read_text(encoding="utf-8"))
+        except (OSError, ValueError) as error:
+            raise InputError(f"{file} is damaged: {error}") from error
+        if not isinstance(found, dict):
+            raise InputError(f"{file} is damaged: it is not the record of a run.")
+        return found
+
+    @property
+    def tables(self) -> tuple[str, ...]:
+        """Names of the tables, without endings: ``fates``, ``exposure/exposure``, …."""
+        patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
+        found = {file.relative_to(self.folder) for pattern in patterns for file in self.folder.glob(pattern)}
+        return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
+
+    def file(self, table: str) -> Path:
+        """Return the file of one of :attr:`tables`.
 
         Raises
         ------
         InputError
-            If the file is missing, damaged or lacks an array that those of other times have.
+            If there is no such table.
         """
-        entry = self.entries[index]
-        wanted = tuple(self.components) if arrays is None else tuple(arrays)
-        data = _read(self.folder / entry.file, wanted)
-        found: dict[str, NDArray[Any]] = {}
-        for name in wanted:
-            if name not in data.point_data:
-                raise InputError(
-                    f"{self.folder / entry.file}: no array '{name}', which other times have; are these the "
-                    "files of one run?"
-                )
-            # Of no bodies VTK forgets how many components there were.
-            shape = (-1,) if self.components[name] == 1 else (data.n_points, self.components[name])
-            found[name] = np.array(data.point_data[name]).reshape(shape)
-        return Snapshot(entry.time, np.array(data.points, dtype=np.float64).reshape(-1, 3), found)
+        found = find_table(self.folder, table)
+        if found is None:
+            raise InputError(f"{self.folder}: no table '{table}'. {suggestion(table, self.tables)}")
+        return found
 
-    def nearest(self, time: float) -> int:
-        """Index of the snapshot whose time, s, is nearest."""
-        return int(np.argmin([abs(entry.time - time) for entry in self.entries]))
+    def table(self, name: str = "fates") -> Table:
+        """Return the columns of a table by name, (n,) each; the settings page describes them.
+
+        Raises
+        ------
+        InputError
+            If there is no such table, or it is damaged; if it is Parquet and pyarrow is not installed.
+        """
+        return read_table(self.file(name), _WORDS)
+
+    def frame(self, name: str = "fates") -> Any:
+        """Return a table as a data frame of pandas or, if pandas is not installed, of polars.
+
+        Raises
+        ------
+        InputError
+            As :meth:`table`; or if neither is installed.
+        """
+        for package in _FRAMES:
+            try:
+                return importlib.import_module(package).DataFrame(self.table(name))
+            except ImportError:
+                continue
+        raise InputError("a data frame needs pandas or polars: pip install pandas. Without them: table().")
 
     @property
     def has_fates(self) -> bool:
         """Whether the run has ended and written its table ``fates``."""
         return find_table(self.folder, "fates") is not None
 
-    def fates(self) -> Fates | None:
-        """Read the table ``fates``; None if the run has not written it, as it has not ended.
+    def fates(self) -> Table | None:
+        """Return the table ``fates``; None if the run has not ended.
 
         Raises
         ------
         InputError
-            If the file is damaged.
+            If the table is damaged or lacks a column.
         """
-        path = find_table(self.folder, "fates")
-        if path is None:
+        if not self.has_fates:
             return None
-        found = read_table(path, words=("fate", "patch"))
+        table = self.table("fates")
         try:
-            return Fates(
-                np.asarray(found["id"], dtype=np.int64),
-                found["fate"].tolist(),
-                found["patch"].tolist(),
-                *(np.asarray(found[key], dtype=np.float64) for key in ("t0", "t1", "Ca")),
-            )
+            return table | {name: table[name].astype(kind) for name, kind in _OF_FATES.items()}
         except (KeyError, ValueError) as error:
-            raise InputError(f"{path}: not the table that foamprb run writes ({error}).") from error
+            file = self.file("fates")
+            raise InputError(f"{file}: not the table that foamprb run writes ({error}).") from error
 
-    def paths(self) -> Paths | None:
-        """Read the paths of the cloud function ``particleTracks``; None if there are none.
+    def nearest(self, time: float) -> int:
+        """Return the index of the written time that is nearest to ``time``, s."""
+        return int(np.argmin(np.abs(self.times - time)))
+
+    def cloud(self, index: int, arrays: Iterable[str] | None = None) -> PointCloud:
+        """Read the cloud of one time, by default with all its arrays.
+
+        Raises
+        ------
+        InputError
+            If the file is missing or damaged, or lacks an array that the last time has.
+        """
+        entry = self.entries[index]
+        path = self.folder / entry.file
+        chosen = tuple(self.components) if arrays is None else tuple(arrays)
+        data = _read(path, chosen)
+        found = _arrays(data.GetPointData())
+        if missing := [name for name in chosen if name not in found]:
+            raise InputError(
+                f"{path}: no array '{missing[0]}', which other times have; are these the files of one run?"
+            )
+        n = data.GetNumberOfPoints()
+        # In a file without bodies VTK does not keep the number of components.
+        shapes = {name: (n,) if self.components[name] == 1 else (n, self.components[name]) for name in chosen}
+        values = {name: found[name].reshape(shape) for name, shape in shapes.items()}
+        return PointCloud(entry.time, _points(data), values, self.units, self.names)
+
+    def snapshot(self, time: float | None = None) -> pyvista.PolyData:
+        """Return the cloud at the written time nearest to ``time``, s, by default the last, with all arrays.
+
+        Raises
+        ------
+        InputError
+            If the file is missing or damaged.
+        """
+        import pyvista
+
+        cloud = self.cloud(-1 if time is None else self.nearest(time))
+        mesh = pyvista.PolyData(poly_data(cloud))
+        mesh.field_data["time"] = [cloud.time]
+        return mesh
+
+    @property
+    def tracks(self) -> pyvista.PolyData | None:
+        """Paths of ``particleTracks``, one line each, with ``time`` at its points; None without."""
+        import pyvista
+
+        file = self._file_of_tracks()
+        return pyvista.wrap(_read(file)) if file else None
+
+    def paths(self, arrays: Iterable[str] = ()) -> Tracks | None:
+        """Read the paths of ``particleTracks`` with ``time``, ``origId`` and further arrays at the points.
+
+        Returns
+        -------
+        None without the function, or if it has recorded no path.
 
         Raises
         ------
         InputError
             If the file is damaged.
         """
-        files = sorted(self.folder.glob("*/tracks.vtp"))
-        if not files:
+        file = self._file_of_tracks()
+        if file is None:
             return None
-        data = _read(files[0], ("time",))
-        if data.n_lines == 0:
+        wanted = ("time", *arrays)
+        data = _read(file, wanted)
+        if data.GetNumberOfLines() == 0:
             return None
-        ids = data.cell_data.get("origId")
-        times = data.point_data.get("time")
-        offsets = np.array(pyvista.convert_array(data.GetLines().GetOffsetsArray()), dtype=np.int64)
-        order = np.array(pyvista.convert_array(data.GetLines().GetConnectivityArray()), dtype=np.int64)
-        if ids is None or times is None or len(ids) != len(offsets) - 1:
-            raise InputError(f"{files[0]}: not the paths that the cloud function particleTracks writes.")
-        points = np.array(data.points, dtype=np.float64)[order]
-        return Paths(np.array(ids, dtype=np.int64), points, np.array(times)[order], offsets)
+        at_points, at_lines = _arrays(data.GetPointData()), _arrays(data.GetCellData())
+        start, order = (
+            vtk_to_numpy(part).astype(np.int64)
+            for part in (data.GetLines().GetOffsetsArray(), data.GetLines().GetConnectivityArray())
+        )
+        if any(name not in at_points for name in wanted) or len(at_lines.get("origId", ())) != len(start) - 1:
+            raise InputError(f"{file}: not the paths that the cloud function particleTracks writes.")
+        values = {name: at_points[name][order] for name in wanted}
+        return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
+
+    def _file_of_tracks(self) -> Path | None:
+        return min(self.folder.glob("*/tracks.vtp"), default=None)
 
 
-def open_results(case: Path, cloud: str | None = None) -> Results:
-    """Find the results of a cloud in a case.
+def open_run(path: Path | str, cloud: str | None = None) -> Run:
+    """Open the results of a cloud of a case.
 
     Parameters
     ----------
-    case
+    path
         Folder of the case.
     cloud
-        Name of the cloud; by default ``softCloud``, or the only one that there is.
+        Name of the cloud; by default ``softCloud``, or the only one.
 
     Raises
     ------
     InputError
-        If there are none, or several without a name; if the list of files or the last file is damaged.
+        If there are no results, or several clouds without a name; if the list of files or the last file is
+        damaged.
     """
+    case = Path(path)
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     found = {path.stem: path for path in case.glob("postProcessing/*/*.pvd") if path.stem == path.parent.name}
+    first = "Run the particles first: foamprb run."
     if not found:
-        raise InputError(f"{case}: no results here (postProcessing/<cloud>/<cloud>.pvd). {_HOW}")
+        raise InputError(f"{case}: no results here (postProcessing/<cloud>/<cloud>.pvd). {first}")
     name = cloud or ("softCloud" if "softCloud" in found else next(iter(found)))
     if cloud is None and len(found) > 1 and "softCloud" not in found:
-        raise InputError(f"{case}: the results of {len(found)} clouds are here: {', '.join(sorted(found))}. "
+        raise InputError(f"{case}: results of {len(found)} clouds: {', '.join(sorted(found))}. "
                          "Choose one with -cloud.")  # fmt: skip
     if name not in found:
         raise InputError(f"{case}: no results of a cloud '{name}'. {suggestion(name, found)}")
     pvd = found[name]
     entries = read_pvd(pvd)
     if not entries:
-        raise InputError(f"{pvd}: lists no files; the run has not written any yet. {_HOW}")
+        raise InputError(f"{pvd}: lists no files; the run has not written any yet. {first}")
     return _described(pvd.parent, name, entries)
 
 
-def _described(folder: Path, name: str, entries: tuple[Entry, ...]) -> Results:
+def _described(folder: Path, name: str, entries: tuple[Entry, ...]) -> Run:
     """Take units, names and components from the last file, which has the most particles."""
     file = folder / entries[-1].file
     data = _read(file)
-    components = {
-        key: 1 if data.point_data[key].ndim == 1 else int(data.point_data[key].shape[1])
-        for key in data.point_data.keys()  # noqa: SIM118 - pyvista iterates otherwise
-    }
+    arrays = _arrays(data.GetPointData())
+    components = {key: 1 if array.ndim == 1 else array.shape[1] for key, array in arrays.items()}
     missing = [key for key in NEEDED if key not in components]
     if missing:
         raise InputError(f"{file}: no array '{missing[0]}'; not a cloud that foamprb run wrote.")
-    fields = data.field_data
-    words = [str(text).partition(" ") for text in fields.get("units", ())]
-    names = {key: tuple(map(str, fields[f"{key}Names"])) for key in components if f"{key}Names" in fields}
-    return Results(folder, name, entries, {key: unit for key, _, unit in words}, names, components)
+    fields = data.GetFieldData()
+    units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
+    names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
+    return Run(folder, name, entries, units, names, components)
 
 
 def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
-    """Read a VTK file, with all its point arrays or some of them."""
+    """Read a VTK file of points or lines, with all its point arrays or some of them."""
     if not path.exists():
-        raise InputError(
-            f"{path}: missing, though the list of files names it. Run the particles anew: foamprb run."
-        )
-    data, failure = None, ""
+        raise InputError(f"{path}: missing, though the list of files names it. {_AGAIN}")
+    reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
     with vtk_messages() as said:
-        try:
-            reader = pyvista.get_reader(path)
-            if arrays is not None:
-                reader.disable_all_point_arrays()
-                for name in arrays:
-                    reader.enable_point_array(name)
-            data = reader.read()
-        except Exception as error:
-            failure = " ".join(str(error).split())
-    if failure or said.errors:
-        reason = said.errors[0].rstrip(".") if said.errors else failure
-        raise InputError(f"{path}: damaged ({reason}). {_AGAIN}")
-    if not isinstance(data, pyvista.PolyData):
-        raise InputError(f"{path}: not a cloud of particles.")
-    return data
+        reader.UpdateInformation()
+        if arrays is not None:
+            chosen = reader.GetPointDataArraySelection()
+            chosen.DisableAllArrays()
+            for name in arrays:
+                chosen.EnableArray(name)
+        reader.Update()
+    if said.errors:
+        raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")
+    return reader.GetOutput()
+
+
+def _points(data: Any) -> NDArray[np.float64]:
+    points = data.GetPoints()
+    return vtk_to_numpy(points.GetData()).astype(np.float64) if points else np.zeros((0, 3))
+
+
+def _arrays(attributes: Any) -> Table:
+    """Return the arrays of numbers of points, or of cells, by name."""
+    arrays = [attributes.GetArray(k) for k in range(attributes.GetNumberOfArrays())]
+    return {array.GetName(): vtk_to_numpy(array) for array in arrays}
+
+
+def _texts(fields: Any, name: str) -> tuple[str, ...]:
+    """Return an array of texts; empty without it."""
+    array = fields.GetAbstractArray(name)
+    return tuple(array.GetValue(k) for k in range(array.GetNumberOfValues())) if array else ()

@@ -16,10 +16,10 @@ from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.schema import read_entry
 from foamprb.errors import InputError
+from foamprb.results.vtk import Tracks
 from foamprb.view.bodies import Bodies, Codes
 from foamprb.view.colours import MAPS
 from foamprb.view.geometry import Geometry, Slice, Surface
-from foamprb.view.results import Paths
 
 Floats = NDArray[np.float64]
 
@@ -117,7 +117,7 @@ class Scene:
     fate: Codes
     geometry: Geometry | None
     slice: Slice | None
-    paths: Paths | None
+    paths: Tracks | None
     camera: Camera
     enlargement: float
     colour: tuple[str, str]

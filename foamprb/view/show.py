@@ -21,7 +21,7 @@ from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
 from foamprb.view.picture import film, has_display, picture, require_display, require_graphics, window
-from foamprb.view.results import Results, open_results
+from foamprb.view.results import Run, open_run
 from foamprb.view.scene import (
     PERCENTILES,
     Scene,
@@ -94,12 +94,12 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     if not megabytes >= 1.0:
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
-    results = open_results(request.case, request.cloud)
-    everything = len(results.entries)
-    known = len(results.snapshot(everything - 1, ("origId",)).points)
+    run = open_run(request.case, request.cloud)
+    everything = len(run.entries)
+    known = len(run.cloud(-1, ("origId",)).points)
     known = min(known, request.bodies or known)
     fitting = max(1, math.ceil(most / max(1, known * _BYTES_PER_STATE)))
-    scene = make_scene(request, results, spread(everything, fitting))
+    scene = make_scene(request, run, spread(everything, fitting))
     page = Page(scene, most, ORDER, version)
     while page.needed > most and len(scene.bodies.times) > 1:
         m = len(scene.bodies.times)
@@ -119,7 +119,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
             ", ".join(page.left_out),
             megabytes,
         )
-    target = path or results.folder / f"{results.name}.html"
+    target = path or run.folder / f"{run.name}.html"
     text = page.write().encode("utf-8")
     with atomic_write(target) as temporary:
         temporary.write_bytes(text)
@@ -140,15 +140,15 @@ def _thinned(scene: Scene, frames: Sequence[int]) -> Scene:
     return replace(scene, bodies=scene.bodies.at(chosen), first=first)
 
 
-def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Scene:
+def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
     """Read and arrange what is shown.
 
     Parameters
     ----------
     request
         What is asked for.
-    results
-        The run's files.
+    run
+        Its results.
     frames
         Indices of the times.
 
@@ -170,9 +170,9 @@ def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Sce
         raise InputError(
             f"-percentiles {low:g} {high:g}: two numbers from 0 to 100 are needed, the second the larger one."
         )
-    colour = require_array(results, request.colour)
-    bodies = gather(results, frames, most=request.bodies)
-    fates = results.fates()
+    colour = require_array(run, request.colour)
+    bodies = gather(run, frames, most=request.bodies)
+    fates = run.fates()
     if fates is not None:
         bodies.fields.update(told(bodies, fates))
     geometry, plane = _surroundings(request)
@@ -185,12 +185,12 @@ def make_scene(request: Request, results: Results, frames: Sequence[int]) -> Sce
     region = request.source.region if request.source else ""
     return Scene(
         title=request.case.resolve().name,
-        subtitle=results.name,
+        subtitle=run.name,
         bodies=bodies,
-        fate=fates_of(bodies, results, fates),
+        fate=fates_of(bodies, run, fates),
         geometry=geometry,
         slice=plane,
-        paths=results.paths(),
+        paths=run.paths(),
         camera=camera_for(geometry, bodies, first, gravity(request.case, region)),
         enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
         colour=colour,
@@ -234,8 +234,8 @@ def picture_of(
     if png is None and movie is None:
         require_display()
     require_graphics()
-    results = open_results(request.case, request.cloud)
-    scene = make_scene(request, results, range(len(results.entries)))
+    run = open_run(request.case, request.cloud)
+    scene = make_scene(request, run, range(len(run.entries)))
     if png is not None:
         picture(scene, png, size, style)
     elif movie is not None:
@@ -254,8 +254,8 @@ def start_paraview(case: Path, cloud: str | None) -> int:
     InputError
         ParaView is not on PATH, there is no display, or no run has left a state.
     """
-    results = open_results(case, cloud)
-    state = results.folder / f"{results.name}.py"
+    run = open_run(case, cloud)
+    state = run.folder / f"{run.name}.py"
     if not state.exists():
         raise InputError(f"{state}: missing; runs of older versions left none. To make it: foamprb run.")
     program = shutil.which("paraview")

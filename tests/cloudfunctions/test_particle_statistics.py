@@ -16,7 +16,7 @@ from foamprb.errors import InputError
 from foamprb.flow.read.field import Kind, read_field
 from foamprb.flow.read.openfoam import read_case
 from foamprb.results.foam import PatchValues, write_scalar_field
-from foamprb.view.opened import open_run
+from foamprb.view.results import open_run
 
 FUNCTION = "\ncloudFunctions { fields { type particleStatistics; sampleInterval 20; } }\n"
 

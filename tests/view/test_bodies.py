@@ -13,7 +13,7 @@ from foamprb.errors import InputError
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import write_snapshot
 from foamprb.view.bodies import UNNAMED, fates_of, gather, require_array, told
-from foamprb.view.results import open_results
+from foamprb.view.results import open_run
 
 N, M = 12, 7
 
@@ -41,7 +41,7 @@ def replace(case, index, **arrays):
 
 
 def test_every_time_has_its_own_particles(case, moved):
-    bodies = gather(open_results(case), range(M))
+    bodies = gather(open_run(case), range(M))
     np.testing.assert_array_equal(bodies.ids, np.arange(N))
     np.testing.assert_array_equal(bodies.times, moved.times)
     for k, cloud in enumerate(clouds(moved)):
@@ -59,12 +59,12 @@ def test_the_order_in_a_file_is_of_no_account(case, moved):
     cloud = clouds(moved)[-1]
     order = np.random.default_rng(3).permutation(len(cloud.points))
     replace(case, M - 1, points=cloud.points[order], **{n: a[order] for n, a in cloud.arrays.items()})
-    bodies = gather(open_results(case), range(M))
+    bodies = gather(open_run(case), range(M))
     np.testing.assert_array_equal(bodies.x[-1], moved.x[-1])
 
 
 def test_statuses_and_what_is_shown(case):
-    bodies = gather(open_results(case), range(M))
+    bodies = gather(open_run(case), range(M))
     assert bodies.status.meanings[bodies.status.codes[-1, 1]] == "stuck"
     assert bodies.shown[-1, 1]
     assert bodies.status.meanings[bodies.status.codes[-1, 2]] == "escaped"
@@ -77,7 +77,7 @@ def test_statuses_and_what_is_shown(case):
 
 @pytest.mark.parametrize("with_table", [True, False])
 def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
-    results = open_results(case)
+    results = open_run(case)
     bodies = gather(results, range(M))
     fate = fates_of(bodies, results, results.fates() if with_table else None)
     assert fate.meanings == ("active", "stuck on floor", "escaped through lid")
@@ -85,7 +85,7 @@ def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
 
 
 def test_what_the_table_tells_is_there_for_each_body(case):
-    results = open_results(case)
+    results = open_run(case)
     bodies = gather(results, range(M))
     more = told(bodies, results.fates())
     np.testing.assert_allclose(more["Ca"].values[0, :, 0], np.linspace(0.1, 1.0, N), rtol=1e-6)
@@ -93,7 +93,7 @@ def test_what_the_table_tells_is_there_for_each_body(case):
 
 
 def test_values_that_never_change_are_there_once(case):
-    fields = gather(open_results(case), range(M)).fields
+    fields = gather(open_run(case), range(M)).fields
     assert fields["d"].values.shape == (1, N, 1)
     assert fields["U"].values.shape == (M, N, 3)
     assert fields["U"].parts == ("magnitude", "x", "y", "z")
@@ -110,7 +110,7 @@ def test_failed_bodies_are_not_drawn(case, moved):
     points[3] = np.nan
     glyph[4] = 1e30
     replace(case, M - 1, points=points, glyph=glyph)
-    bodies = gather(open_results(case), range(M))
+    bodies = gather(open_run(case), range(M))
     assert bodies.present[-1].sum() == N - 2
     assert np.isfinite(bodies.x).all()
     assert np.isfinite(bodies.F).all()
@@ -119,15 +119,15 @@ def test_failed_bodies_are_not_drawn(case, moved):
 
 
 def test_some_of_the_bodies(case, moved):
-    bodies = gather(open_results(case), range(M), most=5)
+    bodies = gather(open_run(case), range(M), most=5)
     np.testing.assert_array_equal(bodies.ids, [0, 2, 4, 7, 9])
     np.testing.assert_array_equal(bodies.x[-1], moved.x[-1, bodies.ids])
 
 
 def test_some_of_the_times(case):
-    whole = gather(open_results(case), range(M))
+    whole = gather(open_run(case), range(M))
     some = whole.at(np.array([0, 3, 6]))
-    read = gather(open_results(case), [0, 3, 6])
+    read = gather(open_run(case), [0, 3, 6])
     np.testing.assert_array_equal(some.x[some.present], read.x[read.present])
     np.testing.assert_array_equal(some.present, read.present)
     assert some.fields["d"].values.shape == (1, N, 1)
@@ -146,7 +146,7 @@ def test_some_of_the_times(case):
     ],
 )
 def test_arrays_by_name(case, text, expected):
-    assert require_array(open_results(case), text) == expected
+    assert require_array(open_run(case), text) == expected
 
 
 @pytest.mark.parametrize(
@@ -160,46 +160,46 @@ def test_arrays_by_name(case, text, expected):
 )
 def test_arrays_that_there_are_not(case, text, said):
     with pytest.raises(InputError, match=said.replace("?", r"\?")):
-        require_array(open_results(case), text)
+        require_array(open_run(case), text)
 
 
 class TestDamage:
     def test_no_results(self, tmp_path):
         with pytest.raises(InputError, match=r"no results here .* foamprb run"):
-            open_results(tmp_path)
+            open_run(tmp_path)
         with pytest.raises(InputError, match="no such folder"):
-            open_results(tmp_path / "nowhere")
+            open_run(tmp_path / "nowhere")
 
     def test_another_cloud(self, case):
         with pytest.raises(InputError, match="Did you mean 'softCloud'"):
-            open_results(case, "softCloude")
+            open_run(case, "softCloude")
 
     def test_two_clouds_without_a_name(self, case):
         folder = case / "postProcessing"
         for name in ("a", "b"):
             shutil.copytree(folder / "softCloud", folder / name)
             (folder / name / "softCloud.pvd").rename(folder / name / f"{name}.pvd")
-        assert open_results(case).name == "softCloud"
+        assert open_run(case).name == "softCloud"
         shutil.rmtree(folder / "softCloud")
-        with pytest.raises(InputError, match=r"2 clouds are here: a, b.* -cloud"):
-            open_results(case)
-        assert open_results(case, "b").name == "b"
+        with pytest.raises(InputError, match=r"results of 2 clouds: a, b.* -cloud"):
+            open_run(case)
+        assert open_run(case, "b").name == "b"
 
     def test_a_damaged_list(self, case):
         pvd = case / "postProcessing/softCloud/softCloud.pvd"
         pvd.write_text(pvd.read_text()[:200])
         with pytest.raises(InputError, match=r"softCloud\.pvd"):
-            open_results(case)
+            open_run(case)
 
     def test_an_empty_list(self, case):
         pvd = case / "postProcessing/softCloud/softCloud.pvd"
         pvd.write_text('<VTKFile type="Collection"><Collection/></VTKFile>')
         with pytest.raises(InputError, match="lists no files"):
-            open_results(case)
+            open_run(case)
 
     @pytest.mark.parametrize("share", [0.0, 0.3, 0.9])
     def test_a_file_cut_short(self, case, share, capfd):
-        results = open_results(case)
+        results = open_run(case)
         path = case / "postProcessing/softCloud/softCloud_000002.vtp"
         path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
         with pytest.raises(InputError, match=r"softCloud_000002\.vtp: damaged \(.*foamprb run"):
@@ -209,32 +209,32 @@ class TestDamage:
     def test_a_missing_file(self, case):
         (case / "postProcessing/softCloud/softCloud_000001.vtp").unlink()
         with pytest.raises(InputError, match=r"softCloud_000001\.vtp: missing"):
-            gather(open_results(case), range(M))
+            gather(open_run(case), range(M))
 
     def test_a_file_of_another_run(self, case):
         replace(case, 2, shearRate=None)
         with pytest.raises(InputError, match=r"softCloud_000002\.vtp: no array 'shearRate'"):
-            gather(open_results(case), range(M))
+            gather(open_run(case), range(M))
 
     def test_files_that_are_no_bodies(self, case):
         replace(case, M - 1, glyph=None)
         with pytest.raises(InputError, match="no array 'glyph'"):
-            open_results(case)
+            open_run(case)
 
     def test_a_particle_twice(self, case, moved):
         ids = clouds(moved)[-1].arrays["origId"].copy()
         ids[3] = ids[4]
         replace(case, M - 1, origId=ids)
         with pytest.raises(InputError, match="a particle is in it twice"):
-            gather(open_results(case), range(M))
+            gather(open_run(case), range(M))
 
     def test_a_damaged_table(self, case):
         (case / "postProcessing/softCloud/fates.csv").write_text("id,fate\n0\n")
         with pytest.raises(InputError, match=r"fates\.csv: not a table: its lines have different"):
-            open_results(case).fates()
+            open_run(case).fates()
         (case / "postProcessing/softCloud/fates.csv").write_text("id,fate\n0,stuck\n")
         with pytest.raises(InputError, match=r"fates\.csv: not the table"):
-            open_results(case).fates()
+            open_run(case).fates()
 
 
 def test_a_cloud_without_particles(tmp_path):
@@ -244,5 +244,5 @@ def test_a_cloud_without_particles(tmp_path):
         empty, points=np.zeros((0, 3)), arrays={name: array[:0] for name, array in empty.arrays.items()}
     )
     Series(folder, "softCloud").append(nobody)
-    bodies = gather(open_results(tmp_path), [0])
+    bodies = gather(open_run(tmp_path), [0])
     assert bodies.x.shape == (1, 0, 3)

@@ -19,7 +19,7 @@ from view_run import Motion, motion, write_run
 
 from foamprb.view.colours import LIGHT, colour_map, colour_of_name, rgb
 from foamprb.view.picture import picture
-from foamprb.view.results import open_results
+from foamprb.view.results import open_run
 from foamprb.view.scene import VIEW_ANGLE, Scene
 from foamprb.view.show import Request, make_scene, write_page
 
@@ -57,7 +57,7 @@ def address(request_) -> str:
 
 @pytest.fixture(scope="module")
 def scene(request_) -> Scene:
-    return make_scene(request_, open_results(request_.case), range(M))
+    return make_scene(request_, open_run(request_.case), range(M))
 
 
 @pytest.fixture(scope="module")

@@ -50,7 +50,7 @@ def test_a_data_frame_where_a_library_for_it_is_installed(case, monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pandas", Pandas)
     assert foamprb.open_run(case).frame() == "frame"
     assert len(made["id"]) == 9
-    monkeypatch.setattr("foamprb.view.opened._FRAMES", ())
+    monkeypatch.setattr("foamprb.view.results._FRAMES", ())
     with pytest.raises(InputError, match="needs pandas or polars"):
         foamprb.open_run(case).frame()
 

@@ -13,7 +13,7 @@ from view_run import motion, write_run
 from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
 from foamprb.view.picture import draw, mark, sphere_for, window
-from foamprb.view.results import open_results
+from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene
 
 drawn = pytest.mark.browser
@@ -120,7 +120,7 @@ class TestPictures:
 
     def test_a_window_has_a_slider_for_the_time(self, case, monkeypatch):
         """As far as it goes without a display: nobody looks at it."""
-        scene = make_scene(Request(case), open_results(case), range(5))
+        scene = make_scene(Request(case), open_run(case), range(5))
         asked = {}
 
         def add_slider(_, callback, limits, **more):

@@ -17,7 +17,7 @@ from foamprb.flow.read.openfoam import read_case
 from foamprb.view.bodies import Bodies, Codes, Field, gather
 from foamprb.view.colours import colour_of_name, readable, rgb, ticks, written
 from foamprb.view.geometry import Geometry, Surface, boundary, cut, flat_normal, read_plane
-from foamprb.view.results import open_results
+from foamprb.view.results import open_run
 from foamprb.view.scene import (
     ALL,
     PERCENTILES,
@@ -56,7 +56,7 @@ def flow(tmp_path_factory):
 @pytest.fixture
 def bodies(tmp_path):
     write_run(tmp_path, motion(10, 4), mesh=False)
-    return gather(open_results(tmp_path), range(4))
+    return gather(open_run(tmp_path), range(4))
 
 
 def slab(sides, kind="wall", turn=None):
@@ -268,7 +268,7 @@ class TestOutliers:
 
     def test_the_legend_knows_of_them(self, tmp_path):
         write_run(tmp_path, motion(40, 8), mesh=False)
-        results = open_results(tmp_path)
+        results = open_run(tmp_path)
 
         def scene(**asked):
             return make_scene(Request(tmp_path, **asked), results, range(8))
@@ -283,7 +283,7 @@ class TestOutliers:
     def test_what_are_no_percentiles(self, tmp_path, wrong):
         write_run(tmp_path, motion(4, 2), mesh=False)
         with pytest.raises(InputError, match=r"-percentiles .*: two numbers from 0 to 100"):
-            make_scene(Request(tmp_path, percentiles=wrong), open_results(tmp_path), range(2))
+            make_scene(Request(tmp_path, percentiles=wrong), open_run(tmp_path), range(2))
 
 
 def test_enlargement_makes_bodies_visible_but_not_overlapping(bodies):

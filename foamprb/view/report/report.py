@@ -9,12 +9,12 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
 from foamprb.memory import OutOfMemory
@@ -22,12 +22,11 @@ from foamprb.results.atomic import atomic_write
 from foamprb.results.names import file_name
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
-from foamprb.view.opened import Run, open_run
 from foamprb.view.picture import picture, require_graphics
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import Deposits, deposits
 from foamprb.view.report.page import Section, figure, image, page, table
-from foamprb.view.results import open_results
+from foamprb.view.results import Run, Table, open_run
 from foamprb.view.show import Request, make_scene, spread
 
 __all__ = ["write_report"]
@@ -35,7 +34,6 @@ __all__ = ["write_report"]
 log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
-Table = dict[str, NDArray[Any]]
 
 _PICTURE = (1600, 900)
 _MOST_TIMES = 120
@@ -89,10 +87,11 @@ def write_report(
         If a file cannot be written.
     """
     run = open_run(case, cloud)
-    if "fates" not in run.tables:
+    fates = run.fates()
+    if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To go on: foamprb run -resume.")
     target = output or run.folder / "report.html"
-    given = _Given(run, run.table("fates"), _geometry(case, source), tuple(paths) if paths else None, {})
+    given = _Given(run, fates, _geometry(case, source), tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     sections = [
         _scene(given, case, cloud, source, target),
@@ -158,8 +157,7 @@ def _scene(given: _Given, case: Path, cloud: str | None, source: Source | None, 
     body = ""
     try:
         require_graphics()
-        results = open_results(case, cloud)
-        scene = make_scene(Request(case, cloud, source), results, range(len(results.entries)))
+        scene = make_scene(Request(case, cloud, source), given.run, range(len(given.run.entries)))
         drawn = []
         with tempfile.TemporaryDirectory() as folder:
             for name, style in (("light", LIGHT), ("dark", DARK)):
@@ -278,8 +276,8 @@ def _deformation(given: _Given) -> Section | None:
     chosen = spread(len(run.times), _MOST_TIMES)
     quantiles = []
     for index in chosen:
-        mesh = run.snapshot(float(run.times[index]))
-        D = np.asarray(mesh.point_data["taylorDeformation"])[np.asarray(mesh.point_data["status"]) == 1]
+        arrays = run.cloud(index, ("taylorDeformation", "status")).arrays
+        D = arrays["taylorDeformation"][arrays["status"] == Status.ACTIVE]
         quantiles.append(np.quantile(D, (0.05, 0.5, 0.95)) if len(D) else np.full(3, np.nan))
     if len(chosen) > 1 and np.isfinite(quantiles).any():
         t, (low, middle, high) = run.times[chosen], np.transpose(quantiles)
@@ -315,12 +313,12 @@ def _exposure(given: _Given) -> Section:
 
 
 def _along_paths(given: _Given) -> Section:
-    tracks = given.run.tracks
+    paths = given.run.paths(("taylorDeformation", "shearRate"))
     title = "Deformation along paths"
-    if tracks is None or tracks.n_lines == 0:
+    if paths is None:
         text = "<p>The run had no cloudFunction particleTracks, which writes paths.</p>"
         return Section("paths", title, text)
-    ids = np.asarray(tracks.cell_data["origId"])
+    ids = paths.tracks["origId"]
     if given.paths is None:
         chosen = [int(ids[k]) for k in spread(len(ids), _PATHS)]
     else:
@@ -333,12 +331,10 @@ def _along_paths(given: _Given) -> Section:
         chosen = list(given.paths)
     lines, rates = [], []
     for number in chosen:
-        points = tracks.get_cell(int(np.flatnonzero(ids == number)[0])).point_ids
-        t = np.asarray(tracks.point_data["time"])[points]
-        lines.append(
-            (f"particle {number}", t - t[0], np.asarray(tracks.point_data["taylorDeformation"])[points])
-        )
-        rates.append((f"particle {number}", t - t[0], np.asarray(tracks.point_data["shearRate"])[points]))
+        k = int(np.flatnonzero(ids == number)[0])
+        t, D, rate = (values[paths.start[k] : paths.start[k + 1]] for values in paths.values.values())
+        lines.append((f"particle {number}", t - t[0], D))
+        rates.append((f"particle {number}", t - t[0], rate))
     which = "-paths chose them" if given.paths else "evenly spread over their numbers; -paths chooses others"
     drawn = given.figure(
         "deformationAlongPaths",
