@@ -48,6 +48,36 @@ def scale_vector(s: Scalar, v: Vector) -> Vector:
     return s * v[0], s * v[1], s * v[2]
 
 
+def plus(v: Vector, w: Vector) -> Vector:
+    """Return v + w."""
+    return v[0] + w[0], v[1] + w[1], v[2] + w[2]
+
+
+def minus(v: Vector, w: Vector) -> Vector:
+    """Return v − w."""
+    return v[0] - w[0], v[1] - w[1], v[2] - w[2]
+
+
+def between(v: Vector, w: Vector, s: Scalar) -> Vector:
+    """Return v + s (w − v)."""
+    return v[0] + s * (w[0] - v[0]), v[1] + s * (w[1] - v[1]), v[2] + s * (w[2] - v[2])
+
+
+def inner(v: Vector, w: Vector) -> Scalar:
+    """Return v·w."""
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
+
+
+def norm(v: Vector) -> Scalar:
+    """Return |v|."""
+    return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+
+
+def vector_product(v: Vector, w: Vector) -> Vector:
+    """Return v × w."""
+    return v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]
+
+
 def add_identity(T: Tensor, s: Scalar) -> Tensor:
     """T + s I."""
     return (T[0] + s, T[1], T[2], T[3], T[4] + s, T[5], T[6], T[7], T[8] + s)
@@ -327,10 +357,6 @@ def _orthonormal(Q: Tensor) -> Tensor:
     return (a1, a2, a3, b1, b2, b3, a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1)
 
 
-def _norm(v: Vector) -> Scalar:
-    return np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-
-
 def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
     """Stretches along the rows of Q, and how far these are from principal directions of F.
 
@@ -393,4 +419,4 @@ def principal_frame(F: Tensor) -> tuple[Tensor, Vector]:
     G, Q = _sweep(G, Q)
     G, Q = _sweep(G, Q)
     G, Q = _sweep(G, Q)
-    return Q, (_norm((G[0], G[1], G[2])), _norm((G[3], G[4], G[5])), _norm((G[6], G[7], G[8])))
+    return Q, (norm((G[0], G[1], G[2])), norm((G[3], G[4], G[5])), norm((G[6], G[7], G[8])))

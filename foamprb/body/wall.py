@@ -20,11 +20,7 @@ from math import pi
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dot_vector, trace
-
-
-def _inner(a: Vector, b: Vector) -> Scalar:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dot_vector, inner, trace
 
 
 def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Vector:
@@ -52,7 +48,7 @@ def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
         Viscosity of the fluid, Pa s.
     """
     s, c = dot_vector(S, n), dot_vector(C, n)
-    S_nn, C_nn, tr = _inner(s, n), _inner(c, n), trace(C)
+    S_nn, C_nn, tr = inner(s, n), inner(c, n), trace(C)
     Cs, Sc = dot_vector(C, s), dot_vector(S, c)
     p, q = 20.0 * tr - 30.0 * C_nn, -15.0 * S_nn
     along = (
@@ -60,7 +56,7 @@ def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
         24.0 * Cs[1] - 6.0 * Sc[1] + p * s[1] + q * c[1],
         24.0 * Cs[2] - 6.0 * Sc[2] + p * s[2] + q * c[2],
     )
-    across = (50.0 * tr - 60.0 * C_nn) * S_nn - 20.0 * ddot(C, S) - _inner(along, n)
+    across = (50.0 * tr - 60.0 * C_nn) * S_nn - 20.0 * ddot(C, S) - inner(along, n)
     a2 = tr * (1.0 / 3.0)
     d = 1.0 / (h * h + a2)
     k = d * d / (640.0 * pi * mu)
@@ -85,7 +81,7 @@ def stresslet_gradient(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
     As :func:`stresslet_velocity`.
     """
     s = dot_vector(S, n)
-    S_nn = _inner(s, n)
+    S_nn = inner(s, n)
     d = 1.0 / (h * h + trace(C) * (2.0 / 9.0))
     k = d * np.sqrt(d) * (3.0 / (128.0 * pi * mu))
     x = (6.0 * n[0], 6.0 * n[1], 6.0 * n[2])
@@ -119,7 +115,7 @@ def force_gradient(f: Vector, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Te
         As of :func:`stresslet_velocity`.
     """
     k = 3.0 / (64.0 * pi * mu * (h * h + trace(C) * (1.0 / 3.0)))
-    f_n = _inner(f, n)
+    f_n = inner(f, n)
     p, q, r = k * n[0], k * n[1], k * n[2]
     g = (f[0] + 0.5 * f_n * n[0], f[1] + 0.5 * f_n * n[1], f[2] + 0.5 * f_n * n[2])
     xy, xz, yz = p * g[1] + q * g[0], p * g[2] + r * g[0], q * g[2] + r * g[1]

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Tensor, Vector, dot, dot_vector, longest_stretch, transpose
+from foamprb.body.tensor import Tensor, Vector, between, dot, dot_vector, longest_stretch, transpose
 from foamprb.cloud.block import (
     CELLS_TOO_MANY,
     FLOW_NOT_FINITE,
@@ -166,11 +166,6 @@ def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
     longest = s.block[at.length * LANES + i]
     if longest**3 > s.bounds.cells**3 * cell_volume(flow, s.host[i]):
         fail(s, i, CELLS_TOO_MANY)
-
-
-def between(a: Vector, b: Vector, f: float) -> Vector:
-    """The point at fraction f of the way from a to b."""
-    return a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2])
 
 
 def settle(s: Scratch, i: int, patch: int, code: int) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Protocol
 
-from foamprb.body.tensor import Scalar, Vector, select
+from foamprb.body.tensor import Scalar, Vector, inner, select
 from foamprb.dictionary.constraints import Fraction, Meaning, NonNegative
 from foamprb.dictionary.schema import Schema
 
@@ -74,7 +74,7 @@ def rebound_velocity(v: Vector, n: Vector, e: Scalar, mu: Scalar) -> Vector:
         The normal part of v is reversed and multiplied by e, the tangential part by 1 − mu; a particle
         that already moves away from the wall keeps its velocity.
     """
-    vn = v[0] * n[0] + v[1] * n[1] + v[2] * n[2]
+    vn = inner(v, n)
     approaching = vn < 0.0
     change = select(approaching, -(1.0 + e - mu) * vn, 0.0)
     keep = select(approaching, 1.0 - mu, 1.0)

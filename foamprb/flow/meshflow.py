@@ -15,8 +15,9 @@ from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_there, nearby, trace
 from foamprb.flow.mesh.interfaces import overlaps
-from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
+from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.sampling import sample_with
 from foamprb.flow.walk import (
@@ -33,7 +34,7 @@ from foamprb.flow.walk import (
     walk_on,
 )
 from foamprb.flow.wall_lists import near_walls, seen_walls, wall_tree
-from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall, pairs_near
+from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nearest_wall
 
 LONG: tuple[Callable[..., Any], ...] = (
     follow,
@@ -97,9 +98,7 @@ def _width(mesh: Mesh) -> float:
     return float(extents[areas > _FACING * areas.sum()].min())
 
 
-def _folds(
-    mesh: Mesh, nodes: Floats, boxes: Floats, tree: tuple[Floats, Ints]
-) -> tuple[NDArray[np.uint8], Ints, Ints]:
+def _folds(mesh: Mesh, nodes: Floats, boxes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
     """``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
@@ -187,8 +186,8 @@ class MeshFlow:
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         boxes = cell_boxes(mesh)
-        self._tree = build_tree(boxes)
-        folds, rim_start, rim = _folds(mesh, nodes, boxes, self._tree)
+        tree = build_tree(boxes)
+        folds, rim_start, rim = _folds(mesh, nodes, boxes, tree)
         across, partners = _across(mesh)
         self._arrays = MeshArrays(
             nodes=nodes,
@@ -196,8 +195,8 @@ class MeshFlow:
             tets=mesh.tets,
             neighbours=mesh.neighbours,
             cell_start=mesh.cell_start,
-            tree_boxes=self._tree[0],
-            tree_cells=self._tree[1],
+            tree_boxes=tree.boxes,
+            tree_cells=tree.leaves,
             triangles=mesh.triangles,
             triangle_patch=mesh.triangle_patch,
             triangle_normals=mesh.triangle_normals,
@@ -302,7 +301,6 @@ class MeshFlow:
             if isinstance(array, np.ndarray) and not name.startswith(_LISTS)
         }
         self._arrays = self._arrays._replace(**fixed)
-        self._tree = self._arrays.tree_boxes, self._arrays.tree_cells
         held = {field.name for field in fields(self.mesh)}
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
 

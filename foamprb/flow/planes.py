@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Vector, inner, norm, vector_product
 from foamprb.flow.base import NO_PLANES, Planes
-from foamprb.flow.mesh.arrays import MeshArrays
+from foamprb.flow.mesh.arrays import MeshArrays, arm
 from foamprb.flow.walk import inward, nearest_point
 from foamprb.flow.wall_lists import EDGE, SURE
 
@@ -50,9 +49,9 @@ def planes_among(
         if chosen[flow.triangle_patch[triangle]] == 0:
             continue
         a = flow.triangles[triangle, 0]
-        ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
+        ra = arm(nodes, a, x)
         n = inward(flow, triangle)
-        h = -_dot(n, ra)
+        h = -inner(n, ra)
         # What lies behind a wall, or beyond the cut.
         if h <= 0.0 or h >= cut or _known(planes, h, n):
             continue
@@ -60,13 +59,12 @@ def planes_among(
             planes = _with(planes, h, n)
             continue
         b, c = flow.triangles[triangle, 1], flow.triangles[triangle, 2]
-        rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
-        rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
+        rb, rc = arm(nodes, b, x), arm(nodes, c, x)
         if _over(n, ra, rb, rc):
             planes = _with(planes, h, n)
         elif kind & EDGE and h < min(nearest, planes.h1, planes.h2, planes.h3):
             p = nearest_point(ra, rb, rc)
-            distance = math.sqrt(_dot(p, p))
+            distance = norm(p)
             if distance < nearest:
                 nearest, towards = distance, (-p[0] / distance, -p[1] / distance, -p[2] / distance)
     if nearest < cut and nearest < min(planes.h1, planes.h2, planes.h3):
@@ -77,36 +75,29 @@ def planes_among(
 def _known(planes: Planes, h: float, n: Vector) -> bool:
     """Whether a wall at the distance h would be no nearer part of one that was found."""
     return bool(
-        (h >= planes.h1 and _dot(n, planes.n1) > _SAME_WALL)
-        or (h >= planes.h2 and _dot(n, planes.n2) > _SAME_WALL)
-        or (h >= planes.h3 and _dot(n, planes.n3) > _SAME_WALL)
+        (h >= planes.h1 and inner(n, planes.n1) > _SAME_WALL)
+        or (h >= planes.h2 and inner(n, planes.n2) > _SAME_WALL)
+        or (h >= planes.h3 and inner(n, planes.n3) > _SAME_WALL)
     )
 
 
 def _over(n: Vector, a: Vector, b: Vector, c: Vector) -> bool:
     """Whether the perpendicular from the origin to the plane of a triangle, with normal n, ends in it."""
-    p, q, r = _turn(n, a, b), _turn(n, b, c), _turn(n, c, a)
+    p = inner(n, vector_product(a, b))
+    q = inner(n, vector_product(b, c))
+    r = inner(n, vector_product(c, a))
     least = -_ON_EDGE * abs(p + q + r)
     return bool((p >= least and q >= least and r >= least) or (p <= -least and q <= -least and r <= -least))
-
-
-def _turn(n: Vector, a: Vector, b: Vector) -> Any:
-    """n·(a × b)."""
-    return (
-        n[0] * (a[1] * b[2] - a[2] * b[1])
-        + n[1] * (a[2] * b[0] - a[0] * b[2])
-        + n[2] * (a[0] * b[1] - a[1] * b[0])
-    )
 
 
 def _with(planes: Planes, h: float, n: Vector) -> Planes:
     """With one wall more, unless it is another facet of one that is there."""
     h1, n1, h2, n2, h3, n3 = planes
-    if _dot(n, n1) > _SAME_WALL:
+    if inner(n, n1) > _SAME_WALL:
         return Planes(h, n, h2, n2, h3, n3) if h < h1 else planes
-    if _dot(n, n2) > _SAME_WALL:
+    if inner(n, n2) > _SAME_WALL:
         return Planes(h1, n1, h, n, h3, n3) if h < h2 else planes
-    if _dot(n, n3) > _SAME_WALL:
+    if inner(n, n3) > _SAME_WALL:
         return Planes(h1, n1, h2, n2, h, n) if h < h3 else planes
     # In the place of the farthest: where there is none is farther than any.
     if h1 >= h2 and h1 >= h3:
@@ -114,7 +105,3 @@ def _with(planes: Planes, h: float, n: Vector) -> Planes:
     if h2 >= h3:
         return Planes(h1, n1, h, n, h3, n3) if h < h2 else planes
     return Planes(h1, n1, h2, n2, h, n) if h < h3 else planes
-
-
-def _dot(p: Vector, q: Vector) -> Any:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.tensor import Tensor, Vector, minus, vector_product
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.mesh import Mesh
@@ -61,12 +61,7 @@ def sample(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[Vector
     """Velocity, m/s, and gradient, 1/s, relative to the frame of the host; steady there."""
     u, l, _ = sample_mesh(flow.mesh, host, x, t)
     w, o = rotation_at(flow, host)
-    r = (x[0] - o[0], x[1] - o[1], x[2] - o[2])
-    u = (
-        u[0] - (w[1] * r[2] - w[2] * r[1]),
-        u[1] - (w[2] * r[0] - w[0] * r[2]),
-        u[2] - (w[0] * r[1] - w[1] * r[0]),
-    )
+    u = minus(u, vector_product(w, minus(x, o)))
     l = (
         l[0], l[1] + w[2], l[2] - w[1],
         l[3] - w[2], l[4], l[5] + w[0],

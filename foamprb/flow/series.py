@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector
+from foamprb.body.tensor import Tensor, Vector, between
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
@@ -92,13 +92,11 @@ def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence
     a = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k]), w)
     b = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k + 1]), w)
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
-    (e0, e1, e2), (f0, f1, f2) = a[2], b[2]
-    (g0, g1, g2), (h0, h1, h2) = a[3], b[3]
     return (
         a[0] + s * (b[0] - a[0]),
         a[1] + s * (b[1] - a[1]),
-        (e0 + s * (f0 - e0), e1 + s * (f1 - e1), e2 + s * (f2 - e2)),
-        (g0 + s * (h0 - g0), g1 + s * (h1 - g1), g2 + s * (h2 - g2)),
+        between(a[2], b[2], s),
+        between(a[3], b[3], s),
     )
 
 
@@ -109,13 +107,9 @@ def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature: 
     a = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
     b = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k + 1])
     return (
-        _between(a[0], b[0], s), _between(a[1], b[1], s), _between(a[2], b[2], s),
-        _between(a[3], b[3], s), _between(a[4], b[4], s), _between(a[5], b[5], s),
+        between(a[0], b[0], s), between(a[1], b[1], s), between(a[2], b[2], s),
+        between(a[3], b[3], s), between(a[4], b[4], s), between(a[5], b[5], s),
     )  # fmt: skip
-
-
-def _between(a: Vector, b: Vector, s: float) -> Vector:
-    return a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

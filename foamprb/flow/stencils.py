@@ -7,10 +7,9 @@ derivatives stand in the order xx, yy, zz, xy, xz, yz.
 
 from __future__ import annotations
 
-import numpy as np
-
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Vector, inner, norm
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.arrays import arm, point
 
 __all__ = ["group", "mean_series", "sum_differences"]
 
@@ -53,8 +52,8 @@ def sum_differences(
         c = low + i
         for k in range(start[c], start[c + 1]):
             s = columns[k]
-            d = _arm(sites, s, sites, c)
-            square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+            d = arm(sites, s, point(sites, c))
+            square = inner(d, d)
             weight = 1.0 / square if square > 0.0 else 0.0
             for f in range(sums.shape[1]):
                 difference = values[s, f] - values[c, f]
@@ -90,8 +89,8 @@ def mean_series(
         total = 0.0
         for k in range(start[p], start[p + 1]):
             s = columns[k]
-            d = _arm(points, p, sites, s)
-            w = 1.0 / max(np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), 1e-300)
+            d = arm(points, p, point(sites, s))
+            w = 1.0 / max(norm(d), 1e-300)
             total += w
             for i in range(3):
                 slope = l[s, i, 0] * d[0] + l[s, i, 1] * d[1] + l[s, i, 2] * d[2]
@@ -106,11 +105,6 @@ def mean_series(
             u_points[p, i] /= total
             for j in range(3):
                 l_points[p, i, j] /= total
-
-
-def _arm(points: Floats, p: int, sites: Floats, s: int) -> Vector:
-    """From the site s to the point p."""
-    return points[p, 0] - sites[s, 0], points[p, 1] - sites[s, 1], points[p, 2] - sites[s, 2]
 
 
 def _half_bend(h: Floats, r: int, i: int, d: Vector) -> float:

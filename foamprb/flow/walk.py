@@ -12,9 +12,9 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from foamprb.body.faxen import Curvature, curvature_of
-from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, nodes_of, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -222,11 +222,7 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
         start = x0
         if attempt > 0:
             m, nudge = _blend3(flow, host, _INSIDE), 1e-10 * 100.0**attempt
-            start = (
-                x0[0] + nudge * (m[0] - x0[0]),
-                x0[1] + nudge * (m[1] - x0[1]),
-                x0[2] + nudge * (m[2] - x0[2]),
-            )
+            start = between(x0, m, nudge)
         tet, came_from, progress, stalls = host, -1, 0.0, 0
         for _ in range(_MOST_CROSSINGS):
             origin, c1, c2, c3, volume = frame(flow, tet)
@@ -269,7 +265,7 @@ def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[in
     """:func:`foamprb.flow.mesh.folds.trace`, from another tetrahedron that holds x0 if it fails."""
     found, fraction, patch, triangle = trace(flow, host, x0, x1)
     if patch == FAILED:
-        other = seek(flow, x0, (x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]))
+        other = seek(flow, x0, minus(x1, x0))
         if other >= 0:
             return trace(flow, other, x0, x1)
     return found, fraction, patch, triangle
@@ -296,8 +292,7 @@ def normal(flow: MeshArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG00
 
 def inward(flow: MeshArrays, triangle: int) -> Vector:
     """Unit normal of a boundary triangle, pointing into the mesh."""
-    n = flow.triangle_normals
-    return n[triangle, 0], n[triangle, 1], n[triangle, 2]
+    return point(flow.triangle_normals, triangle)
 
 
 def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
@@ -312,8 +307,7 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     first, end = flow.across[triangle, 0], flow.across[triangle, 1]
     m, k = flow.motions, flow.triangle_patch[triangle]
     turn = (m[k, 0], m[k, 1], m[k, 2], m[k, 3], m[k, 4], m[k, 5], m[k, 6], m[k, 7], m[k, 8])
-    y = dot_vector(turn, x)
-    y = (y[0] + m[k, 9], y[1] + m[k, 10], y[2] + m[k, 11])
+    y = plus(dot_vector(turn, x), (m[k, 9], m[k, 10], m[k, 11]))
     host, depth = _NO_TET, -np.inf
     for place in range(first, end):
         tet = int(flow.triangle_tet[flow.partners[place]])
@@ -344,30 +338,23 @@ def _blend3(flow: MeshArrays, tet: int, w: Weights) -> Vector:
 
 def _landed(flow: MeshArrays, first: int, end: int, y: Vector) -> tuple[int, Vector]:
     """The nearest point to y of triangles across, and the tetrahedron behind it."""
-    host, best, least = _NO_TET, y, np.inf
+    host, best, least, nodes = _NO_TET, y, np.inf, flow.nodes
     for place in range(first, end):
         triangle = int(flow.partners[place])
         a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
-        p = nearest_point(_seen_from(y, flow, a), _seen_from(y, flow, b), _seen_from(y, flow, c))
-        distance = _dot(p, p)
+        p = nearest_point(arm(nodes, a, y), arm(nodes, b, y), arm(nodes, c, y))
+        distance = inner(p, p)
         if distance < least:
-            host, least = int(flow.triangle_tet[triangle]), distance
-            best = (y[0] + p[0], y[1] + p[1], y[2] + p[2])
+            host, least, best = int(flow.triangle_tet[triangle]), distance, plus(y, p)
     return host, best
-
-
-def _seen_from(y: Vector, flow: MeshArrays, node: int) -> Vector:
-    nodes = flow.nodes
-    return nodes[node, 0] - y[0], nodes[node, 1] - y[1], nodes[node, 2] - y[2]
 
 
 def nearest_point(a: Vector, b: Vector, c: Vector) -> Vector:
     """Point of the triangle a, b, c nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
-    ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-    ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
-    d1, d2 = -_dot(ab, a), -_dot(ac, a)
-    d3, d4 = -_dot(ab, b), -_dot(ac, b)
-    d5, d6 = -_dot(ab, c), -_dot(ac, c)
+    ab, ac = minus(b, a), minus(c, a)
+    d1, d2 = -inner(ab, a), -inner(ac, a)
+    d3, d4 = -inner(ab, b), -inner(ac, b)
+    d5, d6 = -inner(ab, c), -inner(ac, c)
     va, vb, vc = d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2
     v, w = 0.0, 0.0
     if d1 <= 0.0 and d2 <= 0.0:
@@ -387,7 +374,3 @@ def nearest_point(a: Vector, b: Vector, c: Vector) -> Vector:
         s = 1.0 / (va + vb + vc)
         v, w = vb * s, vc * s
     return a[0] + v * ab[0] + w * ac[0], a[1] + v * ab[1] + w * ac[1], a[2] + v * ab[2] + w * ac[2]
-
-
-def _dot(p: Vector, q: Vector) -> Any:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Vector, inner, vector_product
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.locator import build_tree
+from foamprb.flow.mesh.tree import build_tree, meet, next_node, square_to_box
 from foamprb.flow.walk import nearest_point
 
 __all__ = ["EDGE", "MOST_LISTED", "SURE", "WallTree", "edges_out", "near_walls", "seen_walls", "wall_tree"]
@@ -198,20 +198,14 @@ def _list_near(
         count = 0
         node = 1
         while node > 0 and count <= most:
-            if _meet(tree.boxes, node, boxes, cell, reach):
-                if node < leaves:
-                    node = 2 * node
-                    continue
-                for k in range(tree.leaves.shape[1]):
-                    i = tree.leaves[node - leaves, k]
-                    if i >= 0 and count <= most and _triangle_meets(tree.corners, i, boxes, cell, reach):
-                        if count < most:
-                            found[count] = i
-                        count += 1
-            while node & 1:
-                node >>= 1
-            if node > 0:
-                node += 1
+            hit = meet(tree.boxes, node, boxes, cell, reach)
+            for k in range(tree.leaves.shape[1] if hit and node >= leaves else 0):
+                i = tree.leaves[node - leaves, k]
+                if i >= 0 and count <= most and _triangle_meets(tree.corners, i, boxes, cell, reach):
+                    if count < most:
+                        found[count] = i
+                    count += 1
+            node = next_node(node, leaves, hit)
         if filling and count > most:
             seed, _ = nearest_triangle(tree, _middle(boxes, cell), math.inf, seed)
             near[start[cell]] = -1 - names[seed]
@@ -244,18 +238,6 @@ def _planes_first(tree: WallTree, found: Ints, count: int) -> int:
     return planes
 
 
-def _meet(boxes: Floats, i: int, others: Floats, j: int, reach: float) -> bool:
-    """Whether two boxes are no farther from each other than that along each axis."""
-    return bool(
-        boxes[i, 0] - reach <= others[j, 3]
-        and boxes[i, 1] - reach <= others[j, 4]
-        and boxes[i, 2] - reach <= others[j, 5]
-        and others[j, 0] <= boxes[i, 3] + reach
-        and others[j, 1] <= boxes[i, 4] + reach
-        and others[j, 2] <= boxes[i, 5] + reach
-    )
-
-
 def _triangle_meets(corners: Floats, i: int, boxes: Floats, cell: int, reach: float) -> bool:
     """As :func:`_meet`, of the box of a triangle."""
     for axis in range(3):
@@ -285,29 +267,15 @@ def nearest_triangle(tree: WallTree, x: Vector, cut: float, seed: int) -> tuple[
     leaves = tree.leaves.shape[0]
     node = 1
     while node > 0:
-        if square_to_box(tree.boxes, node, x) < best:
-            if node < leaves:
-                node = 2 * node
-                continue
-            for k in range(tree.leaves.shape[1]):
-                i = tree.leaves[node - leaves, k]
-                if i >= 0:
-                    square = _square_to_triangle(tree.corners, i, x)
-                    if square < best:
-                        best, nearest = square, i
-        while node & 1:
-            node >>= 1
-        if node > 0:
-            node += 1
+        hit = square_to_box(tree.boxes, node, x) < best
+        for k in range(tree.leaves.shape[1] if hit and node >= leaves else 0):
+            i = tree.leaves[node - leaves, k]
+            if i >= 0:
+                square = _square_to_triangle(tree.corners, i, x)
+                if square < best:
+                    best, nearest = square, i
+        node = next_node(node, leaves, hit)
     return nearest, math.sqrt(best)
-
-
-def square_to_box(boxes: Floats, i: int, x: Vector) -> Any:
-    """Square of the distance of a point from a box, m²."""
-    dx = max(boxes[i, 0] - x[0], 0.0, x[0] - boxes[i, 3])
-    dy = max(boxes[i, 1] - x[1], 0.0, x[1] - boxes[i, 4])
-    dz = max(boxes[i, 2] - x[2], 0.0, x[2] - boxes[i, 5])
-    return dx * dx + dy * dy + dz * dz
 
 
 def _square_to_triangle(corners: Floats, i: int, x: Vector) -> Any:
@@ -373,25 +341,17 @@ def _list_seen(
         n, node = 0, 1
         while node > 0:
             square = _square_between(tree.boxes, node, boxes, cell)
-            if square < sight * sight and (
+            hit = square < sight * sight and (
                 (tree.cones[node, 4] > 0.0 and square <= limit * limit) or _faces(tree, node, middle, size)
-            ):
-                if node < leaves:
-                    node = 2 * node
-                    continue
-                for k in range(tree.leaves.shape[1]):
-                    i = tree.leaves[node - leaves, k]
-                    if i < 0:
-                        continue
-                    kind = _kind(tree, i, boxes, cell, middle, half, sight, limit)
-                    if kind >= 0:
-                        work[0, n] = i
-                        work[1, n] = kind
-                        n += 1
-            while node & 1:
-                node >>= 1
-            if node > 0:
-                node += 1
+            )
+            for k in range(tree.leaves.shape[1] if hit and node >= leaves else 0):
+                i = tree.leaves[node - leaves, k]
+                kind = _kind(tree, i, boxes, cell, middle, half, sight, limit) if i >= 0 else -1
+                if kind >= 0:
+                    work[0, n] = i
+                    work[1, n] = kind
+                    n += 1
+            node = next_node(node, leaves, hit)
         counts[cell] = n
         if filling:
             counts[cell] = _fill(tree, middle, half, names, work, n, polygons, found, start[cell])
@@ -438,7 +398,7 @@ def _kind(
             square += d * d
         edge = square <= limit * limit
     normal = n[i, 0], n[i, 1], n[i, 2]
-    h, extent = _inner(normal, _seen(corners, i, 0, middle)), _extent(normal, half)
+    h, extent = inner(normal, _seen(corners, i, 0, middle)), _extent(normal, half)
     # All of the cell behind the wall, or farther from its plane than can be seen.
     if h - extent >= 0.0 or -h - extent >= sight:
         return -1
@@ -448,10 +408,10 @@ def _kind(
         c = _seen(corners, i, (k + 2) % 3, middle)
         along = b[0] - a[0], b[1] - a[1], b[2] - a[2]
         # In the plane, across the edge, away from the third corner.
-        out = _cross(along, normal)
-        if _inner(out, c) > _inner(out, a):
+        out = vector_product(along, normal)
+        if inner(out, c) > inner(out, a):
             out = -out[0], -out[1], -out[2]
-        if -_inner(out, a) - _extent(out, half) > _FLAT * _inner(along, along):
+        if -inner(out, a) - _extent(out, half) > _FLAT * inner(along, along):
             foot = False
     if edge:
         return EDGE
@@ -509,7 +469,7 @@ def _in_plane(tree: WallTree, i: int, j: int, flat: float) -> bool:
     normal = n[i, 0], n[i, 1], n[i, 2]
     off = 0.0
     for k in range(3):
-        off = max(off, abs(_inner(normal, _seen(corners, j, k, origin))))
+        off = max(off, abs(inner(normal, _seen(corners, j, k, origin))))
     return bool(off <= flat * length)
 
 
@@ -524,11 +484,11 @@ def _covered(
     ax, ay, az = abs(normal[0]), abs(normal[1]), abs(normal[2])
     # Along the axis that is most across the normal, as nearly as the plane allows.
     e = (1.0, 0.0, 0.0) if ax <= ay and ax <= az else ((0.0, 1.0, 0.0) if ay <= az else (0.0, 0.0, 1.0))
-    s = _inner(e, normal)
+    s = inner(e, normal)
     t1 = e[0] - s * normal[0], e[1] - s * normal[1], e[2] - s * normal[2]
-    s = 1.0 / math.sqrt(_inner(t1, t1))
+    s = 1.0 / math.sqrt(inner(t1, t1))
     t1 = s * t1[0], s * t1[1], s * t1[2]
-    t2 = _cross(normal, t1)
+    t2 = vector_product(normal, t1)
     a, b = _extent(t1, half), _extent(t2, half)
     covered = 0.0
     for q in range(n):
@@ -540,8 +500,8 @@ def _covered(
                 _seen(tree.corners, j, 2, middle),
             )
             covered += _area_in_rectangle(
-                (_inner(p0, t1), _inner(p1, t1), _inner(p2, t1)),
-                (_inner(p0, t2), _inner(p1, t2), _inner(p2, t2)),
+                (inner(p0, t1), inner(p1, t1), inner(p2, t1)),
+                (inner(p0, t2), inner(p1, t2), inner(p2, t2)),
                 (a, b),
                 polygons,
             )
@@ -588,14 +548,6 @@ def _sort(numbers: Ints, begin: int, end: int) -> None:
             numbers[place] = numbers[place - 1]
             place -= 1
         numbers[place] = number
-
-
-def _inner(p: Vector, q: Vector) -> Any:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-
-
-def _cross(p: Vector, q: Vector) -> Vector:
-    return p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]
 
 
 def _extent(direction: Vector, half: Vector) -> Any:

@@ -9,14 +9,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Tensor, Vector, ddot, dot_vector, inverse, longest_stretch, vector_dot
-from foamprb.compile.link import link
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    ddot,
+    dot_vector,
+    inner,
+    inverse,
+    longest_stretch,
+    norm,
+    vector_dot,
+)
 from foamprb.flow.base import NEAR, Floats, Ints
-from foamprb.flow.mesh.arrays import MeshArrays
+from foamprb.flow.mesh.arrays import MeshArrays, arm
 from foamprb.flow.mesh.folds import height
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.mesh.tree import next_node, square_to_box
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
-from foamprb.flow.wall_lists import square_to_box
 
 _NEARLY = 1.0 + 1e-6
 """So much farther a plane is still looked at, because it may stand for others that are not quite the same."""
@@ -89,25 +98,18 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
     if distance - R < best:
         best, nearest = distance - R, seed
     boxes, triangles = flow.wall_boxes, flow.wall_leaves
-    leaves = triangles.shape[0]
-    node = 1
+    node, n_leaves = 1, triangles.shape[0]
     while node > 0:
         # What the map lengthens least is shortened by the longest stretch.
         limit = _TIE * (best + R) * stretch
-        if square_to_box(boxes, node, x) <= limit * limit:
-            if node < leaves:
-                node = 2 * node
-                continue
-            for k in range(triangles.shape[1]):
-                triangle = triangles[node - leaves, k]
-                if triangle >= 0:
-                    distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
-                    if distance - R < best or (distance - R == best and triangle < nearest):
-                        best, nearest = distance - R, triangle
-        while node & 1:
-            node >>= 1
-        if node > 0:
-            node += 1
+        hit = square_to_box(boxes, node, x) <= limit * limit
+        for k in range(triangles.shape[1] if hit and node >= n_leaves else 0):
+            triangle = triangles[node - n_leaves, k]
+            if triangle >= 0:
+                distance = _mapped_distance(flow, triangle, x, F, inverse_F, _TIE * (best + R))
+                if distance - R < best or (distance - R == best and triangle < nearest):
+                    best, nearest = distance - R, triangle
+        node = next_node(node, n_leaves, hit)
     if nearest == NO_TRIANGLE:
         return np.inf, -1, NO_TRIANGLE
     return best, flow.triangle_patch[nearest], nearest
@@ -119,22 +121,14 @@ def _mapped_distance(
     """Distance of the mapped triangle from the origin, m; infinite if its plane is at the limit or beyond."""
     nodes = flow.nodes
     a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
-    ra = (nodes[a, 0] - x[0], nodes[a, 1] - x[1], nodes[a, 2] - x[2])
-    n = inward(flow, triangle)
-    height = n[0] * ra[0] + n[1] * ra[1] + n[2] * ra[2]
-    m = vector_dot(n, F)
+    n, ra = inward(flow, triangle), arm(nodes, a, x)
+    h, m = inner(n, ra), vector_dot(n, F)
     # The triangle's plane is no farther than the triangle.
-    if height * height >= limit * limit * (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]):
+    if h * h >= limit * limit * inner(m, m):
         return np.inf
-    rb = (nodes[b, 0] - x[0], nodes[b, 1] - x[1], nodes[b, 2] - x[2])
-    rc = (nodes[c, 0] - x[0], nodes[c, 1] - x[1], nodes[c, 2] - x[2])
-    return _distance(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
-
-
-def _distance(a: Vector, b: Vector, c: Vector) -> float:
-    """Distance of the triangle a, b, c from the origin."""
-    p = nearest_point(a, b, c)
-    return float(np.sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]))
+    rb, rc = arm(nodes, b, x), arm(nodes, c, x)
+    p = nearest_point(dot_vector(inverse_F, ra), dot_vector(inverse_F, rb), dot_vector(inverse_F, rc))
+    return float(norm(p))
 
 
 class Walls(NamedTuple):
@@ -182,64 +176,3 @@ def _face_box(mesh: Mesh, faces: Any) -> tuple[Floats, Floats]:
     """Corners of the box around boundary faces."""
     points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
     return points.min(axis=0), points.max(axis=0)
-
-
-def pairs_near(boxes: Floats, tree: tuple[Floats, Ints], targets: Floats) -> tuple[Ints, Ints]:
-    """Which of the boxes ``targets`` (n, 6) meet each cell's: start (n_cells + 1,), and their numbers."""
-    start, names = np.zeros(len(boxes) + 1, dtype=np.int32), np.arange(len(targets), dtype=np.int32)
-    meet, most, counts = link(_meetings), np.iinfo(np.int64).max - 1, np.zeros(len(boxes), dtype=np.int32)
-    total = meet(*tree, boxes, targets, names, most, counts, np.empty(0, dtype=np.int32))
-    np.cumsum(counts, out=start[1:])
-    found = np.empty(total, dtype=np.int32)
-    meet(*tree, boxes, targets, names, most, start[:-1].copy(), found)
-    return start, found
-
-
-def _meetings(
-    tree_boxes: Floats,
-    tree_cells: Ints,
-    boxes: Floats,
-    targets: Floats,
-    names: Ints,
-    most: int,
-    place: Ints,
-    found: Ints,
-) -> int:
-    """Count pairs of a cell and a target whose boxes meet, up to ``most`` and one, in all and by cell.
-
-    With room in ``found``, the names of the targets go there from ``place`` (n_cells,) on, cell by cell.
-    """
-    leaves = tree_cells.shape[0]
-    count = 0
-    for i in range(targets.shape[0]):
-        node = 1
-        while node > 0:
-            if _meet(tree_boxes, node, targets, i):
-                if node < leaves:
-                    node = 2 * node
-                    continue
-                for k in range(tree_cells.shape[1]):
-                    cell = tree_cells[node - leaves, k]
-                    if cell >= 0 and _meet(boxes, cell, targets, i):
-                        if found.shape[0] > 0:
-                            found[place[cell]] = names[i]
-                        place[cell] += 1
-                        count += 1
-                if count > most:
-                    return count
-            while node & 1:
-                node >>= 1
-            if node > 0:
-                node += 1
-    return count
-
-
-def _meet(boxes: Floats, i: int, others: Floats, j: int) -> bool:
-    return bool(
-        boxes[i, 0] <= others[j, 3]
-        and boxes[i, 1] <= others[j, 4]
-        and boxes[i, 2] <= others[j, 5]
-        and others[j, 0] <= boxes[i, 3]
-        and others[j, 1] <= boxes[i, 4]
-        and others[j, 2] <= boxes[i, 5]
-    )

@@ -23,6 +23,14 @@ def test_algebra_is_that_of_matrices(S, T):
     np.testing.assert_allclose(t.vector_dot(S[:3], T), A[0] @ B, atol=1e-13)
 
 
+def test_products_of_vectors(random):
+    v, w = random.normal(size=(2, 3))
+    assert t.inner(v, w) == pytest.approx(v @ w)
+    assert t.norm(v) == pytest.approx(np.linalg.norm(v))
+    np.testing.assert_allclose(t.vector_product(v, w), np.cross(v, w))
+    np.testing.assert_allclose(t.between(v, w, 0.3), 0.7 * v + 0.3 * w)
+
+
 @given(tensors)
 def test_axial_vector_turns_like_its_tensor(T):
     W = t.skew(T)

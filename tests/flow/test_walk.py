@@ -25,8 +25,9 @@ from mesh_shapes import (
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.mesh.arrays import frame, no_mesh
-from foamprb.flow.mesh.locator import build_tree, cell_boxes
+from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.mesh.tree import build_tree
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import (
     FAILED,

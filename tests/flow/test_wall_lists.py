@@ -12,6 +12,7 @@ from mesh_shapes import grid as make_grid
 from foamprb.compile.link import link
 from foamprb.flow import wall_lists
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.mesh.tree import meet, square_to_box
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among
 from foamprb.flow.walk import nearest_point
@@ -228,27 +229,24 @@ def boxes_of(random, n, most=6):
 
 
 def test_boxes_are_as_far_apart_as_their_nearest_points(random):
-    """Along each axis, and in a straight line; as for a point, or the box of a triangle."""
+    """Along each axis, and in a straight line; as for the box of a triangle."""
     a, b = boxes_of(random, 60), boxes_of(random, 60)
     for k in range(60):
         apart = np.maximum(np.maximum(a[k, :3] - b[k, 3:], b[k, :3] - a[k, 3:]), 0.0)
         assert wall_lists._square_between(a, k, b, k) == np.sum(apart**2)
         for reach in (0.0, 0.5, 1.0, 2.0):
-            assert wall_lists._meet(a, k, b, k, reach) == (apart.max() <= reach)
+            assert meet(a, k, b, k, reach) == (apart.max() <= reach)
             spread = np.array([[a[k, :3], a[k, 3:], 0.5 * (a[k, :3] + a[k, 3:])]])
             spread = spread[:, random.permutation(3)]
             assert wall_lists._triangle_meets(spread, 0, b, k, reach) == (apart.max() <= reach)
         x = tuple(random.uniform(-1.0, 10.0, 3))
         nearest = np.clip(x, a[k, :3], a[k, 3:])
-        assert wall_lists.square_to_box(a, k, x) == pytest.approx(np.sum((nearest - x) ** 2))
+        assert square_to_box(a, k, x) == pytest.approx(np.sum((nearest - x) ** 2))
         assert wall_lists._middle(a, k) == tuple(0.5 * (a[k, :3] + a[k, 3:]))
 
 
-def test_products_of_vectors(random):
-    p, q, half = random.normal(size=(3, 3))
-    half = np.abs(half)
-    assert wall_lists._inner(p, q) == pytest.approx(p @ q)
-    assert wall_lists._cross(p, q) == pytest.approx(np.cross(p, q))
+def test_extent_of_a_box_along_a_direction(random):
+    p, half = random.normal(size=3), np.abs(random.normal(size=3))
     ends = np.array(list(itertools.product((-1.0, 1.0), repeat=3))) * half
     assert wall_lists._extent(p, half) == pytest.approx((ends @ p).max())
 

@@ -7,10 +7,9 @@ import pytest
 
 from foamprb.flow.base import NEAR
 from foamprb.flow.mesh.arrays import no_mesh
-from foamprb.flow.mesh.locator import build_tree
 from foamprb.flow.walk import nearest_point
 from foamprb.flow.wall_lists import wall_tree
-from foamprb.flow.walls import Walls, gap, nearest_in_tree, nearest_wall, pairs_near
+from foamprb.flow.walls import Walls, gap, nearest_in_tree, nearest_wall
 
 
 def distance(corners):
@@ -131,17 +130,3 @@ def test_triangles_go_where_a_motion_carries_them(random):
         np.testing.assert_allclose(moved.normals[k], turn @ normals[k])
     assert moved.patches.tolist() == [0, 1, 2, 3]
     assert walls.take([2, 0]).patches.tolist() == [2, 0]
-
-
-@pytest.mark.parametrize("n", [1, 9, 40])
-def test_boxes_that_meet_are_listed_cell_by_cell(n, random):
-    """Those that touch meet as well."""
-    low, others = random.integers(0, 8, (n, 3)), random.integers(0, 8, (30, 3))
-    boxes = np.concatenate([low, low + random.integers(1, 3, (n, 3))], axis=1).astype(float)
-    targets = np.concatenate([others, others + random.integers(0, 3, (30, 3))], axis=1).astype(float)
-    start, found = pairs_near(boxes, build_tree(boxes), targets)
-    for cell in range(n):
-        meet = np.all((boxes[cell, :3] <= targets[:, 3:]) & (targets[:, :3] <= boxes[cell, 3:]), axis=1)
-        assert found[start[cell] : start[cell + 1]].tolist() == np.flatnonzero(meet).tolist()
-    assert start[-1] == len(found)
-    assert n == 1 or len(found) > 0

@@ -18,7 +18,7 @@ import numpy as np
 
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.slip import balanced_slip
-from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, load_integrals, store3
 from foamprb.cloud.forces.total import pushes_on
 from foamprb.cloud.integrators.adaptive import drag_rate, during
@@ -41,11 +41,6 @@ class FrameRows(NamedTuple):
 frames = offsets(FrameRows)
 
 
-def vector_product(a: Vector, b: Vector) -> Vector:
-    """A × b."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
 def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
     """2 Ω × u + Ω × (Ω × r), m/s²."""
     c, p = vector_product(spin, u), vector_product(spin, vector_product(spin, r))
@@ -59,9 +54,9 @@ def enter_frame(
     block = s.block
     spin, origin = rotation_at(flow, s.host[i])
     x, a = load3(block, at.x, i), load3(block, at.DuDt, i)
-    r = (x[0] - origin[0], x[1] - origin[1], x[2] - origin[2])
+    r = minus(x, origin)
     c = turning_acceleration(spin, r, load3(block, at.u, i))
-    store3(block, at.DuDt, i, (a[0] + c[0], a[1] + c[1], a[2] + c[2]))
+    store3(block, at.DuDt, i, plus(a, c))
     store3(block, frames.spin, i, spin)
     store3(block, frames.axis_point, i, origin)
 
@@ -79,9 +74,9 @@ def end_acceleration_in_frame(block: Any, i: int) -> Vector:
     """Du/Dt of the fluid at the end of the step, m/s²."""
     u, x, o = load3(block, during.end_u, i), load3(block, at.new_x, i), load3(block, frames.axis_point, i)
     w = dot_vector(load9(block, during.end_l, i), u)
-    r = (x[0] - o[0], x[1] - o[1], x[2] - o[2])
+    r = minus(x, o)
     c = turning_acceleration(load3(block, frames.spin, i), r, u)
-    return w[0] + c[0], w[1] + c[1], w[2] + c[2]
+    return plus(w, c)
 
 
 def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:

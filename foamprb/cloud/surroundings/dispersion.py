@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from foamprb.body.philox import normals, philox
-from foamprb.body.tensor import Tensor, Vector, dot_vector
+from foamprb.body.tensor import Tensor, Vector, dot_vector, inner, norm
 from foamprb.body.turbulence import (
     crossing_rate,
     direction,
@@ -67,7 +67,7 @@ def meet_eddy(
     k, epsilon = max(k, 0.0), max(epsilon, 0.0)
     u, v, w = load3(block, at.u, i), load3(block, at.v, i), load3(block, eddies.eddy_velocity, i)
     d = (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2])
-    rate = crossing_rate(k, np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]))
+    rate = crossing_rate(k, norm(d))
     left, life = block[eddies.eddy_time * LANES + i], eddy_time(k, epsilon) / rate
     size = fluctuation_size(k)
     if kind == OPENFOAM:
@@ -133,7 +133,7 @@ def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
 def throw_back(block: Any, i: int, n: Vector) -> None:
     """Let the eddy of lane i leave the wall of normal n that the particle has met."""
     w = load3(block, eddies.eddy_velocity, i)
-    towards = -2.0 * min(w[0] * n[0] + w[1] * n[1] + w[2] * n[2], 0.0)
+    towards = -2.0 * min(inner(w, n), 0.0)
     store3(
         block, eddies.eddy_velocity, i, (w[0] + towards * n[0], w[1] + towards * n[1], w[2] + towards * n[2])
     )

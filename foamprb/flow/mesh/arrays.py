@@ -112,6 +112,16 @@ def no_mesh() -> MeshArrays:
     )
 
 
+def point(table: Floats, i: int) -> Vector:
+    """Return the point in row i of a table, (n, 3) or more columns."""
+    return table[i, 0], table[i, 1], table[i, 2]
+
+
+def arm(table: Floats, i: int, x: Vector) -> Vector:
+    """Return the vector from x to the point in row i of a table."""
+    return table[i, 0] - x[0], table[i, 1] - x[1], table[i, 2] - x[2]
+
+
 def nodes_of(flow: MeshArrays, tet: int) -> tuple[Any, Any, Any, Any]:
     """Rows of the nodes of a tetrahedron; unsigned, so that none is asked whether it counts from the end."""
     tets, row = flow.tets, np.uint64(tet)
@@ -133,38 +143,6 @@ def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, f
     c2 = (ry * pz - rz * py, rz * px - rx * pz, rx * py - ry * px)
     c3 = (py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx)
     return (ox, oy, oz), c1, c2, c3, px * c1[0] + py * c1[1] + pz * c1[2]
-
-
-def next_leaf(flow: MeshArrays, leaf: int, x: Vector) -> int:
-    """The leaf of the tree of cells after another whose box holds x; 0 if there is none.
-
-    Parameters
-    ----------
-    leaf
-        What it returned last, 0 for the first. The cells of a leaf are the row leaf − len(tree_cells) of
-        ``tree_cells``.
-    x
-        A place, m.
-    """
-    boxes, leaves = flow.tree_boxes, flow.tree_cells.shape[0]
-    node = 1 if leaf == 0 else _after(leaf)
-    while node > 0:
-        inside = (
-            boxes[node, 0] <= x[0] <= boxes[node, 3]
-            and boxes[node, 1] <= x[1] <= boxes[node, 4]
-            and boxes[node, 2] <= x[2] <= boxes[node, 5]
-        )
-        if inside and node >= leaves:
-            return node
-        node = 2 * node if inside else _after(node)
-    return 0
-
-
-def _after(node: int) -> int:
-    """The right sibling of the nearest ancestor (itself included) that is a left child; 0 if none is."""
-    while node & 1:
-        node >>= 1
-    return node + 1 if node > 0 else 0
 
 
 def weights(

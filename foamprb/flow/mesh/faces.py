@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Vector, inner, plus, vector_product
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.arrays import arm, point
 
 __all__ = [
     "OPEN",
@@ -194,7 +195,7 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
             d, n = _edge(
                 points, lists[begin + k], lists[begin + k + 1 if k + 1 < size else begin], centres, f
             )
-            w = n[0] * areas[f, 0] + n[1] * areas[f, 1] + n[2] * areas[f, 2]
+            w = inner(n, point(areas, f))
             weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
         # A face folded onto itself has no area to weigh with but round-off, which leads anywhere; its mean is
         # as good a centre as any.
@@ -212,9 +213,9 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
 
 def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vector, Vector]:
     """Sum and cross product of the vectors from an origin to two points."""
-    ax, ay, az = points[p, 0] - origins[o, 0], points[p, 1] - origins[o, 1], points[p, 2] - origins[o, 2]
-    bx, by, bz = points[q, 0] - origins[o, 0], points[q, 1] - origins[o, 1], points[q, 2] - origins[o, 2]
-    return (ax + bx, ay + by, az + bz), (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+    origin = point(origins, o)
+    a, b = arm(points, p, origin), arm(points, q, origin)
+    return plus(a, b), vector_product(a, b)
 
 
 def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
@@ -296,15 +297,9 @@ def choose_bases(
 
 def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int) -> float:
     """Six times the volume of a tetrahedron over the cube of the root of the sum of its squared edges."""
-    x, y, z = centres[cell, 0], centres[cell, 1], centres[cell, 2]
-    u = (points[a, 0] - x, points[a, 1] - y, points[a, 2] - z)
-    v = (points[b, 0] - x, points[b, 1] - y, points[b, 2] - z)
-    w = (points[c, 0] - x, points[c, 1] - y, points[c, 2] - z)
-    volume = (
-        u[0] * (v[1] * w[2] - v[2] * w[1])
-        + u[1] * (v[2] * w[0] - v[0] * w[2])
-        + u[2] * (v[0] * w[1] - v[1] * w[0])
-    )
+    o = point(centres, cell)
+    u, v, w = arm(points, a, o), arm(points, b, o), arm(points, c, o)
+    volume = inner(u, vector_product(v, w))
     edges = 0.0
     for i in range(3):
         p, q, r = u[i] - v[i], v[i] - w[i], w[i] - u[i]

@@ -25,9 +25,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Vector
+from foamprb.body.tensor import Vector, inner, minus, norm, plus, vector_product
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, next_leaf, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, point, weights
+from foamprb.flow.mesh.tree import holds_point, next_node
 
 __all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_there", "nearby", "settle", "trace"]
 
@@ -88,13 +89,9 @@ def grade(nodes: Floats, tets: Ints, n_points: int, folds: NDArray[np.uint8], bo
 
 def _volume(nodes: Floats, tets: Ints, tet: int) -> tuple[float, float]:
     """Six times a tetrahedron's volume, and the product of the lengths of its edges from the first node."""
-    a, b, c, d = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
-    px, py, pz = nodes[b, 0] - nodes[a, 0], nodes[b, 1] - nodes[a, 1], nodes[b, 2] - nodes[a, 2]
-    qx, qy, qz = nodes[c, 0] - nodes[a, 0], nodes[c, 1] - nodes[a, 1], nodes[c, 2] - nodes[a, 2]
-    rx, ry, rz = nodes[d, 0] - nodes[a, 0], nodes[d, 1] - nodes[a, 1], nodes[d, 2] - nodes[a, 2]
-    volume = px * (qy * rz - qz * ry) + py * (qz * rx - qx * rz) + pz * (qx * ry - qy * rx)
-    p, q, r = px * px + py * py + pz * pz, qx * qx + qy * qy + qz * qz, rx * rx + ry * ry + rz * rz
-    return volume, np.sqrt(p) * np.sqrt(q) * np.sqrt(r)
+    o = point(nodes, tets[tet, 0])
+    p, q, r = arm(nodes, tets[tet, 1], o), arm(nodes, tets[tet, 2], o), arm(nodes, tets[tet, 3], o)
+    return inner(p, vector_product(q, r)), norm(p) * norm(q) * norm(r)
 
 
 def is_flat(flow: MeshArrays, tet: int) -> bool:
@@ -146,13 +143,14 @@ def nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
 def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int:
     """As :func:`_deepest`, of all cells that may hold x; only the tetrahedron."""
     cells = flow.tree_cells
-    leaf = next_leaf(flow, 0, x)
-    while leaf > 0:
-        for k in range(cells.shape[1]):
-            cell = cells[leaf - cells.shape[0], k]
+    node, n_leaves = 1, cells.shape[0]
+    while node > 0:
+        hit = holds_point(flow.tree_boxes, node, x)
+        for k in range(cells.shape[1] if hit and node >= n_leaves else 0):
+            cell = cells[node - n_leaves, k]
             if cell >= 0:
                 best, depth = _deepest(flow, cell, x, best, depth)
-        leaf = next_leaf(flow, leaf, x)
+        node = next_node(node, n_leaves, hit)
     return best
 
 
@@ -184,7 +182,7 @@ def is_there(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
     """Whether a tetrahedron holds x as a place of the mesh, from which a walk can go that way."""
     if is_flat(flow, tet):
         return False
-    _, _, patch, _ = trace(flow, tet, x, (x[0] + way[0], x[1] + way[1], x[2] + way[2]))
+    _, _, patch, _ = trace(flow, tet, x, plus(x, way))
     return patch != _FAILED
 
 
@@ -199,7 +197,7 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
     As :func:`foamprb.flow.walk.walk`; the hosts are not flat. The walk fails if the thread shows that x0 is
     outside the mesh, or does not lead away from x0.
     """
-    d = (x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2])
+    d = minus(x1, x0)
     first = settle(flow, host, x0)
     longest = max(abs(d[0]), abs(d[1]), abs(d[2]))
     if not longest > 0.0:
@@ -255,11 +253,9 @@ def _left_by(
 ) -> tuple[int, float, int, int]:
     """What a walk returns that leaves the mesh about t through a triangle of the boundary."""
     # Where the line itself meets the triangle's plane, which may have been shifted to find t.
-    n, a = flow.triangle_normals, flow.triangles[triangle, 0]
-    nx, ny, nz = n[triangle, 0], n[triangle, 1], n[triangle, 2]
-    x, y, z = flow.nodes[a, 0] - x0[0], flow.nodes[a, 1] - x0[1], flow.nodes[a, 2] - x0[2]
-    slope = nx * d[0] + ny * d[1] + nz * d[2]
-    exact = (nx * x + ny * y + nz * z) / slope if slope != 0.0 else t
+    n = point(flow.triangle_normals, triangle)
+    slope = inner(n, d)
+    exact = inner(n, arm(flow.nodes, flow.triangles[triangle, 0], x0)) / slope if slope != 0.0 else t
     if abs(exact - t) < _HEALED * room:
         t = exact
     t = min(max(t, 0.0), 1.0)
@@ -269,9 +265,8 @@ def _left_by(
 
 def height(flow: MeshArrays, triangle: int, x: Vector) -> float:
     """Distance of a place from the plane of a triangle of the boundary, m."""
-    n, a = flow.triangle_normals, flow.triangles[triangle, 0]
-    dx, dy, dz = x[0] - flow.nodes[a, 0], x[1] - flow.nodes[a, 1], x[2] - flow.nodes[a, 2]
-    return float(abs(n[triangle, 0] * dx + n[triangle, 1] * dy + n[triangle, 2] * dz))
+    d = arm(flow.nodes, flow.triangles[triangle, 0], x)
+    return float(abs(inner(point(flow.triangle_normals, triangle), d)))
 
 
 def _crossing(
@@ -293,11 +288,10 @@ def _crossing(
 def _squared_edge(flow: MeshArrays, tet: int) -> float:
     """The longest edge from the first node of a tetrahedron, squared, m²."""
     nodes, tets = flow.nodes, flow.tets
-    longest = 0.0
+    o, longest = point(nodes, tets[tet, 0]), 0.0
     for k in range(1, 4):
-        a, b = tets[tet, 0], tets[tet, k]
-        x, y, z = nodes[b, 0] - nodes[a, 0], nodes[b, 1] - nodes[a, 1], nodes[b, 2] - nodes[a, 2]
-        longest = max(longest, x * x + y * y + z * z)
+        edge = arm(nodes, tets[tet, k], o)
+        longest = max(longest, inner(edge, edge))
     return longest
 
 

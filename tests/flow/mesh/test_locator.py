@@ -1,4 +1,4 @@
-"""The tree over boxes, and the tetrahedron that holds a point."""
+"""The tetrahedron that holds a point."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import pytest
 from mesh_shapes import block
 
 from foamprb.flow.mesh import locator
-from foamprb.flow.mesh.arrays import TOLERANCE, next_leaf
-from foamprb.flow.mesh.locator import build_tree, cell_boxes, locate, seek
+from foamprb.flow.mesh.arrays import TOLERANCE
+from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 
@@ -34,74 +34,6 @@ def test_a_box_holds_the_points_and_the_centre_of_its_cell(flow):
         low, high = held.min(axis=0), held.max(axis=0)
         margin = 4.0 * TOLERANCE * (high - low).max()
         np.testing.assert_allclose(found[cell], [*(low - margin), *(high + margin)], rtol=0, atol=1e-15)
-
-
-@pytest.mark.parametrize("n", [1, 8, 9, 16, 17, 100])
-def test_leaves_are_as_full_as_they_can_be(n, random):
-    """At most eight in each, in a balanced tree; every node is the box of what is below it."""
-    low = random.random((n, 3)) * [1.0, 5.0, 0.2]
-    boxes = np.concatenate([low, low + 0.01], axis=1)
-    tree, cells = build_tree(boxes)
-    leaves = 1
-    while 8 * leaves < n:
-        leaves *= 2
-    assert cells.shape == (leaves, -(-n // leaves))
-    assert cells.dtype == np.int32
-    assert tree.shape == (2 * leaves, 6)
-    assert tree[0].tolist() == [np.inf] * 3 + [-np.inf] * 3
-    for node in range(1, 2 * leaves):
-        first, last = node, node
-        while first < leaves:
-            first, last = 2 * first, 2 * last + 1
-        own = cells[first - leaves : last - leaves + 1].ravel()
-        own = own[own >= 0]
-        if len(own) == 0:
-            assert tree[node].tolist() == [np.inf] * 3 + [-np.inf] * 3
-            continue
-        np.testing.assert_array_equal(tree[node, :3], boxes[own, :3].min(axis=0))
-        np.testing.assert_array_equal(tree[node, 3:], boxes[own, 3:].max(axis=0))
-
-
-def test_all_leaves_that_hold_a_place_are_found_in_turn(flow, random):
-    """Those whose boxes, and of course whose ancestors' boxes, hold it; none twice, and none outside."""
-    arrays = flow.arrays()
-    boxes, leaves = arrays.tree_boxes, len(arrays.tree_cells)
-    for x in random.uniform(-0.2, 1.2, (200, 3)):
-        expected = leaves + np.flatnonzero(
-            np.all((boxes[leaves:, :3] <= x) & (x <= boxes[leaves:, 3:]), axis=1)
-        )
-        found, leaf = [], next_leaf(arrays, 0, x)
-        while leaf:
-            found.append(leaf)
-            leaf = next_leaf(arrays, leaf, x)
-        assert found == expected.tolist()
-
-
-def test_a_group_is_halved_along_its_longest_axis(random):
-    for axis in range(3):
-        centres = random.random((32, 3))
-        centres[:, axis] *= 3.0
-        centres[28:] = np.inf
-        order = random.permutation(32).astype(np.int32)
-        locator._halve(centres, order, 1)
-        assert sorted(order) == list(range(32))
-        assert centres[order[:16], axis].max() <= centres[order[16:], axis].min()
-        locator._halve(centres, order, 2)
-        for begin in (0, 16):
-            half = order[begin : begin + 16]
-            there = centres[half][np.isfinite(centres[half]).all(axis=1)]
-            longest = int(np.ptp(there, axis=0).argmax())
-            assert centres[half[:8], longest].max() <= centres[half[8:], longest].min()
-
-
-def test_the_lower_part_is_put_first(random):
-    for n in (2, 3, 10, 31):
-        for _ in range(20):
-            centres = random.integers(0, 8, (n, 3)).astype(float)
-            order, middle = random.permutation(n), int(random.integers(1, n))
-            locator._part(centres, 1, order, 0, n - 1, middle)
-            assert sorted(order) == list(range(n))
-            assert centres[order[:middle], 1].max() <= centres[order[middle:], 1].min()
 
 
 def test_the_host_of_a_place_is_the_tetrahedron_with_the_largest_smallest_weight(flow, random):
