@@ -67,9 +67,7 @@ if TYPE_CHECKING:
     from foamprb.body.tensor import log_ratio
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud
-    from foamprb.cloud.forces.gravity import Gravity
-    from foamprb.cloud.forces.pressure_gradient import PressureGradient
-    from foamprb.cloud.forces.virtual_mass import VirtualMass
+    from foamprb.cloud.forces import Gravity, PressureGradient, VirtualMass
     from foamprb.cloud.limits import Limits
     from foamprb.cloud.measures import context, measure
     from foamprb.cloud.patches import Escape, Rebound, Stick
@@ -102,7 +100,7 @@ _HOMES = {
     "FailedParticlesWarning": "foamprb.errors",
     "FaxenCorrection": "foamprb.cloud.surroundings.faxen",
     "GradientDispersion": "foamprb.cloud.surroundings.dispersion",
-    "Gravity": "foamprb.cloud.forces.gravity",
+    "Gravity": "foamprb.cloud.forces",
     "InputError": "foamprb.errors",
     "Job": "foamprb.run.job",
     "Limits": "foamprb.cloud.limits",
@@ -111,14 +109,14 @@ _HOMES = {
     "Models": "foamprb.cloud.tracker",
     "Parameter": "foamprb.body.material",
     "Particles": "foamprb.cloud.state",
-    "PressureGradient": "foamprb.cloud.forces.pressure_gradient",
+    "PressureGradient": "foamprb.cloud.forces",
     "Rebound": "foamprb.cloud.patches",
     "RunStopped": "foamprb.errors",
     "SeriesFlow": "foamprb.flow.series",
     "Status": "foamprb.cloud.state",
     "Stick": "foamprb.cloud.patches",
     "StochasticDispersion": "foamprb.cloud.surroundings.dispersion",
-    "VirtualMass": "foamprb.cloud.forces.virtual_mass",
+    "VirtualMass": "foamprb.cloud.forces",
     "WallLift": "foamprb.cloud.surroundings.wall_lift",
     "add_material": "foamprb.body.material",
     "analytic": "foamprb.flow",

@@ -115,7 +115,7 @@ class Cloud:
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)
-            for kernel in model.needs:
+            for kernel in model.required_kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self._reach_grows = True
@@ -303,8 +303,8 @@ class Cloud:
     @property
     def _sight(self) -> tuple[float, list[int]]:
         """How far models see walls, m, and which patches."""
-        radii = max((model.sight for model in self.models.surroundings), default=0.0)
-        seen = {i for model in self.models.surroundings for i in model.seen(self.flow.patches)}
+        radii = max((model.wall_range for model in self.models.surroundings), default=0.0)
+        seen = {i for model in self.models.surroundings for i in model.wall_patches(self.flow.patches)}
         return radii * self._largest, [i for i in self._solid if i in seen]
 
     def make_ready(self) -> Any:

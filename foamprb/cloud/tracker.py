@@ -24,8 +24,7 @@ from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, Scratch, new_scratch
-from foamprb.cloud.forces.base import Force
-from foamprb.cloud.forces.total import DEFAULT, coefficients, compose
+from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
@@ -34,7 +33,7 @@ from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_o
 from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
-from foamprb.cloud.surroundings import total as surroundings
+from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.compile.link import compile_part, is_compiled, link
 from foamprb.errors import InputError

@@ -22,10 +22,10 @@ from foamprb.cloud.injection.distribution import Distribution, draw
 from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, release, start_of_injection
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
-from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.patches import REBOUND, Rebound
 from foamprb.cloud.state import Particles, concatenate
+from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker
 from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud, SeesRebounds, wants_rebounds
 from foamprb.compile.cache import cache_directory
@@ -147,7 +147,7 @@ def prepare(
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
     settings = read_settings(case, dictionary, source.region, single)
-    turbulent = any(type(model).turbulent for model in settings.dispersion.values())
+    turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative)
     rotating = bool(rotations_of(case, source))

@@ -6,8 +6,7 @@ import math
 from pathlib import Path
 from typing import Annotated
 
-from foamprb.cloud.forces.base import Force
-from foamprb.cloud.forces.registry import FORCES
+from foamprb.cloud.forces import FORCES, Force
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.registry import SURROUNDINGS

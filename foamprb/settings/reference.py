@@ -13,7 +13,7 @@ from dataclasses import MISSING, fields, is_dataclass
 from types import NoneType
 from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
 
-from foamprb.cloud.forces.registry import FORCES
+from foamprb.cloud.forces import FORCES
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.injection.shapes import SHAPES

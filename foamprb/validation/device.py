@@ -13,8 +13,7 @@ from scipy.interpolate import CubicSpline
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces.gravity import Gravity
-from foamprb.cloud.forces.pressure_gradient import PressureGradient
+from foamprb.cloud.forces import Gravity, PressureGradient
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free

@@ -10,10 +10,7 @@ from scipy.integrate import solve_ivp
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces.base import Force
-from foamprb.cloud.forces.gravity import Gravity
-from foamprb.cloud.forces.pressure_gradient import PressureGradient
-from foamprb.cloud.forces.virtual_mass import VirtualMass
+from foamprb.cloud.forces import Force, Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic

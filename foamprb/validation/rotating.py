@@ -9,8 +9,8 @@ import numpy as np
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.state import Particles, spheres
+from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from foamprb.flow.base import Floats

@@ -19,7 +19,7 @@ from foamprb.cloud.surroundings.dispersion import (
     OPENFOAM,
     GradientDispersion,
     StochasticDispersion,
-    of_eddy,
+    eddy_velocity,
 )
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
@@ -99,10 +99,10 @@ def test_openfoams_fluctuations_have_a_third_of_it():
 def test_an_eddys_velocity_is_of_three_deviates_or_of_a_length_and_a_direction(last):
     """The fourth is the length, negative only where eddies go along ∇k as often as against it."""
     xi, slope = (2.0, -1.0, 2.0, last), (0.0, 3.0, -4.0)
-    assert of_eddy(xi, NORMAL, slope) == xi[:3]
-    assert of_eddy(xi, OPENFOAM, slope) == pytest.approx(np.array(xi[:3]) * last * np.sign(last) / 3.0)
-    assert of_eddy(xi, DOWN, slope) == pytest.approx((0.0, -0.9, 1.2))
-    assert of_eddy(xi, DOWN_OR_UP, slope) == pytest.approx(np.sign(last) * np.array([0.0, -0.9, 1.2]))
+    assert eddy_velocity(xi, NORMAL, slope) == xi[:3]
+    assert eddy_velocity(xi, OPENFOAM, slope) == pytest.approx(np.array(xi[:3]) * last * np.sign(last) / 3.0)
+    assert eddy_velocity(xi, DOWN, slope) == pytest.approx((0.0, -0.9, 1.2))
+    assert eddy_velocity(xi, DOWN_OR_UP, slope) == pytest.approx(np.sign(last) * np.array([0.0, -0.9, 1.2]))
 
 
 def test_tracers_disperse_as_taylor_says():

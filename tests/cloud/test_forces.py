@@ -25,9 +25,7 @@ from foamprb import (
 )
 from foamprb.body.slip import balanced_slip, first_order_slip
 from foamprb.cloud.block import ROWS, at
-from foamprb.cloud.forces.base import Force, Inputs
-from foamprb.cloud.forces.registry import FORCES
-from foamprb.cloud.forces.total import coefficients, compose, pushes_on
+from foamprb.cloud.forces import FORCES, Force, Inputs, coefficients, compose, forces_on
 from foamprb.cloud.layout import LANES
 from foamprb.dictionary.constraints import Positive
 from foamprb.run.job import prepare
@@ -46,7 +44,7 @@ class Thrust(Force):
     a: Annotated[float, Positive]
     share: float = 0.0
 
-    push: ClassVar = staticmethod(thrust)
+    evaluate: ClassVar = staticmethod(thrust)
 
 
 @pytest.fixture
@@ -58,7 +56,7 @@ def summed(*forces, Du_Dt=DU_DT):
     """Force and inertia per mass, of plain numbers."""
     given = coefficients(forces)
     inputs = Inputs(1.1, RHO, Du_Dt, Medium(MU_F, RHO_F, G, given))
-    push, inertia = compose(forces)["pushes"](inputs, given)
+    push, inertia = compose(forces)["sum_of_forces"](inputs, given)
     return np.array(push), inertia
 
 
@@ -81,7 +79,7 @@ def test_slip_is_that_of_maxey_and_riley_to_first_order(with_pressure):
     block = np.zeros(ROWS * LANES)
     block[at.rho * LANES] = RHO
     medium = Medium(MU_F, RHO_F, G, coefficients(forces))
-    bound = FunctionType(pushes_on.__code__, pushes_on.__globals__ | compose(forces))
+    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | compose(forces))
     steady, push, inertia = bound(block, 0, medium, 1.1, DU_DT)
     np.testing.assert_allclose(steady, summed(*forces, Du_Dt=(0.0, 0.0, 0.0))[0], rtol=1e-14)
     rate, l = 40.0, np.array([[0.0, 3.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]])

@@ -19,9 +19,7 @@ from foamprb.body.material import MATERIALS, piola
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.block import Medium, at, idle_lanes, new_frames, new_integrals, new_scratch
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces.gravity import Gravity
-from foamprb.cloud.forces.pressure_gradient import PressureGradient
-from foamprb.cloud.forces.total import DEFAULT, coefficients
+from foamprb.cloud.forces import DEFAULT, Gravity, PressureGradient, coefficients
 from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.rosenbrock import ROSENBROCK, predict_inertial
 from foamprb.cloud.layout import LANES

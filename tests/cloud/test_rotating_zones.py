@@ -10,10 +10,10 @@ from mesh_shapes import block, box_patches
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.integrators.rotating_frames import RotatingFrames
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.patches import Escape, Mirror
 from foamprb.cloud.state import Reason, spheres
+from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic

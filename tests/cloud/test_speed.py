@@ -18,16 +18,16 @@ from paths import PIPE
 import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces.total import coefficients, compose
+from foamprb.cloud.forces import coefficients, compose
 from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.integrators.rosenbrock import predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
-from foamprb.cloud.surroundings.brownian import know_force, push
+from foamprb.cloud.surroundings.brownian import apply_force, compute_force
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
-from foamprb.cloud.surroundings.total import compose as surrounding
-from foamprb.cloud.surroundings.total import with_rows
+from foamprb.cloud.surroundings.registry import compose as surrounding
+from foamprb.cloud.surroundings.registry import with_rows
 from foamprb.cloud.surroundings.wall_lift import WallLift, lift
 from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
@@ -44,7 +44,7 @@ FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm
 # It goes through a single lane.
 _NO_VECTORS = (dense_newton,)
 # These ask first whether any lane needs it, or whether it is selected.
-_NOT_TRACED = (lift, know_force, push)
+_NOT_TRACED = (lift, compute_force, apply_force)
 AROUND = (FaxenCorrection(), WallLift(), foamprb.BrownianMotion(T=300.0))
 STAGES = {stage: INTEGRATORS["stokes"] for model in AROUND for stage in model.stages()}
 STAGES |= {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}

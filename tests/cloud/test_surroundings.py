@@ -11,14 +11,12 @@ import pytest
 
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.forces.gravity import Gravity
-from foamprb.cloud.forces.pressure_gradient import PressureGradient
-from foamprb.cloud.forces.virtual_mass import VirtualMass
+from foamprb.cloud.forces import Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.cloud.surroundings.total import compose, with_rows
+from foamprb.cloud.surroundings.registry import compose, with_rows
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 
@@ -49,8 +47,8 @@ def blow(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None
 class Wind(Surrounding):
     speed: float
     rows: ClassVar = WindRows
-    place: ClassVar = "wind"
-    look: ClassVar = staticmethod(look)
+    rows_name: ClassVar = "wind"
+    update: ClassVar = staticmethod(look)
     disturb: ClassVar = staticmethod(blow)
 
     def coefficients(self, _patches: Any) -> Any:
@@ -64,8 +62,8 @@ class CalmRows(NamedTuple):
 @dataclass(frozen=True, kw_only=True)
 class Calm(Surrounding):
     rows: ClassVar = CalmRows
-    place: ClassVar = "calm"
-    look: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _rest, _medium, _coefficients: None)
+    rows_name: ClassVar = "calm"
+    update: ClassVar = staticmethod(lambda _flow, _s, _i, _step, _rest, _medium, _coefficients: None)
     disturb: ClassVar = staticmethod(lambda _block, _medium, _share, _coefficients: None)
 
 
@@ -151,8 +149,8 @@ class Swirl(Surrounding):
     speed: float
     wave: float
     rows: ClassVar = SwirlRows
-    place: ClassVar = "swirl"
-    look: ClassVar = staticmethod(look_for_nothing)
+    rows_name: ClassVar = "swirl"
+    update: ClassVar = staticmethod(look_for_nothing)
     disturb: ClassVar = staticmethod(whirl)
 
     def coefficients(self, _patches: Any) -> Any:

@@ -20,7 +20,7 @@ def test_the_log_says_that_it_acts_and_what_it_leaves_out(case, capsys):
     # √(2k/3) and k/ε.
     assert "fluctuation [m/s]        0.00816 to 0.00816, median 0.00816" in said.out
     assert "eddy time [s]            0.002 to 0.002, median 0.002" in said.out
-    assert "eddies move particles but do not deform them: the shear rate of the smallest" in said.out
+    assert "eddies move particles but do not deform them. The shear rate of the smallest" in said.out
 
 
 def test_too_long_a_step_is_warned_of(case, capsys):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from paths import ROOT
 
-from foamprb.cloud.forces.registry import FORCES
+from foamprb.cloud.forces import FORCES
 from foamprb.dictionary.constraints import Only
 from foamprb.errors import InputError
 from foamprb.settings.reference import SECTIONS, entries_of, explain, meaning, plain, tables, with_tables

@@ -50,6 +50,7 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
+from foamprb.cloud.integrators.base import apply_surroundings, update_surroundings
 from foamprb.cloud.lanes import (
     ENDED,
     READY,
@@ -82,7 +83,6 @@ from foamprb.cloud.motion import (
     reach_end,
 )
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
@@ -279,7 +279,7 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
     """
     new_frames(block)
     new_integrals(block)
-    surround(block, medium, share)
+    apply_surroundings(block, medium, share)
 
 
 def sample_ahead(
@@ -401,7 +401,7 @@ def track_adaptive(
         begin_stage(block)
         for i in range(LANES):
             if block[at.moving * LANES + i] > 0.0:
-                look_around(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
+                update_surroundings(flow, scratch, i, current[i], block[during.rest * LANES + i], medium)
         evaluate_shape(block, medium, 0.0)
         predict(block, medium)
         for i in range(LANES):
@@ -565,7 +565,7 @@ def renew_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -
             u, l_f, u_t = sample(flow, s.host[i], x, t)
             store_fluid(block, i, u, l_f, u_t)
             store3(block, during.start_u, i, u)
-            look_around(flow, s, i, last - 1, 0.0, medium)
+            update_surroundings(flow, s, i, last - 1, 0.0, medium)
     evaluate_shape(block, medium, 0.0)
     end_slope(block, medium)
     for i in range(LANES):

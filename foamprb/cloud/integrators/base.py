@@ -7,9 +7,10 @@ from math import inf
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.layout import Layout
 
-__all__ = ["Integrator"]
+__all__ = ["Integrator", "apply_surroundings", "no_disturbance", "no_update", "update_surroundings"]
 
 
 def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
@@ -46,3 +47,42 @@ class Integrator(NamedTuple):
     refuses: Callable[[str, str, bool], str] = _refuses_nothing
     """``refuses(traction, material, tense)`` says why the integrator cannot take the traction, the material
     or surface tension, as the end of a sentence that begins with its name; an empty text if it can."""
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Models of the surroundings: the names below are bound to those that a cloud has chosen (see
+# foamprb.cloud.surroundings.registry) when the loop is compiled. Without any they are no-ops.
+
+
+def update_surroundings(flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium) -> None:
+    """Let each model update its rows of lane i before a step.
+
+    Parameters
+    ----------
+    step
+        Number of the tracking step.
+    rest
+        Time from the lane's t to the end of the tracking step, s.
+    """
+    update_all(flow, s, i, step, rest, medium, medium.surroundings)
+
+
+def apply_surroundings(block: Any, medium: Medium, share: float) -> None:
+    """Let each model change the fluid's u and l of all lanes, ``share`` of the way from x to new_x."""
+    prepare_all(block, medium, share, medium.surroundings)
+    disturb_all(block, medium, share, medium.surroundings)
+
+
+def no_update(
+    _flow: Any, _s: Scratch, _i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
+) -> None:
+    """No-op: no model of the surroundings has rows."""
+
+
+def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+    """No-op: u and l are those of the flow."""
+
+
+update_all: Any = no_update
+prepare_all: Any = no_disturbance
+disturb_all: Any = no_disturbance

@@ -37,8 +37,8 @@ from foamprb.cloud.block import (
     store9,
     store_fluid,
 )
-from foamprb.cloud.forces.total import acceleration
-from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.forces import acceleration
+from foamprb.cloud.integrators.base import Integrator, apply_surroundings, update_surroundings
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -53,7 +53,6 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.total import look_around, surround
 from foamprb.compile.link import side_by_side
 from foamprb.flow.analytic import sample_linear as sample
 
@@ -226,14 +225,14 @@ def track_block(
                 block[at.dt * LANES + i] = t_end - max(start + n * dt, t0)
                 u, l_f, u_t = sample(flow, scratch.host[i], load3(block, at.x, i), t_end)
                 store_fluid(block, i, u, l_f, u_t)
-                look_around(flow, scratch, i, n, block[at.dt * LANES + i], medium)
+                update_surroundings(flow, scratch, i, n, block[at.dt * LANES + i], medium)
             elif status[i] == PENDING:
                 moving += 1
         if moving == 0 or interrupted(scratch):
             break
 
         renew_frames(block)
-        surround(block, medium, 0.0)
+        apply_surroundings(block, medium, 0.0)
         traction_stage(block, medium)
         newton_stage(block)
         for i in range(len(members)):

@@ -71,7 +71,7 @@ from foamprb.cloud.block import (
     store9,
 )
 from foamprb.cloud.elastic import conservative_stress, solid_elasticity
-from foamprb.cloud.forces.total import acceleration
+from foamprb.cloud.forces import acceleration
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
@@ -94,10 +94,28 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
-from foamprb.cloud.surroundings.resistance import along_own_axes as resist
-from foamprb.cloud.surroundings.resistance import leave_gradient
-from foamprb.cloud.surroundings.resistance import own_axes as find_drag_axes
-from foamprb.cloud.surroundings.resistance import own_frame as drag_axes
+
+
+def resist(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
+    """Return the deceleration by drag at the slip w with the rates μ_f K/m, 1/s, in the particle frame, m/s².
+
+    This and the next three functions are replaced by those of a surrounding that hinders motion.
+    """
+    return rate[0] * w[0], rate[1] * w[1], rate[2] * w[2]
+
+
+def find_drag_axes(_block: Any, _i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
+    """Return the frame in which the drag at the start of a step is diagonal, and its rates there: Q's."""
+    return Q, rate
+
+
+def drag_axes(_block: Any, _i: int, Q: Tensor) -> Tensor:
+    """Return the frame of :func:`find_drag_axes` in later stages; Q is the particle frame at the start."""
+    return Q
+
+
+def leave_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any) -> None:
+    """No-op: no surrounding reads l_s before A is computed."""
 
 
 class StiffnessRows(NamedTuple):

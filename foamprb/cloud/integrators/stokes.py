@@ -38,7 +38,7 @@ from foamprb.body.tensor import (
 from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import Medium, at, choose, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.elastic import incompressible_elasticity, incompressible_stress
-from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
     ADAPTIVE_STAGES,
@@ -309,7 +309,7 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
 def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Velocity relative to a fluid of the shape that is in the block, m/s."""
     rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
-    steady, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    steady, push, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 
 

@@ -1,99 +1,116 @@
-"""What a model of the surroundings is: entries in the settings, and two plain functions on a block."""
+"""Base class of the models of the surroundings: entries in the settings, and plain functions on a block."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
-from foamprb.cloud.block import Medium
+from foamprb.body.drag import oberbeck as drag
+from foamprb.body.tensor import Vector
+from foamprb.cloud.block import Medium, at, load3, load_integrals
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
+from foamprb.dictionary.constraints import Bounds, Meaning
 from foamprb.flow.base import Flow, Patch
 
-__all__ = ["Surrounding"]
+__all__ = ["Seed", "Surrounding", "resistances"]
+
+Seed = Annotated[
+    int,
+    Bounds(0.0, 2.0**32 - 1.0, False, False, "an integer >= 0 and < 4294967296"),
+    Meaning("runs with the same seed have the same random numbers"),
+]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Surrounding:
-    """A model that changes the velocity u and the gradient l of the fluid as a particle feels them.
+    """A model that changes the fluid's velocity u and gradient l in the equations of a particle.
 
-    Its fields are the entries of its dictionary. What it finds out about a particle it stores in rows of its
-    own in the block, which are not saved unless their declaration says so.
+    Its fields are the entries of its dictionary. It stores data of a particle in rows of its own in the
+    block, which are saved if their declaration says so.
     """
 
     rows: ClassVar[type[tuple[int, ...]]]
     """Declaration of its rows, as :func:`foamprb.cloud.layout.offsets` reads it."""
-    place: ClassVar[str]
-    """Global name by which its functions know where its rows begin."""
-    look: ClassVar[Callable[..., None]]
-    """``look(flow, s, i, step, rest, medium, coefficients)``: store what it needs to know around the particle
-    in lane i, before each step h, in the tracking step of that number, of which as much (s) is left; once
-    more at the end of a call, where the integrator then finds the last rates. The lane's x and t are those of
-    the start of h."""
+    rows_name: ClassVar[str]
+    """Global name of the offsets of its rows in its functions."""
+    update: ClassVar[Callable[..., None]]
+    """``update(flow, s, i, step, rest, medium, coefficients)``: update its rows of lane i before each step h.
+
+    ``step`` is the number of the tracking step and ``rest`` the time to its end, s. It is called once more
+    with ``rest`` 0 at the end of a call, for the last rates. The lane's x and t are those of the start of
+    h."""
     prepare: ClassVar[Callable[..., None] | None] = None
-    """As ``disturb``, before that of any model: for what others ask of this one."""
+    """Like ``disturb``, called before that of any model: for data that other models read."""
     disturb: ClassVar[Callable[..., None]]
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
 
-    turbulent: ClassVar[bool] = False
+    needs_turbulence: ClassVar[bool] = False
     """Whether it needs k and ε of the flow."""
-    needs: ClassVar[tuple[str, ...]] = ()
-    """Kernels of a flow (:class:`foamprb.flow.base.Flow`) without which it cannot be."""
+    required_kernels: ClassVar[tuple[str, ...]] = ()
+    """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
 
     @classmethod
     def stages(cls) -> tuple[Callable[..., None], ...]:
-        """What is compiled once for all flows."""
+        """Return the functions that are compiled once for all flows."""
         return (cls.disturb,) if cls.prepare is None else (cls.prepare, cls.disturb)
 
     @property
-    def sight(self) -> float:
-        """Distance to which it asks the flow for walls, in radii of a particle."""
+    def wall_range(self) -> float:
+        """Distance up to which the flow must find walls, in radii of a particle."""
         return 0.0
 
-    def seen(self, patches: Sequence[Patch]) -> Sequence[int]:  # noqa: ARG002
-        """Which of the flow's patches it asks for."""
+    def wall_patches(self, patches: Sequence[Patch]) -> Sequence[int]:  # noqa: ARG002
+        """Return the indices of the patches that the flow must find as walls."""
         return ()
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
-        """What its functions read: a tuple of numbers and arrays, of the same types for any patches."""
+        """Return the arguments of its functions: numbers and arrays, of the same types for any patches."""
         return ()
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Functions by the names by which they are called, for an integrator with or without inertia."""
+        """Return functions by the names they bind, for an integrator with or without inertia."""
         return {}
 
     def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Why it does not go with an integrator of that name, with or without inertia; empty if it does."""
+        """Return why it is incompatible with an integrator; empty if it is compatible."""
         return ""
 
     def check(self, patches: Sequence[Patch]) -> None:  # noqa: ARG002
-        """Raise InputError if its entries name what is not among the flow's patches."""
+        """Raise InputError if its entries name patches that the flow does not have."""
         return
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """What a user should read before a run, line by line; ``arrays`` are what the flow's kernels read."""
+        """Return lines for the log before a run; ``arrays`` are the arguments of the flow's kernels."""
         return ()
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """What a user should be warned of before a run with steps Δt (s), sentence by sentence."""
+        """Return warnings before a run with steps Δt (s), as sentences."""
         return ()
 
     def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """What a user should read after a run with steps Δt (s), line by line."""
+        """Return lines for the log after a run with steps Δt (s)."""
         return ()
 
     def __str__(self) -> str:
-        """The entries, for the log: ``(cutOff 10, strain yes)``."""
+        """Return the entries for the log: ``(cutOff 10, strain yes)``."""
         values = ((field.name, getattr(self, field.name)) for field in fields(self))
         named = [f"{name} {_written(value)}" for name, value in values if value is not None]
         return f"({', '.join(named)})" if named else ""
 
 
 def _written(value: Any) -> str:
-    """An entry's value as a dictionary has it."""
+    """Return an entry's value as it is written in a dictionary."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
     return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"
+
+
+def resistances(block: Any, i: int) -> Vector:
+    """Return the principal resistances K of lane i without walls, m."""
+    R, k = block[at.R * LANES + i], drag(load3(block, at.stretch, i), load_integrals(block, i))
+    return R * k[0], R * k[1], R * k[2]

@@ -1,8 +1,8 @@
-"""The molecules of the fluid, which push a particle and its shape at random.
+"""Brownian motion: random force and stress of the fluid's molecules on a particle.
 
 The formulas are those of :mod:`foamprb.body.brownian`. Force and stress are drawn once per tracking step,
-with the resistances of its start, and stay the same in space's axes while the particle answers with those of
-the moment.
+with the resistances at its start, and are constant in space's axes during the step. The response of the
+particle follows its present resistances.
 """
 
 from __future__ import annotations
@@ -23,42 +23,62 @@ from foamprb.body.brownian import (
     response,
     shape_resistance,
 )
-from foamprb.body.tensor import Vector, add, dot_vector, from_frame, scale, select, to_frame, vector_dot
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    add,
+    dot_vector,
+    from_frame,
+    scale,
+    select,
+    to_frame,
+    vector_dot,
+)
 from foamprb.body.wall import hindered_resistance
 from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.cloud.surroundings.resistance import no_hindrance as hindrance_by_walls
-from foamprb.cloud.surroundings.resistance import resistances
-from foamprb.dictionary.constraints import Bounds, Meaning, Positive
+from foamprb.cloud.surroundings.base import Seed, Surrounding, resistances
+from foamprb.dictionary.constraints import Meaning, Positive
 from foamprb.flow.base import Flow, Patch
 
 __all__ = ["BrownianMotion"]
 
 LARGE_STRAIN = 0.3
-"""Of the shape by molecules, above which the user is warned."""
+"""Thermal strain above which the user is warned."""
 _KIND = np.uint64(1)
-"""What tells these random numbers from others of the same seed."""
+"""Second word of the key of these random numbers; the seed is the first."""
 
 
 class BrownianRows(NamedTuple):
-    """What the molecules do to a particle during a tracking step."""
+    """Action of the molecules on a particle during a tracking step."""
 
     number: Annotated[int, Row(1, "", "number in the cloud", of="number")]
     drawn: Annotated[int, Row(1, "", "tracking step, from 1 on, for which numbers were drawn last")]
-    duration: Annotated[int, Row(1, "s", "how long the force lasts; 0 once it is known")]
+    duration: Annotated[
+        int,
+        Row(
+            1,
+            "s",
+            "how long the force lasts; 0 once it is computed",
+        ),
+    ]
     three: Annotated[int, Row(3, "1", "normal deviates of the force")]
-    nine: Annotated[int, Row(9, "1", "those of the stress")]
+    nine: Annotated[int, Row(9, "1", "normal deviates of the stress")]
     thermal_force: Annotated[int, Row(3, "N", "force of the molecules")]
-    thermal_stress: Annotated[int, Row(9, "Pa", "their stress")]
+    thermal_stress: Annotated[int, Row(9, "Pa", "stress of the molecules")]
 
 
 thermal = offsets(BrownianRows)
 
 
+def hindrance_by_walls(_block: Any, _i: int) -> Tensor:
+    """Return zero: no walls; ``wallLift`` binds its own function."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
 def draw(_flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any) -> None:
-    """Draw the numbers of lane i for a tracking step, where it begins."""
+    """Draw the random numbers of lane i at the start of a tracking step."""
     block = s.block
     if block[thermal.drawn * LANES + i] != step + 1.0 and rest > 0.0:
         block[thermal.drawn * LANES + i] = step + 1.0
@@ -69,8 +89,8 @@ def draw(_flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium
         store9(block, thermal.nine, i, nine)
 
 
-def know_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
-    """Force and stress of the lanes whose numbers are new."""
+def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    """Compute force and stress of the lanes whose random numbers are new."""
     kT = coefficients[0]
     new = 0
     for i in range(LANES):
@@ -98,11 +118,11 @@ def know_force(block: Any, medium: Medium, share: float, coefficients: Any) -> N
         block[thermal.duration * LANES + i] = 0.0
 
 
-def push(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
-    """Let the fluid move and strain as it would have to, to push as the molecules do.
+def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Change u and l so that the fluid exerts the force and stress of the molecules.
 
-    u + K⁻¹·f_B/μ_f, without walls: theirs is a part of what they hinder. The gradient is that whose traction
-    on the body at rest is the stress.
+    The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
+    The gradient is added whose traction on the body at rest is the stress.
     """
     c = 1.0 / medium.mu
     for i in range(LANES):
@@ -119,60 +139,57 @@ def push(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  
 
 
 def force_of_molecules(block: Any, i: int) -> Vector:
-    """Of lane i, N."""
+    """Return the force on lane i, N."""
     return load3(block, thermal.thermal_force, i)
-
-
-_SEED = Bounds(0.0, 2.0**32 - 1.0, False, False, "a whole number >= 0 and < 4294967296")
 
 
 @dataclass(frozen=True, kw_only=True)
 class BrownianMotion(Surrounding):
-    """Push by the fluid's molecules: ``BrownianMotion { T 293.15; }``."""
+    """Random force and stress of the fluid's molecules: ``BrownianMotion { T 293.15; }``."""
 
     T: Annotated[float, Positive, Meaning("temperature", "K")]
-    seed: Annotated[int, _SEED, Meaning("runs with the same seed have the same random numbers")] = 1
-    shape: Annotated[bool, Meaning("whether molecules turn and deform the particle as well")] = True
+    seed: Seed = 1
+    shape: Annotated[bool, Meaning("whether molecules also turn and deform the particle")] = True
 
     rows: ClassVar = BrownianRows
-    place: ClassVar = "thermal"
-    look: ClassVar = staticmethod(draw)
-    prepare: ClassVar = staticmethod(know_force)
-    disturb: ClassVar = staticmethod(push)
+    rows_name: ClassVar = "thermal"
+    update: ClassVar = staticmethod(draw)
+    prepare: ClassVar = staticmethod(compute_force)
+    disturb: ClassVar = staticmethod(apply_force)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
-        """k_B T, J; the seed; whether the shape fluctuates."""
+        """Return k_B T, J; the seed; whether the shape fluctuates."""
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Walls hold back what the molecules push, too."""
+        """Return the force, which walls hinder too."""
         return {"thermal_force": force_of_molecules}
 
     def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Not with the paper's, which takes the resistances where its step starts."""
+        """Refuse ``paper``, whose resistances are those at the start of the step."""
         if integrator == "paper":
             return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"
         return ""
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """How far molecules take the particles, and how much they deform them."""
+        """Return the range of the thermal strain."""
         if p.size == 0:
             return ()
         strain = self._strain(p)
         return (f"{'thermal strain':24s} {strain.min():.3g} to {strain.max():.3g}",)
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """That molecules deform the particles more than the model of their push can know."""
+        """Warn of thermal strains that are too large for the model."""
         strain = float(np.median(self._strain(p))) if p.size and self.shape else 0.0
         if strain <= LARGE_STRAIN:
             return ()
         return (
-            f"molecules deform the particles by a strain of {strain:.2g} (median), beside which the "
-            "flow's may not be seen: they are too small or too soft. BrownianMotion { shape no; } leaves the "
-            "shape to the flow.",
+            f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that of "
+            "the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by the "
+            "flow alone.",
         )
 
     def _strain(self, p: Particles) -> NDArray[np.float64]:
-        """√(5 k_B T/(2 μ_s V)) of each particle."""
+        """Return √(5 k_B T/(2 μ_s V)) of each particle."""
         volume = 4.0 / 3.0 * math.pi * p.R**3
         return np.asarray(np.sqrt(2.5 * BOLTZMANN * self.T / (p.mu * volume)))

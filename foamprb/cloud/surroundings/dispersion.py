@@ -1,7 +1,7 @@
-"""The eddies of a turbulent flow of which only the mean is known: they carry particles away from its paths.
+"""Dispersion of particles by the eddies of a turbulent flow that is given by its mean.
 
 The formulas are those of :mod:`foamprb.body.turbulence`. An eddy's velocity is constant in space's axes over
-a tracking step; whether a particle leaves its eddy is asked where a tracking step begins.
+a tracking step. At the start of a tracking step a particle may leave its eddy.
 """
 
 from __future__ import annotations
@@ -26,42 +26,44 @@ from foamprb.body.turbulence import (
 from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.dictionary.constraints import Bounds, Meaning
+from foamprb.cloud.surroundings.base import Seed, Surrounding
+from foamprb.dictionary.constraints import Meaning
 from foamprb.flow.analytic import turbulence_free as turbulence
 from foamprb.flow.base import Flow, Patch
 
 __all__ = ["DISPERSIONS", "GradientDispersion", "StochasticDispersion"]
 
 _KIND = np.uint64(2)
-"""What tells these random numbers from others of the same seed."""
+"""Second word of the key of these random numbers; the seed is the first."""
 _LOW, _HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 
 
 class EddyRows(NamedTuple):
-    """The eddy in which a particle is."""
+    """Present eddy of a particle."""
 
     eddy_number: Annotated[int, Row(1, "", "number in the cloud", of="number")]
     eddy_velocity: Annotated[
         int, Row(3, "m/s", "velocity of its eddy relative to the mean flow", of="eddy", saved=True)
     ]
-    eddy_time: Annotated[int, Row(1, "s", "time that the eddy still has", of="eddyTime", saved=True)]
-    met: Annotated[int, Row(1, "", "tracking step, from 1 on, at which eddies were last asked for")]
-    drift: Annotated[int, Row(3, "m/s", "drift that keeps evenly spread particles so")]
+    eddy_time: Annotated[
+        int, Row(1, "s", "rest of its eddy's life, or the eddy's age", of="eddyTime", saved=True)
+    ]
+    updated: Annotated[int, Row(1, "", "tracking step, from 1 on, of the last update")]
+    drift: Annotated[int, Row(3, "m/s", "correction that keeps evenly spread particles evenly spread")]
 
 
 eddies = offsets(EddyRows)
 
 
-def meet_eddy(
+def update_eddy(
     flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Let the particle in lane i meet its next eddy where a tracking step begins, if it has left the last."""
+    """Draw the next eddy of lane i at the start of a tracking step, if the particle has left the last one."""
     seed, kind, corrected = coefficients
     block = s.block
-    if block[eddies.met * LANES + i] == step + 1.0 or rest <= 0.0:
+    if block[eddies.updated * LANES + i] == step + 1.0 or rest <= 0.0:
         return
-    block[eddies.met * LANES + i] = step + 1.0
+    block[eddies.updated * LANES + i] = step + 1.0
     x, t = load3(block, at.x, i), block[at.t * LANES + i]
     k, epsilon, slope, drift = turbulence(flow, s.host[i], x, t)
     k, epsilon = max(k, 0.0), max(epsilon, 0.0)
@@ -71,7 +73,7 @@ def meet_eddy(
     left, life = block[eddies.eddy_time * LANES + i], eddy_time(k, epsilon) / rate
     size = fluctuation_size(k)
     if kind == OPENFOAM:
-        # Here the time that the eddy has lasted.
+        # In this model eddy_time is the age of the eddy.
         new, left = after_openfoam(left, life, rest)
         if rest >= life:
             store3(block, eddies.eddy_velocity, i, (0.0, 0.0, 0.0))
@@ -85,7 +87,7 @@ def meet_eddy(
     if new:
         number, counter = np.uint64(block[eddies.eddy_number * LANES + i]), np.uint64(step)
         words = philox((number & _LOW, number >> _HALF, counter & _LOW, counter >> _HALF), (seed, _KIND))
-        w = of_eddy(normals(words), kind, slope)
+        w = eddy_velocity(normals(words), kind, slope)
         store3(block, eddies.eddy_velocity, i, (size * w[0], size * w[1], size * w[2]))
     block[eddies.eddy_time * LANES + i] = left
     c = corrected
@@ -93,14 +95,14 @@ def meet_eddy(
 
 
 NORMAL, OPENFOAM, DOWN, DOWN_OR_UP = 0.0, 1.0, 2.0, 3.0
-"""How an eddy's velocity is drawn: its components; a length in any direction; along −∇k; along ±∇k."""
+"""How an eddy's velocity is drawn: by components; a length in a random direction; along −∇k; along ±∇k."""
 
 
 def after_openfoam(age: float, life: float, step: float) -> tuple[bool, float]:
-    """Whether a particle meets a new eddy in OpenFOAM 1912, and the new age of its eddy, s.
+    """Return whether a particle enters a new eddy in OpenFOAM 1912, and the new age of its eddy, s.
 
-    It does when its eddy is older than eddies live where the particle is; it meets none where they live for
-    less than a step.
+    It does when its eddy is older than the local eddy life. Where that is shorter than a step there are no
+    eddies.
     """
     if step >= life:
         return False, 1e30
@@ -108,8 +110,8 @@ def after_openfoam(age: float, life: float, step: float) -> tuple[bool, float]:
     return new, 0.0 if new else age + step
 
 
-def of_eddy(xi: tuple[float, float, float, float], kind: float, slope: Vector) -> Vector:
-    """The velocity of an eddy over √(2k/3), of four normal deviates and ∇k."""
+def eddy_velocity(xi: tuple[float, float, float, float], kind: float, slope: Vector) -> Vector:
+    """Return the velocity of an eddy over √(2k/3), from four normal deviates and ∇k."""
     if kind == NORMAL:
         return xi[0], xi[1], xi[2]
     size = abs(xi[3]) if kind < DOWN_OR_UP else xi[3]
@@ -118,7 +120,7 @@ def of_eddy(xi: tuple[float, float, float, float], kind: float, slope: Vector) -
     return s * n[0], s * n[1], s * n[2]
 
 
-def carry_along(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
+def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """Add the velocity of the eddies to that of the mean flow."""
     for i in range(LANES):
         u, w, c = load3(block, at.u, i), load3(block, eddies.eddy_velocity, i), load3(block, eddies.drift, i)
@@ -126,12 +128,12 @@ def carry_along(block: Any, _medium: Medium, _share: float, _coefficients: Any) 
 
 
 def turn_eddy(block: Any, i: int, turn: Tensor) -> None:
-    """Turn or mirror the eddy of lane i, as the particle is."""
+    """Rotate or mirror the eddy of lane i, together with the particle."""
     store3(block, eddies.eddy_velocity, i, dot_vector(turn, load3(block, eddies.eddy_velocity, i)))
 
 
-def throw_back(block: Any, i: int, n: Vector) -> None:
-    """Let the eddy of lane i leave the wall of normal n that the particle has met."""
+def reflect_eddy(block: Any, i: int, n: Vector) -> None:
+    """Reflect the eddy of lane i at a wall of normal n that the particle bounces off."""
     w = load3(block, eddies.eddy_velocity, i)
     towards = -2.0 * min(inner(w, n), 0.0)
     store3(
@@ -139,27 +141,24 @@ def throw_back(block: Any, i: int, n: Vector) -> None:
     )
 
 
-_SEED = Bounds(0.0, 2.0**32 - 1.0, False, False, "a whole number >= 0 and < 4294967296")
-
-
 @dataclass(frozen=True, kw_only=True)
 class Dispersion(Surrounding):
     """Dispersion by eddies."""
 
-    seed: Annotated[int, _SEED, Meaning("runs with the same seed have the same random numbers")] = 1
+    seed: Seed = 1
 
     rows: ClassVar = EddyRows
-    place: ClassVar = "eddies"
-    look: ClassVar = staticmethod(meet_eddy)
-    disturb: ClassVar = staticmethod(carry_along)
-    turbulent: ClassVar = True
+    rows_name: ClassVar = "eddies"
+    update: ClassVar = staticmethod(update_eddy)
+    disturb: ClassVar = staticmethod(add_eddies)
+    needs_turbulence: ClassVar = True
 
     def bindings(self, inertia: bool) -> dict[str, Any]:  # noqa: ARG002
-        """Mirrors, walls and coupled patches turn the eddy as well."""
-        return {"turn_along": turn_eddy, "bounce_along": throw_back}
+        """Return the functions by which mirrors, walls and coupled patches change the eddy."""
+        return {"turn_along": turn_eddy, "bounce_along": reflect_eddy}
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
-        """How fast the eddies are, and how long they last."""
+        """Return the ranges of the eddies' velocities and lives."""
         table = flow.turbulence_at_nodes()
         if len(table) == 0:
             return ()
@@ -177,7 +176,7 @@ class Dispersion(Surrounding):
         return lines
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
-        """What the smallest eddies would do to the shape, and steps that are long against the eddies."""
+        """Warn of deformation by eddies, which is not modelled, and of steps too long for the eddies."""
         table = flow.turbulence_at_nodes()
         if len(table) == 0 or p.size == 0:
             return ()
@@ -188,22 +187,22 @@ class Dispersion(Surrounding):
         if worst > 0.0:
             rate, length = kolmogorov_rate(worst, nu), kolmogorov_length(worst, nu)
             found.append(
-                f"eddies move particles but do not deform them: the shear rate of the smallest, "
-                f"sqrt(epsilon/nu), is {kolmogorov_rate(usual, nu):.3g} (median) to {rate:.3g} 1/s, which "
-                f"is a capillary number of up to {medium.mu * rate / p.mu.min():.3g}; they are "
-                f"{length:.3g} m large where they are smallest, {length / (2.0 * p.R.max()):.3g} diameters."
+                "eddies move particles but do not deform them. The shear rate of the smallest, "
+                f"sqrt(epsilon/nu), is {kolmogorov_rate(usual, nu):.3g} (median) to {rate:.3g} 1/s, a "
+                f"capillary number of up to {medium.mu * rate / p.mu.min():.3g}; their smallest size is "
+                f"{length:.3g} m, {length / (2.0 * p.R.max()):.3g} diameters."
             )
         time = np.median(eddy_time(k, epsilon))
         if 0.0 < time < _FEWEST * dt:
             found.append(
-                f"deltaT is {dt / time:.3g} of the eddies' median life of {time:.3g} s: their dispersion is "
-                f"right, but not the velocity of a particle at a time. Take one below {time / _FEWEST:.3g} s."
+                f"deltaT is {dt / time:.3g} of the eddies' median life of {time:.3g} s: the dispersion is "
+                f"right, but the velocities of particles are not. Use deltaT < {time / _FEWEST:.3g} s."
             )
         return found
 
 
 _FEWEST = 5.0
-"""Steps that an eddy should last."""
+"""Minimum life of an eddy, in steps."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -213,17 +212,17 @@ class StochasticDispersion(Dispersion):
     fluctuations: Annotated[
         Literal["normal", "OpenFOAM"],
         Meaning(
-            "`normal`: each component has the variance 2k/3; `OpenFOAM`: as OpenFOAM 1912 draws them, with a "
-            "third of it"
+            "`normal`: each component has the variance 2k/3; `OpenFOAM`: drawn as by OpenFOAM 1912, with a "
+            "third of this variance"
         ),
     ] = "normal"
     driftCorrection: Annotated[
         bool,
-        Meaning("whether ∇(k²/3ε) is added to the velocity, so that particles do not gather where k is low"),
+        Meaning("whether ∇(k²/3ε) is added to the velocity, lest particles accumulate where k is low"),
     ] = False
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
-        """The seed, how velocities are drawn, and whether the drift is corrected."""
+        """Return the seed, how velocities are drawn, and the factor of the drift correction."""
         kind = NORMAL if self.fluctuations == "normal" else OPENFOAM
         # A third of the variance disperses a third as much.
         share = 1.0 if self.fluctuations == "normal" else 1.0 / 3.0
@@ -232,10 +231,10 @@ class StochasticDispersion(Dispersion):
 
 @dataclass(frozen=True, kw_only=True)
 class GradientDispersion(Dispersion):
-    """Eddies that go from where k is large to where it is small: `dispersionModel gradientDispersionRAS;`."""
+    """Eddies that move down the gradient of k: `dispersionModel gradientDispersionRAS;`."""
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:
-        """The seed, how velocities are drawn, and no drift."""
+        """Return the seed, how velocities are drawn, and no drift."""
         flat = any(patch.type == "empty" for patch in patches)
         return np.uint64(self.seed), DOWN_OR_UP if flat else DOWN, 0.0
 

@@ -1,7 +1,7 @@
 """Faxén's correction: the mean of a curved flow over the body instead of its velocity at the centre.
 
-The formula is that of :mod:`foamprb.body.faxen`. The flow's second derivatives are those of the place and
-time at which a step begins.
+The formula is that of :mod:`foamprb.body.faxen`. The flow's second derivatives are those at the start of a
+step.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ __all__ = ["FaxenCorrection"]
 
 
 class FaxenRows(NamedTuple):
-    """How the flow is curved where a step begins."""
+    """Second derivatives of the flow at the start of a step."""
 
     along_xx: Annotated[int, Row(3, "1/(m s)", "∂²u/∂x²")]
     along_yy: Annotated[int, Row(3, "1/(m s)", "∂²u/∂y²")]
@@ -33,10 +33,10 @@ class FaxenRows(NamedTuple):
 curved = offsets(FaxenRows)
 
 
-def look_at_curvature(
+def store_curvature(
     flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
-    """Put the second derivatives at the place of lane i into its rows."""
+    """Store the second derivatives at the position of lane i."""
     block = s.block
     xx, yy, zz, xy, yz, xz = curvature(flow, s.host[i], load3(block, at.x, i), block[at.t * LANES + i])
     store3(block, curved.along_xx, i, xx)
@@ -48,7 +48,7 @@ def look_at_curvature(
 
 
 def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
-    """Add ⅙ C:∇∇u to the velocity of the fluid, C that of the shape."""
+    """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
         F, R, u = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, at.u, i)
         v = faxen_velocity(scale(R * R, dot(F, transpose(F))), _curvature_of(block, i))
@@ -71,7 +71,7 @@ class FaxenCorrection(Surrounding):
     """Mean of a curved flow over the body instead of its velocity at the centre: ``faxenCorrection;``."""
 
     rows: ClassVar = FaxenRows
-    place: ClassVar = "curved"
-    look: ClassVar = staticmethod(look_at_curvature)
+    rows_name: ClassVar = "curved"
+    update: ClassVar = staticmethod(store_curvature)
     disturb: ClassVar = staticmethod(correct)
-    needs: ClassVar = ("curvature",)
+    required_kernels: ClassVar = ("curvature",)

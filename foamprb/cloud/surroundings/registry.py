@@ -1,17 +1,91 @@
-"""The models of the surroundings, by the names of their entries in ``particleForces``."""
+"""Models of the surroundings by name, and their composition for the loop of every integrator."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from foamprb.cloud.block import Medium, Scratch
+from foamprb.cloud.forces import bound
+from foamprb.cloud.integrators.base import no_disturbance, no_update
+from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.flow.base import Patch
 
-__all__ = ["SURROUNDINGS"]
+__all__ = ["SURROUNDINGS", "coefficients", "compose", "with_rows"]
 
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "faxenCorrection": FaxenCorrection,
     "wallLift": WallLift,
     "BrownianMotion": BrownianMotion,
 }
-"""In the order in which those that are chosen act, whatever their order in the settings."""
+"""By the names of their entries in ``particleForces``, in the order in which they act."""
+
+
+def with_rows(own: Layout, surroundings: Sequence[Surrounding]) -> Layout:
+    """Return the layout of an integrator's block, extended by the rows of these models, all of them kept."""
+    if not surroundings:
+        return own
+    found = layout(*own.parts, *_offsets(own, surroundings).values())
+    return keep(found, [row for row in range(own.rows, found.rows) if row not in found.kept])
+
+
+def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> dict[str, Any]:
+    """Return the composed functions of these models and the offsets of their rows, by the names they bind.
+
+    Parameters
+    ----------
+    own
+        Layout of the integrator's block without them.
+    inertia
+        Whether the integrator's solid has inertia.
+    """
+    if not surroundings:
+        return {}
+    update: Callable[..., None] = no_update
+    prepare: Callable[..., None] = no_disturbance
+    disturb: Callable[..., None] = no_disturbance
+    found: dict[str, Any] = dict(_offsets(own, surroundings))
+    for model in surroundings:
+        update = bound(_then_update, others=update, model=type(model).update)
+        prepare = bound(_then_disturb, others=prepare, model=type(model).prepare or no_disturbance)
+        disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
+        found |= model.bindings(inertia)
+    return {**found, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
+
+
+def coefficients(surroundings: Sequence[Surrounding], patches: Sequence[Patch]) -> tuple[Any, ...]:
+    """Return the coefficients of these models as their composed functions read them: ((…, 1st), 2nd)."""
+    nested: tuple[Any, ...] = ()
+    for model in surroundings:
+        nested = nested, model.coefficients(patches)
+    return nested
+
+
+def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tuple[int, ...]]:
+    found: dict[str, tuple[int, ...]] = {}
+    first = own.rows
+    for model in surroundings:
+        at = offsets(type(model).rows, first)
+        found[type(model).rows_name] = at
+        first = end(at)
+    return found
+
+
+def _then_update(
+    flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium, coefficients: Any
+) -> None:
+    others(flow, s, i, step, rest, medium, coefficients[0])
+    model(flow, s, i, step, rest, medium, coefficients[1])
+
+
+def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
+    others(block, medium, share, coefficients[0])
+    model(block, medium, share, coefficients[1])
+
+
+others: Any = no_update
+model: Any = no_update

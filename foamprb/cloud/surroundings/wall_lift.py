@@ -1,7 +1,8 @@
-"""What walls send back to a soft particle near them: lift, strain, and hindered motion.
+"""Hydrodynamic effect of walls on a soft particle near them: lift, strain, and hindered motion.
 
-The formulas are those of :mod:`foamprb.body.wall`. The walls around a particle are looked for once before
-each step; within it they are planes.
+The formulas are those of :mod:`foamprb.body.wall`. The walls around a particle are found once before each
+step; within it they are planes. A wall *reflects* velocity and velocity gradient of the flow that a particle
+causes.
 """
 
 from __future__ import annotations
@@ -47,11 +48,10 @@ from foamprb.body.wall import (
 )
 from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.elastic import incompressible_stress
-from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.forces import forces_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.cloud.surroundings.resistance import resistances
+from foamprb.cloud.surroundings.base import Surrounding, resistances
 from foamprb.compile.link import link
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
@@ -61,44 +61,44 @@ from foamprb.flow.base import WALLS, Floats, Flow, Patch
 __all__ = ["CLOSE", "WallLift"]
 
 CLOSE = 2.0
-"""Distance of the centre from a wall, in radii, within which the steps of a particle are counted."""
+"""Distance of the centre from a wall, in radii, below which steps are counted as close."""
 _FAR = 1e9
-"""Distance of a wall that is not there, in radii, or in metres in a lane without a particle."""
+"""Distance of an absent wall, in radii, or in metres in a lane without a particle."""
 _REPEATS = 2
 
 
 class WallRows(NamedTuple):
-    """The walls around a particle, and what they send back."""
+    """Walls around a particle, and their effect on it."""
 
     wall_distance: Annotated[int, Row(3, "m", "distances of the centre from up to three walls", _FAR)]
     wall_normal: Annotated[int, Row(9, "1", "their unit normals into the fluid")]
-    counted: Annotated[int, Row(1, "", "tracking step, from 1 on, at which walls were last looked for")]
+    counted: Annotated[int, Row(1, "", "tracking step, from 1 on, of the last update")]
     close: Annotated[int, Row(1, "", "steps begun near a wall", of="close", saved=True)]
-    one_distance: Annotated[int, Row(1, "m", "distance of the centre from one of them, now", 1.0)]
+    one_distance: Annotated[int, Row(1, "m", "present distance of the centre from one of them", 1.0)]
     one_normal: Annotated[int, Row(3, "1", "its normal")]
     one_gap: Annotated[int, Row(1, "m", "gap between body and wall", 1.0)]
-    there: Annotated[int, Row(1, "", "1 if there is that wall, else 0")]
-    alone: Annotated[int, Row(9, "N m", "stresslet of the particle without walls")]
+    present: Annotated[int, Row(1, "", "1 if that wall exists, else 0")]
+    free_stresslet: Annotated[int, Row(9, "N m", "stresslet of the particle without walls")]
     stresslet: Annotated[int, Row(9, "N m", "stresslet of the particle")]
-    gives_normal: Annotated[int, Row(9, "1", "how the body gives way: its mobility")]
-    gives_shear: Annotated[int, Row(3, "1", "the same, in shear")]
-    gives_slip: Annotated[int, Row(3, "1", "(b² − c²)/(b² + c²) and its cyclic companions")]
-    sent_back: Annotated[int, Row(9, "1/s", "velocity gradient that the walls send back")]
-    least_gap: Annotated[int, Row(1, "1", "least gap, in radii", 1.0)]
-    wall_lift: Annotated[int, Row(3, "m/s", "velocity that they send back")]
+    mobility_normal: Annotated[int, Row(9, "1", "mobility of the body's shape")]
+    mobility_shear: Annotated[int, Row(3, "1", "the same, in shear")]
+    mobility_slip: Annotated[int, Row(3, "1", "(b² − c²)/(b² + c²) and its cyclic companions")]
+    reflected: Annotated[int, Row(9, "1/s", "velocity gradient that the walls reflect")]
+    least_gap: Annotated[int, Row(1, "1", "smallest gap, in radii", 1.0)]
+    wall_lift: Annotated[int, Row(3, "m/s", "velocity that they reflect")]
     load: Annotated[int, Row(3, "N", "force of the particle on the fluid")]
-    by_load: Annotated[int, Row(9, "1/s", "velocity gradient that they send back of it")]
-    hindrance: Annotated[int, Row(9, "1", "resistance that they add, in the particle frame")]
+    load_gradient: Annotated[int, Row(9, "1/s", "velocity gradient by its image")]
+    hindrance: Annotated[int, Row(9, "1", "resistance added by walls, in the particle frame")]
     drag_frame: Annotated[int, Row(9, "1", "frame in which the drag at the start of a step is diagonal")]
 
 
 near = offsets(WallRows)
 
 
-def look_for_walls(
+def find_walls(
     flow: Any, s: Scratch, i: int, step: int, _rest: float, _medium: Medium, coefficients: Any
 ) -> None:
-    """Put the walls around the particle in lane i into its rows, and count the step if one is close."""
+    """Store the walls around the particle in lane i, and count the step if one is close."""
     cut_off, least_gap, _, _, chosen = coefficients
     block = s.block
     R = block[at.R * LANES + i]
@@ -115,11 +115,11 @@ def look_for_walls(
 
 
 def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
-    """Add what the walls send back of the particles' stresslets to u and l, and hold back what falls.
+    """Add the reflections of the particles' stresslets to u and l, and hinder motion by forces.
 
-    The stresslet is that of the flow with the walls' own gradient, to which it comes by repetition. The
-    gradient of the image of a load deforms; what the stresslet that a rigid body answers with does to the
-    velocity is a part of the mobility.
+    The stresslet is that in the flow with the reflected gradient, found by iteration. The gradient of the
+    image of a load deforms the particle. The effect of the stresslet of a rigid body under load on the
+    velocity is part of the mobility.
     """
     _, least_gap, strain, hindered, _ = coefficients
     most = 0
@@ -131,42 +131,42 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
     for i in range(LANES):
         nothing = scale(0.0, load9(block, at.l, i))
         store9(block, near.hindrance, i, nothing)
-        store9(block, near.by_load, i, nothing)
+        store9(block, near.load_gradient, i, nothing)
     if hindered > 0.0:
         before_lift(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
         store3(block, near.wall_lift, i, (0.0, 0.0, 0.0))
         S = stresslet(block, i, medium, load9(block, at.l, i), body_gradient(block, i, medium, share))
-        store9(block, near.alone, i, S)
+        store9(block, near.free_stresslet, i, S)
         store9(block, near.stresslet, i, S)
     for _ in range(_REPEATS):
         for i in range(LANES):
-            store9(block, near.sent_back, i, scale(0.0, load9(block, at.l, i)))
+            store9(block, near.reflected, i, scale(0.0, load9(block, at.l, i)))
         for wall in range(most):
-            add_sent_back(block, wall, share, least_gap, medium, 1.0)
+            add_reflection(block, wall, share, least_gap, medium, 1.0)
         for i in range(LANES):
-            E = scale(strain, load9(block, near.sent_back, i))
+            E = scale(strain, load9(block, near.reflected, i))
             S = stresslet(block, i, medium, E, body_response(block, i, medium, E))
-            store9(block, near.stresslet, i, add(load9(block, near.alone, i), S))
+            store9(block, near.stresslet, i, add(load9(block, near.free_stresslet, i), S))
     for wall in range(most):
-        pick_wall(block, wall, share, least_gap)
+        select_wall(block, wall, share, least_gap)
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
             v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-            w, there = load3(block, near.wall_lift, i), block[near.there * LANES + i]
+            w, there = load3(block, near.wall_lift, i), block[near.present * LANES + i]
             store3(block, near.wall_lift, i, (w[0] + there * v[0], w[1] + there * v[1], w[2] + there * v[2]))
         if hindered > 0.0:
             for i in range(LANES):
                 n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
                 W = hindrance_of(block, i, n, d, block[near.one_gap * LANES + i])
-                W = scale(block[near.there * LANES + i], W)
+                W = scale(block[near.present * LANES + i], W)
                 store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
     if hindered > 0.0:
         after_lift(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
         some = any_near(block, i)
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
-        E = add(scale(strain, load9(block, near.sent_back, i)), load9(block, near.by_load, i))
+        E = add(scale(strain, load9(block, near.reflected, i)), load9(block, near.load_gradient, i))
         store9(block, at.l, i, choose(some, add(l, E), l))
         store3(
             block,
@@ -181,7 +181,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
 
 
 def any_near(block: Any, i: int) -> Any:
-    """Whether lane i has a wall near it."""
+    """Return whether lane i has a wall near it."""
     h, far = load3(block, near.wall_distance, i), 0.5 * _FAR * block[at.R * LANES + i]
     return (h[0] < far) | (h[1] < far) | (h[2] < far)
 
@@ -189,72 +189,72 @@ def any_near(block: Any, i: int) -> Any:
 def strain_by_load(
     block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
-    """The gradient by which the image of a load deforms, and that of the rigid stresslet that answers it."""
+    """Store the gradient of the image of a load and of the resulting stresslet of a rigid body."""
     for i in range(LANES):
         store3(block, near.load, i, load_of(block, i, medium, share))
     for wall in range(most):
-        pick_wall(block, wall, share, least_gap)
+        select_wall(block, wall, share, least_gap)
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
             E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
-            E = scale(strain * block[near.there * LANES + i], E)
-            store9(block, near.by_load, i, add(load9(block, near.by_load, i), E))
+            E = scale(strain * block[near.present * LANES + i], E)
+            store9(block, near.load_gradient, i, add(load9(block, near.load_gradient, i), E))
     for i in range(LANES):
-        E = load9(block, near.by_load, i)
-        store9(block, near.sent_back, i, E)
+        E = load9(block, near.load_gradient, i)
+        store9(block, near.reflected, i, E)
         store9(block, near.stresslet, i, stresslet(block, i, medium, E, scale(0.0, E)))
     for wall in range(most):
-        add_sent_back(block, wall, share, least_gap, medium, strain)
+        add_reflection(block, wall, share, least_gap, medium, strain)
     for i in range(LANES):
-        store9(block, near.by_load, i, load9(block, near.sent_back, i))
+        store9(block, near.load_gradient, i, load9(block, near.reflected, i))
 
 
-def hold_back(
+def hinder_load(
     block: Any, medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
 ) -> None:
-    """Add what the walls take off the velocity by the load to that which they send back."""
+    """Add the velocity that a load loses by the walls to the reflected one."""
     for i in range(LANES):
-        v = held_back(block, i, medium)
+        v = velocity_loss(block, i, medium)
         w = load3(block, near.wall_lift, i)
         store3(block, near.wall_lift, i, (w[0] + v[0], w[1] + v[1], w[2] + v[2]))
 
 
-def no_load_yet(
+def no_load_before_lift(
     _block: Any, _medium: Medium, _share: float, _least_gap: float, _strain: float, _most: int
 ) -> None:
-    """Before the lift is known, so is not the drag of a body with inertia."""
+    """No-op: the drag on a body with inertia depends on the lift."""
 
 
 def strain_by_drag(
     block: Any, medium: Medium, share: float, least_gap: float, strain: float, most: int
 ) -> None:
-    """As :func:`strain_by_load`, of a body with inertia; what the walls take off, of the molecules' push."""
+    """See :func:`strain_by_load`, for a body with inertia; hinder the force of molecules."""
     for i in range(LANES):
-        # The stresslet without walls has served.
-        store9(block, near.alone, i, load9(block, near.sent_back, i))
+        # The rows of free_stresslet are free again.
+        store9(block, near.free_stresslet, i, load9(block, near.reflected, i))
     strain_by_load(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
-        store9(block, near.sent_back, i, load9(block, near.alone, i))
+        store9(block, near.reflected, i, load9(block, near.free_stresslet, i))
         store3(block, near.load, i, thermal_force(block, i))
-    hold_back(block, medium, share, least_gap, strain, most)
+    hinder_load(block, medium, share, least_gap, strain, most)
 
 
-def add_sent_back(
+def add_reflection(
     block: Any, wall: int, share: float, least_gap: float, medium: Medium, factor: float
 ) -> None:
-    """Add the gradient that one of the walls sends back of the stresslets, times a factor, to its rows."""
-    pick_wall(block, wall, share, least_gap)
+    """Add the reflection of the stresslets by one of the walls, times a factor, to the reflected gradient."""
+    select_wall(block, wall, share, least_gap)
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
         E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-        E = scale(factor * block[near.there * LANES + i], E)
-        store9(block, near.sent_back, i, add(load9(block, near.sent_back, i), E))
+        E = scale(factor * block[near.present * LANES + i], E)
+        store9(block, near.reflected, i, add(load9(block, near.reflected, i), E))
 
 
-def pick_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
-    """Put one of the walls of all lanes, seen from the place at that share of the way, into rows of its own.
+def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
+    """Copy one of the walls of all lanes, as of ``share`` of the step, into the rows for one wall.
 
-    Rows that are chosen by a number would keep the loops that read them from being vectorised.
+    Loops that index rows by a variable are not vectorised.
     """
     for i in range(LANES):
         block[near.one_distance * LANES + i] = block[(near.wall_distance + wall) * LANES + i]
@@ -270,16 +270,16 @@ def pick_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
         x, y = load3(block, at.x, i), load3(block, at.new_x, i)
         # At the start of a step new_x is not known.
         way = (y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2]
-        h, gap = clear_of(block, i, n, h + select(share > 0.0, share * way, 0.0), least_gap)
-        block[near.there * LANES + i] = there
+        h, gap = distance_and_gap(block, i, n, h + select(share > 0.0, share * way, 0.0), least_gap)
+        block[near.present * LANES + i] = there
         block[near.one_distance * LANES + i] = h
         block[near.one_gap * LANES + i] = gap
 
 
-def clear_of(block: Any, i: int, n: Vector, h: float, least_gap: float) -> tuple[float, float]:
-    """Distance of the centre of lane i from a wall and gap between them, m.
+def distance_and_gap(block: Any, i: int, n: Vector, h: float, least_gap: float) -> tuple[float, float]:
+    """Return the distance of the centre of lane i from a wall and the gap between them, m.
 
-    The gap is no less than so many radii, and the distance agrees with it.
+    The gap is at least ``least_gap`` radii, and the distance is consistent with it.
     """
     R = block[at.R * LANES + i]
     extent = reach(R, load9(block, at.new_F, i), n)
@@ -288,13 +288,13 @@ def clear_of(block: Any, i: int, n: Vector, h: float, least_gap: float) -> tuple
 
 
 def shape_of(block: Any, i: int) -> Tensor:
-    """Shape tensor R² F Fᵀ of lane i, m²."""
+    """Return the shape tensor R² F Fᵀ of lane i, m²."""
     F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
     return scale(R * R, dot(F, transpose(F)))
 
 
 def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> Tensor:
-    """S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m: l_f in space's axes, l_s in the particle's, 1/s."""
+    """Return S = V μ_f dev sym s̃(l_f − l_s) of lane i, N m; l_f in space's axes, l_s in the particle's."""
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     relative = add(to_frame(Q, l_f), scale(-1.0, l_s))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
@@ -304,28 +304,28 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
 
 
 def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
-    """l_s of a body without inertia in the flow of lane i, in the particle frame, 1/s; keeps its mobility.
+    """Return l_s of a body without inertia in lane i, in the particle frame, 1/s; store its mobility.
 
-    The gradient that the image of the load makes is seen here only: the stresslet is then that by which the
-    body differs from a rigid one, whose own is in the hindrance.
+    Only here, l includes the gradient of the image of the load. The stresslet is then the difference from
+    that of a rigid body, which the hindrance includes.
     """
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
-    store9(block, near.gives_normal, i, m.normal)
-    store3(block, near.gives_shear, i, m.compliance)
-    store3(block, near.gives_slip, i, m.slip)
+    store9(block, near.mobility_normal, i, m.normal)
+    store3(block, near.mobility_shear, i, m.compliance)
+    store3(block, near.mobility_slip, i, m.slip)
     b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
-    l = add(load9(block, at.l, i), load9(block, near.by_load, i))
+    l = add(load9(block, at.l, i), load9(block, near.load_gradient, i))
     return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
 
 
-def giving_way(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
-    """By how much l_s of such a body changes with a gradient E (space's axes), in the particle frame, 1/s."""
+def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
+    """Return the change of that l_s by a gradient E (space's axes), in the particle frame, 1/s."""
     m = Mobility(
-        load9(block, near.gives_normal, i),
-        load3(block, near.gives_shear, i),
-        load3(block, near.gives_slip, i),
+        load9(block, near.mobility_normal, i),
+        load3(block, near.mobility_shear, i),
+        load3(block, near.mobility_slip, i),
         1.0 - block[at.eta * LANES + i] / medium.mu,
     )
     l = to_frame(load9(block, at.Q, i), E)
@@ -333,7 +333,7 @@ def giving_way(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
 
 
 def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
-    """l_s of a body with inertia, which is its state, in the particle frame, 1/s."""
+    """Return l_s of a body with inertia, from its state, in the particle frame, 1/s."""
     Q = load9(block, at.Q, i)
     if share > 0.0:
         return to_frame(Q, load9(block, at.new_A, i))
@@ -341,32 +341,32 @@ def moving_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:
 
 
 def leave_moving_gradient(block: Any, i: int, Q: Tensor, l_s: Tensor, wanted: Any) -> None:
-    """Put its l_s, components in the frame Q, where :func:`moving_gradient` finds it, if it is wanted."""
+    """Store l_s, given in the frame Q, for :func:`moving_gradient`, if ``wanted``."""
     l = from_frame(Q, l_s)
     store9(block, at.new_A, i, choose(wanted, l, load9(block, at.new_A, i)))
 
 
-def standing_firm(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # noqa: ARG001
-    """That a body with inertia does not give way at once."""
+def no_response(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:  # noqa: ARG001
+    """Return zero: l_s of a body with inertia does not change at once."""
     return scale(0.0, E)
 
 
 def balanced_load(block: Any, i: int, medium: Medium, share: float) -> Vector:  # noqa: ARG001
-    """What a body without inertia exerts on the fluid, N: the forces on it less its inertia."""
+    """Return the force of a body without inertia on the fluid, N: the forces on it less its inertia."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
-    _, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
-    a = (push[0] - inertia * Du_Dt[0], push[1] - inertia * Du_Dt[1], push[2] - inertia * Du_Dt[2])
+    _, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
+    a = (f[0] - inertia * Du_Dt[0], f[1] - inertia * Du_Dt[1], f[2] - inertia * Du_Dt[2])
     R = block[at.R * LANES + i]
     m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
     return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
 
 
 def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
-    """What a body with inertia exerts on the fluid, N: μ_f K·(v − u), u with what the walls send back.
+    """Return the force of a body with inertia on the fluid, N: μ_f K·(v − u), u with the reflection.
 
-    In a step h that is long against the time m/μ_f K in which drag balances the forces, these in its place:
-    v and the body's velocity gradient, in which it is strained, would each be found from the other's error,
-    and grow. Their weight is of the fourth order in h.
+    If the step h is long compared with the relaxation time m/μ_f K, return the balanced load instead:
+    errors of v and of the body's velocity gradient would amplify each other. Its weight is of fourth order in
+    h.
     """
     Q, k, u, w = (
         load9(block, at.Q, i),
@@ -388,19 +388,19 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
 
 
 def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
-    """Rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
+    """Return the rates of drag of lane i near its walls, 1/s, in the particle frame, from those without."""
     W = load9(block, near.hindrance, i)
-    # Where no lane has a wall, those of an earlier step are left.
+    # Without walls near any lane, the rows of hindrance are those of an earlier step.
     return hindered_resistance(rate, choose(any_near(block, i), W, scale(0.0, W)))
 
 
 def across_axes(block: Any, i: int, rate: Vector, w: Vector) -> Vector:
-    """As :func:`foamprb.cloud.surroundings.resistance.along_own_axes`, near walls."""
+    """See :func:`foamprb.cloud.integrators.rosenbrock.resist`; near walls."""
     return dot_vector(hindered_rate(block, i, rate), w)
 
 
 def find_hindered_axes(block: Any, i: int, Q: Tensor, rate: Vector) -> tuple[Tensor, Vector]:
-    """Frame in which the drag near walls is diagonal at the start of a step, and its rates there, 1/s."""
+    """Return the frame in which the drag near walls is diagonal at the start of a step, and its rates."""
     P, rates = principal_frame(hindered_rate(block, i, rate))
     axes = dot(P, Q)
     store9(block, near.drag_frame, i, axes)
@@ -408,34 +408,34 @@ def find_hindered_axes(block: Any, i: int, Q: Tensor, rate: Vector) -> tuple[Ten
 
 
 def hindered_axes(block: Any, i: int, _Q: Tensor) -> Tensor:
-    """That frame in the stages that follow."""
+    """Return that frame in later stages."""
     return load9(block, near.drag_frame, i)
 
 
 def no_thermal_force(_block: Any, _i: int) -> Vector:
-    """Molecules do not push."""
+    """Return zero: no Brownian motion."""
     return 0.0, 0.0, 0.0
 
 
 def hindrance_of(block: Any, i: int, n: Vector, h: float, gap: float) -> Tensor:
-    """W of one wall, in the particle frame."""
+    """Return W of one wall, in the particle frame."""
     return hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap)
 
 
 def hindrance_at_start(block: Any, i: int) -> Tensor:
-    """W of all walls around lane i at the start of a step, in the particle frame."""
+    """Return W of all walls around lane i at the start of a step, in the particle frame."""
     return add(add(_hindrance_of(block, i, 0), _hindrance_of(block, i, 1)), _hindrance_of(block, i, 2))
 
 
 def _hindrance_of(block: Any, i: int, wall: int) -> Tensor:
     n, h = load3(block, near.wall_normal + 3 * wall, i), block[(near.wall_distance + wall) * LANES + i]
     there = select(h < 0.5 * _FAR * block[at.R * LANES + i], 1.0, 0.0)
-    h, gap = clear_of(block, i, n, h, block[near.least_gap * LANES + i])
+    h, gap = distance_and_gap(block, i, n, h, block[near.least_gap * LANES + i])
     return scale(there, hindrance_of(block, i, n, h, gap))
 
 
-def held_back(block: Any, i: int, medium: Medium) -> Vector:
-    """What the walls take off the velocity relative to the fluid, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
+def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
+    """Return the change of the slip by walls, (K_h⁻¹ − K⁻¹)·f/μ_f, m/s."""
     Q, k = load9(block, at.Q, i), resistances(block, i)
     f = dot_vector(Q, load3(block, near.load, i))
     v = dot_vector(inverse(hindered_resistance(k, load9(block, near.hindrance, i))), f)
@@ -445,7 +445,7 @@ def held_back(block: Any, i: int, medium: Medium) -> Vector:
 
 
 def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, chosen: NDArray[np.int8]) -> Floats:
-    """Distances of the particles from the nearest wall, in radii, (n,); infinite from ``cut_off`` on."""
+    """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
     nearest = np.empty(p.size)
     link(_nearest_walls, flow.kernels)(arrays, p, cut_off, chosen, nearest)
     return nearest
@@ -463,73 +463,73 @@ def _nearest_walls(
 
 
 body_gradient: Callable[..., Tensor] = balanced_gradient
-body_response: Callable[..., Tensor] = giving_way
+body_response: Callable[..., Tensor] = response_to_gradient
 load_of: Callable[..., Vector] = balanced_load
 before_lift: Callable[..., None] = strain_by_load
-after_lift: Callable[..., None] = hold_back
+after_lift: Callable[..., None] = hinder_load
 thermal_force: Callable[..., Vector] = no_thermal_force
 
 
 _OF_INERTIA: Mapping[str, Callable[..., Any]] = {
     "load_of": drag_on_fluid,
-    "before_lift": no_load_yet,
+    "before_lift": no_load_before_lift,
     "after_lift": strain_by_drag,
     "resist": across_axes,
     "find_drag_axes": find_hindered_axes,
     "drag_axes": hindered_axes,
 }
-"""What hinders a body with inertia: its drag, which a step takes as a whole tensor."""
+"""Drag on a body with inertia as a full tensor."""
 
 _MORE_THAN_CLOSE = Bounds(CLOSE, math.inf, True, True, f"a number > {CLOSE:g}")
 
 
 @dataclass(frozen=True, kw_only=True)
 class WallLift(Surrounding):
-    """What walls send back of a soft particle: ``wallLift;`` or ``wallLift { cutOff 10; }``."""
+    """Lift, strain and hindrance by walls: ``wallLift;`` or ``wallLift { cutOff 10; }``."""
 
     cutOff: Annotated[
         float, _MORE_THAN_CLOSE, Meaning("distance of the centre beyond which a wall does not count", "radii")
     ] = 10.0
-    strain: Annotated[bool, Meaning("whether the gradient that walls send back deforms the particle")] = True
-    mobility: Annotated[bool, Meaning("whether walls hinder what settles; not with `paper`")] = True
+    strain: Annotated[bool, Meaning("whether the gradient that walls reflect deforms the particle")] = True
+    mobility: Annotated[bool, Meaning("whether walls hinder the motion by forces; not with `paper`")] = True
     leastGap: Annotated[
-        float, Positive, Meaning("gap below which motion across is hindered no more: roughness", "radii")
+        float, Positive, Meaning("smallest gap in the hindrance: the roughness of the wall", "radii")
     ] = 0.01
     patches: (
         Annotated[Words, Meaning("patches that count: names, or patterns in quotes", "", "walls")] | None
     ) = None
 
     rows: ClassVar = WallRows
-    place: ClassVar = "near"
-    look: ClassVar = staticmethod(look_for_walls)
+    rows_name: ClassVar = "near"
+    update: ClassVar = staticmethod(find_walls)
     disturb: ClassVar = staticmethod(lift)
 
     @property
-    def sight(self) -> float:
-        """Distance to which it asks the flow for walls, in radii."""
+    def wall_range(self) -> float:
+        """``cutOff``, radii."""
         return self.cutOff
 
-    def seen(self, patches: Sequence[Patch]) -> Sequence[int]:
-        """Which of the flow's patches it asks for."""
+    def wall_patches(self, patches: Sequence[Patch]) -> Sequence[int]:
+        """Return the indices of the patches that count."""
         return [int(index) for index in np.flatnonzero(self.chosen(patches))]
 
     def chosen(self, patches: Sequence[Patch]) -> NDArray[np.int8]:
-        """1 for each patch that counts, else 0."""
+        """Return 1 for each patch that counts, else 0."""
         if self.patches is None:
             return np.array([patch.type in WALLS for patch in patches], dtype=np.int8)
         named = [any(re.fullmatch(p, patch.name) for p in self.patches) for patch in patches]
         return np.array(named, dtype=np.int8)
 
     def coefficients(self, patches: Sequence[Patch]) -> Any:
-        """What the functions read."""
+        """Return the entries, and 1 for each patch that counts."""
         strain, hindered = float(self.strain), float(self.mobility)
         return self.cutOff, self.leastGap, strain, hindered, self.chosen(patches)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
-        """How the body's own motion is known."""
+        """Return the functions of a body with or without inertia."""
         motion: Mapping[str, Callable[..., Any]] = {
             "body_gradient": moving_gradient if inertia else balanced_gradient,
-            "body_response": standing_firm if inertia else giving_way,
+            "body_response": no_response if inertia else response_to_gradient,
             "leave_gradient": leave_moving_gradient,
         }
         if not self.mobility:
@@ -537,7 +537,7 @@ class WallLift(Surrounding):
         return {**motion, "hindrance_by_walls": hindrance_at_start, **(_OF_INERTIA if inertia else {})}
 
     def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
-        """Not with the paper's, whose drag is along the particle's axes."""
+        """Refuse ``paper``, whose drag is diagonal in the particle frame."""
         if self.mobility and integrator == "paper":
             return (
                 "wallLift/mobility is yes, which needs the integrator stokes or rosenbrock, not paper: "
@@ -546,7 +546,7 @@ class WallLift(Surrounding):
         return ""
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:
-        """How far the particles are from the walls where they start."""
+        """Return the range of the particles' distances from walls at their start."""
         nearest = nearest_walls(p, arrays, flow, self.cutOff, self.chosen(flow.patches))
         some = nearest[np.isfinite(nearest)]
         beyond = len(nearest) - len(some)
@@ -556,7 +556,7 @@ class WallLift(Surrounding):
         return [*lines, f"{'beyond cutOff':24s} {beyond}"]
 
     def summary(self, p: Particles, dt: float) -> Sequence[str]:
-        """How often particles were close to a wall."""
+        """Return the share of steps close to a wall."""
         steps = (p.t - p.t0)[p.status != Status.PENDING].sum() / dt
         close, some = p.close.sum() / max(steps, 1.0), np.count_nonzero(p.close)
         return [f"{f'steps within {CLOSE:g} radii of walls':36s} {close:.2%}, of {some} particles"]

@@ -1,11 +1,11 @@
-"""Rotating zones: what a particle feels that is seen from a rotor.
+"""Rotating zones: accelerations in the frame of a rotor.
 
-Positions, velocities and shapes are those in the rotor's frame, in which the flow is steady. The fluid's own
-acceleration there is that of the frame at rest,
+Positions, velocities and shapes are relative to the rotor, in whose frame the flow is steady. There, the
+fluid's acceleration in the frame at rest is
 
     Du/Dt = l·u + 2 Ω × u + Ω × (Ω × r),
 
-u and l relative, and so is that of a body that settles through it with w: Du/Dt + l·w + 2 Ω × w.
+with relative u and l. A body that settles through the fluid with w has Du/Dt + l·w + 2 Ω × w.
 """
 
 from __future__ import annotations
@@ -20,8 +20,9 @@ from foamprb.body.drag import oberbeck as drag
 from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, load_integrals, store3
-from foamprb.cloud.forces.total import pushes_on
+from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate, during
+from foamprb.cloud.integrators.base import no_disturbance
 from foamprb.cloud.layout import Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Surrounding
@@ -32,17 +33,17 @@ __all__ = ["RotatingFrames"]
 
 
 class FrameRows(NamedTuple):
-    """The frame in which a particle is seen."""
+    """Rotating frame of a particle."""
 
     spin: Annotated[int, Row(3, "1/s", "angular velocity of the frame")]
-    axis_point: Annotated[int, Row(3, "m", "a point of its axis")]
+    axis_point: Annotated[int, Row(3, "m", "point on its axis")]
 
 
 frames = offsets(FrameRows)
 
 
 def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
-    """2 Ω × u + Ω × (Ω × r), m/s²."""
+    """Return 2 Ω × u + Ω × (Ω × r), m/s²."""
     c, p = vector_product(spin, u), vector_product(spin, vector_product(spin, r))
     return 2.0 * c[0] + p[0], 2.0 * c[1] + p[1], 2.0 * c[2] + p[2]
 
@@ -50,7 +51,7 @@ def turning_acceleration(spin: Vector, r: Vector, u: Vector) -> Vector:
 def enter_frame(
     flow: Any, s: Scratch, i: int, _step: int, _rest: float, _medium: Medium, _coefficients: Any
 ) -> None:
-    """Add to Du/Dt of lane i what the frame of its host adds."""
+    """Add the acceleration of the frame of its host to Du/Dt of lane i."""
     block = s.block
     spin, origin = rotation_at(flow, s.host[i])
     x, a = load3(block, at.x, i), load3(block, at.DuDt, i)
@@ -61,17 +62,13 @@ def enter_frame(
     store3(block, frames.axis_point, i, origin)
 
 
-def nothing_more(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
-    """The flow has u and l in the frame already."""
-
-
 def fluid_acceleration_in_frame(block: Any, i: int, v: Vector) -> Vector:
-    """l·v, m/s²: how the velocity of what moves with v changes in the frame, where the flow is steady."""
+    """Return l·v, m/s²: the rate of change of u along a path with velocity v in a steady flow."""
     return dot_vector(load9(block, during.start_l, i), v)
 
 
 def end_acceleration_in_frame(block: Any, i: int) -> Vector:
-    """Du/Dt of the fluid at the end of the step, m/s²."""
+    """Return Du/Dt of the fluid at the end of the step, m/s²."""
     u, x, o = load3(block, during.end_u, i), load3(block, at.new_x, i), load3(block, frames.axis_point, i)
     w = dot_vector(load9(block, during.end_l, i), u)
     r = minus(x, o)
@@ -80,29 +77,29 @@ def end_acceleration_in_frame(block: Any, i: int) -> Vector:
 
 
 def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
-    """Velocity relative to a fluid of the shape that is in the block, m/s."""
+    """Return the velocity relative to the fluid of the shape in the block, m/s."""
     rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
-    steady, push, inertia = pushes_on(block, i, medium, 1.0, Du_Dt)
+    steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     w = load3(block, frames.spin, i)
     l = (
         l_f[0], l_f[1] - 2.0 * w[2], l_f[2] + 2.0 * w[1],
         l_f[3] + 2.0 * w[2], l_f[4], l_f[5] - 2.0 * w[0],
         l_f[6] - 2.0 * w[1], l_f[7] + 2.0 * w[0], l_f[8],
     )  # fmt: skip
-    return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l)
+    return balanced_slip(load9(block, at.Q, i), rate, steady, f, inertia, Du_Dt, l)
 
 
 @dataclass(frozen=True, kw_only=True)
 class RotatingFrames(Surrounding):
-    """Zones that are seen from their rotors."""
+    """Rotating zones, in the frames of their rotors."""
 
     rows: ClassVar = FrameRows
-    place: ClassVar = "frames"
-    look: ClassVar = staticmethod(enter_frame)
-    disturb: ClassVar = staticmethod(nothing_more)
+    rows_name: ClassVar = "frames"
+    update: ClassVar = staticmethod(enter_frame)
+    disturb: ClassVar = staticmethod(no_disturbance)
 
     def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """The accelerations of the integrator without inertia, as they are in a frame that turns."""
+        """Return the accelerations in a rotating frame, for the integrator without inertia."""
         return {
             "fluid_acceleration": fluid_acceleration_in_frame,
             "end_acceleration": end_acceleration_in_frame,
@@ -110,7 +107,7 @@ class RotatingFrames(Surrounding):
         }
 
     def refuses(self, inertia: bool, integrator: str) -> str:
-        """Not with inertia: velocities that are part of the state would have to change with the frame."""
+        """Refuse integrators with inertia: their velocities would have to change with the frame."""
         if inertia:
             return (
                 f"the flow has rotating zones (MRFProperties), which need the integrator stokes, not "
@@ -119,14 +116,14 @@ class RotatingFrames(Surrounding):
         return ""
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Of a weight that would turn with a zone."""
+        """Warn of gravity that is not along the axis of a zone."""
         found = []
         g = np.array(medium.gravity)
         for zone in getattr(flow, "rotating", ()):
             omega = np.array(zone.omega)
             if np.linalg.norm(np.cross(omega, g)) > 1e-6 * np.linalg.norm(omega) * np.linalg.norm(g):
                 found.append(
-                    f"gravity is not along the axis of the rotating zone {zone.name}: seen from the rotor it "
-                    "would turn, here it has one direction."
+                    f"gravity is not along the axis of the rotating zone {zone.name}: in the rotor's frame "
+                    "it should rotate, but here its direction is constant."
                 )
         return found

@@ -1,0 +1,206 @@
+"""Forces on the barycentre beside drag, and their sum, which the stages of every integrator call.
+
+A new force is a class below, which declares its entries and names a plain function, and a line in
+:data:`FORCES`. The name ``sum_of_forces`` is bound to the sum (:func:`compose`) when the loop is compiled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from numbers import Real
+from types import FunctionType
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from foamprb.body.drag import reduced_gravity
+from foamprb.body.tensor import Scalar, Vector, scale_vector
+from foamprb.cloud.block import Medium, at, load3
+from foamprb.cloud.layout import LANES
+from foamprb.dictionary.constraints import Meaning, NonNegative, Only
+
+__all__ = [
+    "DEFAULT",
+    "FORCES",
+    "Force",
+    "Gravity",
+    "Inputs",
+    "PressureGradient",
+    "VirtualMass",
+    "acceleration",
+    "bound",
+    "coefficients",
+    "compose",
+    "forces_on",
+]
+
+_FLUID_VELOCITY = Only("U", "the flow's velocity")
+
+
+class Inputs(NamedTuple):
+    """Arguments of a force: the particle and the fluid around it.
+
+    A force that needs more adds a field here, which :func:`_inputs_of` sets for all integrators. Fields that
+    no chosen force reads are left out of the compiled code.
+    """
+
+    J: Scalar
+    """Volume ratio."""
+    rho: Scalar
+    """Density of the undeformed solid, kg/m³; that of the deformed one is ρ_s/J."""
+    Du_Dt: Vector
+    """Acceleration of the fluid at the barycentre, ∂u/∂t + l·u, m/s²."""
+    medium: Medium
+
+
+def displaced(inputs: Inputs) -> Scalar:
+    """Return the mass of the displaced fluid over that of the particle, s = m_f/m = J ρ_f/ρ_s."""
+    return inputs.J * inputs.medium.rho / inputs.rho
+
+
+@dataclass(frozen=True, kw_only=True)
+class Force:
+    """A force on the barycentre. Its fields are the entries of its dictionary in ``particleForces``."""
+
+    evaluate: ClassVar[Callable[..., tuple[Vector, Scalar]]]
+    """``evaluate(inputs, *coefficients)``: the force per mass of the particle, m/s², and the inertia that it
+    adds, in masses of the particle."""
+
+    @property
+    def coefficients(self) -> tuple[float, ...]:
+        """The entries that are numbers, in their order."""
+        return tuple(float(value) for value in self._numbers().values())
+
+    def __str__(self) -> str:
+        """Return the numbers for the log: ``(Cvm 0.5)``, or nothing."""
+        numbers = ", ".join(f"{name} {value:g}" for name, value in self._numbers().items())
+        return f"({numbers})" if numbers else ""
+
+    def _numbers(self) -> dict[str, Any]:
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: value for name, value in values.items() if isinstance(value, Real)}
+
+
+# ---------------------------------------------------------------------------------------------------------
+# The forces
+
+
+def weight(inputs: Inputs) -> tuple[Vector, Scalar]:
+    """Return weight less buoyancy, (1 − s) g, m/s² (28), (35); no inertia."""
+    return reduced_gravity(inputs.J, inputs.rho, inputs.medium.rho, inputs.medium.gravity), 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gravity(Force):
+    """Gravity, ``constant/g``, less buoyancy: ``gravity;``."""
+
+    evaluate: ClassVar = staticmethod(weight)
+
+
+def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
+    """Return m_f Du/Dt over m, s Du/Dt, m/s² (Maxey & Riley 1983); no inertia."""
+    return scale_vector(displaced(inputs), inputs.Du_Dt), 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureGradient(Force):
+    """Force of the undisturbed flow's acceleration: ``pressureGradient;`` or ``{ U U; }``."""
+
+    U: Annotated[str, _FLUID_VELOCITY] = "U"
+
+    evaluate: ClassVar = staticmethod(pressure_gradient)
+
+
+def virtual_mass(inputs: Inputs, Cvm: Scalar) -> tuple[Vector, Scalar]:
+    """Return C s Du/Dt, m/s², and the inertia C s (Auton, Hunt & Prud'homme 1988)."""
+    c = Cvm * displaced(inputs)
+    return scale_vector(c, inputs.Du_Dt), c
+
+
+@dataclass(frozen=True, kw_only=True)
+class VirtualMass(Force):
+    """Fluid that an accelerating particle accelerates with it: ``virtualMass { Cvm 0.5; }``."""
+
+    Cvm: Annotated[float, NonNegative, Meaning("coefficient of virtual mass; ½ for a sphere", "1")]
+    U: Annotated[str, _FLUID_VELOCITY] = "U"
+
+    evaluate: ClassVar = staticmethod(virtual_mass)
+
+
+FORCES: dict[str, type[Force]] = {
+    "gravity": Gravity,
+    "pressureGradient": PressureGradient,
+    "virtualMass": VirtualMass,
+}
+"""By the names of their entries in ``particleForces``, in the order in which they are added."""
+
+
+# ---------------------------------------------------------------------------------------------------------
+# Their sum
+
+
+def acceleration(block: Any, i: int, medium: Medium, J: Scalar) -> tuple[Vector, Scalar]:
+    """Return the acceleration of lane i by every force but drag, m/s², and the inertia in particle masses.
+
+    m (1 + Σ C) dv/dt = Σ f + f_D with the forces f and the inertia m C that each adds.
+    """
+    f, inertia = sum_of_forces(_inputs_of(block, i, medium, J), medium.coefficients)
+    return scale_vector(1.0 / inertia, f), inertia
+
+
+def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> tuple[Vector, Vector, Scalar]:
+    """Return the forces on lane i without and with the fluid's acceleration, m/s², and the inertia.
+
+    The arguments of :func:`foamprb.body.slip.balanced_slip`.
+    """
+    inputs = _inputs_of(block, i, medium, J)
+    accelerated = Inputs(inputs.J, inputs.rho, Du_Dt, inputs.medium)
+    f, inertia = sum_of_forces(accelerated, medium.coefficients)
+    still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), inputs.medium)
+    steady, _ = sum_of_forces(still, medium.coefficients)
+    return steady, f, inertia
+
+
+def compose(forces: Sequence[Force]) -> dict[str, Callable[..., Any]]:
+    """Return the sum of these forces, by the name to which it is bound."""
+    total: Callable[..., Any] = no_force
+    for force in forces:
+        total = bound(_add_force, others=total, force=type(force).evaluate)
+    return {"sum_of_forces": total}
+
+
+def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
+    """Return the coefficients of these forces as their sum reads them: ((…, 1st), 2nd)."""
+    nested: tuple[Any, ...] = ()
+    for force in forces:
+        nested = nested, force.coefficients
+    return nested
+
+
+def bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the same function with other functions behind some of the names that it calls."""
+    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
+
+
+def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
+    return Inputs(J, block[at.rho * LANES + i], load3(block, at.DuDt, i), medium)
+
+
+# Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,
+# last bits of the shape would depend on whether one of the forces reads them.
+def no_force(inputs: Inputs, _coefficients: Any) -> tuple[Vector, Scalar]:
+    """Return a force of zero, and the inertia of the particle alone."""
+    return scale_vector(0.0, inputs.Du_Dt), 1.0 + 0.0 * displaced(inputs)
+
+
+def _add_force(inputs: Inputs, coefficients: Any) -> tuple[Vector, Scalar]:
+    a, m = others(inputs, coefficients[0])
+    b, n = force(inputs, *coefficients[1])
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2]), m + n
+
+
+others: Any = no_force
+force: Any = no_force
+
+DEFAULT: tuple[Force, ...] = (Gravity(),)
+"""The forces of a cloud for which none are chosen, and of the uncompiled functions."""
+sum_of_forces: Callable[[Inputs, Any], tuple[Vector, Scalar]] = compose(DEFAULT)["sum_of_forces"]
