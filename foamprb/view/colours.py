@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.view.libraries import load
+
 Table = NDArray[np.uint8]
 
 NAMES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8c8c8c")
@@ -42,8 +44,7 @@ class Style(NamedTuple):
 @cache
 def colour_map(name: str) -> Table:
     """256 colours, (256, 3)."""
-    from matplotlib import colormaps
-
+    colormaps = load("matplotlib").colormaps
     return np.asarray(colormaps[name](np.arange(256), bytes=True))[:, :3].astype(np.uint8)
 
 

@@ -6,13 +6,15 @@ import re
 from typing import Any, NamedTuple
 
 import numpy as np
-import pyvista
 from numpy.typing import NDArray
 
 from foamprb.cloud.measures import shear_rate
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.view.libraries import load
+
+pyvista = load("pyvista")
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

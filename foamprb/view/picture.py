@@ -10,9 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-import pyvista
 from numpy.typing import NDArray
-from PIL import Image
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtkPolyDataMapper2D
 
 from foamprb.errors import InputError
@@ -33,7 +31,10 @@ from foamprb.view.colours import (
     written,
 )
 from foamprb.view.geometry import FLAT_TYPES, PLANE, Geometry, Surface
+from foamprb.view.libraries import load
 from foamprb.view.scene import INSETS, MOST_DEPOSITS, VIEW_ANGLE, Scene, anchor, round_limits
+
+pyvista = load("pyvista")
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -239,7 +240,7 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, words
         image = drawing.plotter.screenshot(return_img=True)
         drawing.plotter.close()
     with atomic_write(path) as temporary, temporary.open("wb") as file:
-        Image.fromarray(image).save(file, format="png")
+        load("PIL.Image").fromarray(image).save(file, format="png")
 
 
 def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: float | None = None) -> None:

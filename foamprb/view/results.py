@@ -20,6 +20,7 @@ from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.pvd import Entry, read_pvd
 from foamprb.results.tables import KINDS, find_table, read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
+from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
     import pyvista
@@ -190,22 +191,18 @@ class Run:
         Raises
         ------
         InputError
-            If the file is missing or damaged.
+            If the file is missing or damaged, or pyvista is not installed.
         """
-        import pyvista
-
         cloud = self.cloud(-1 if time is None else self.nearest(time))
-        mesh = pyvista.PolyData(poly_data(cloud))
+        mesh = load("pyvista").PolyData(poly_data(cloud))
         mesh.field_data["time"] = [cloud.time]
         return mesh
 
     @property
     def tracks(self) -> pyvista.PolyData | None:
         """Paths of ``particleTracks``, one line each, with ``time`` at its points; None without."""
-        import pyvista
-
         file = self._file_of_tracks()
-        return pyvista.wrap(_read(file)) if file else None
+        return load("pyvista").wrap(_read(file)) if file else None
 
     def paths(self, arrays: Iterable[str] = ()) -> Tracks | None:
         """Read the paths of ``particleTracks`` with ``time``, ``origId`` and further arrays at the points.

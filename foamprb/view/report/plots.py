@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from foamprb.view.colours import NAMES, readable
 from foamprb.view.geometry import Geometry
+from foamprb.view.libraries import load
 from foamprb.view.report.deposits import Deposits
 
 __all__ = [
     "FATES",
     "Plot",
-    "bars",
     "curves",
     "histogram",
     "on_geometry",
@@ -77,14 +77,10 @@ class Plot(NamedTuple):
 @contextmanager
 def _figure(width: float = 6.4, height: float = 3.2) -> Iterator[tuple[Any, Any, list[Plot]]]:
     """A figure in the style; what is drawn in it is in the list afterwards."""
-    import matplotlib
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
     made: list[Plot] = []
-    with matplotlib.rc_context(_STYLE):
-        figure = Figure(figsize=(width, height), layout="constrained")
-        FigureCanvasAgg(figure)
+    with load("matplotlib").rc_context(_STYLE):
+        figure = load("matplotlib.figure").Figure(figsize=(width, height), layout="constrained")
+        load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
         yield figure, figure.add_subplot(), made
         text = io.StringIO()
         figure.savefig(text, format="svg", metadata={"Date": None})
@@ -163,16 +159,6 @@ def histogram(
     return made[0]
 
 
-def bars(edges: Floats, heights: Floats, symbol: str, unit: str) -> Plot:
-    """A histogram that has been counted already."""
-    factor, name = _scaled(edges, unit)
-    with _figure() as (_, axes, made):
-        axes.bar(edges[:-1] / factor, heights, np.diff(edges) / factor, align="edge", color=NAMES[0],
-                 edgecolor=_PAPER, linewidth=0.4)  # fmt: skip
-        _labels(axes, f"{symbol} [{name}]" if name != "1" else symbol, "particles")
-    return made[0]
-
-
 def curves(
     lines: Sequence[tuple[str, Floats, Floats]],
     x: tuple[str, str],
@@ -207,8 +193,6 @@ def curves(
 
 def unrolled(found: Deposits) -> Plot:
     """Particles per area of a wall, unrolled."""
-    from matplotlib.ticker import MaxNLocator
-
     factor, name = readable("m", float(max(np.ptp(edges) for edges in found.edges)))
     with _figure() as (figure, axes, made):
         image = axes.pcolormesh(
@@ -219,7 +203,7 @@ def unrolled(found: Deposits) -> Plot:
         axes.grid(False)
         ratio = np.ptp(found.edges[0]) / max(np.ptp(found.edges[1]), 1e-300)
         axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
-        axes.xaxis.set_major_locator(MaxNLocator(6))
+        axes.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
         _labels(axes, f"{found.across[0]} {found.name} [{name}]", f"{found.across[1]} [{name}]")
         bar = figure.colorbar(image, ax=axes)
         bar.set_label("particles per area [1/m²]")
@@ -229,8 +213,6 @@ def unrolled(found: Deposits) -> Plot:
 
 def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
     """Particles per area on all walls, seen from two sides, the hidden parts behind."""
-    from matplotlib.collections import PolyCollection
-
     corners, values = [], []
     for surface in geometry.surfaces:
         triangles = surface.points[surface.triangles]
@@ -252,8 +234,9 @@ def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
             order = np.argsort(side * corner[:, :, hidden].mean(axis=1))
             order = order[np.isfinite(value[order])]
             outlines: Any = corner[order][:, :, [first, second]] / factor
-            shown = PolyCollection(outlines, array=value[order], edgecolors="face", linewidths=width,
-                                   rasterized=True)  # fmt: skip
+            shown = load("matplotlib.collections").PolyCollection(
+                outlines, array=value[order], edgecolors="face", linewidths=width, rasterized=True
+            )
             shown.set_clim(0.0, high or 1.0)
             panel.add_collection(shown)
             for start, end in geometry.edges[:, :, [first, second]] / factor:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -47,12 +48,20 @@ def test_a_data_frame_where_a_library_for_it_is_installed(case, monkeypatch):
             made.update(table)
             return "frame"
 
-    monkeypatch.setitem(__import__("sys").modules, "pandas", Pandas)
+    monkeypatch.setitem(sys.modules, "pandas", Pandas)
     assert foamprb.open_run(case).frame() == "frame"
     assert len(made["id"]) == 9
     monkeypatch.setattr("foamprb.view.results._FRAMES", ())
     with pytest.raises(InputError, match="needs pandas or polars"):
         foamprb.open_run(case).frame()
+
+
+def test_without_pyvista_tables_are_read_and_the_extra_is_named(case, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    run = foamprb.open_run(case)
+    assert len(run.table()["id"]) == 9
+    with pytest.raises(InputError, match=r"need pyvista: pip install 'foamprb\[view\]'"):
+        run.snapshot()
 
 
 def test_what_is_missing_or_damaged_is_said(case):
