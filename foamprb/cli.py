@@ -59,6 +59,7 @@ def _parser() -> argparse.ArgumentParser:
     paraview = command("paraview", "show the bodies of a run in ParaView")
     paraview.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
     paraview.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    paraview.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
     reporting = command("report", "write a page of what was run and what came of it")
     exporting = command("export", "write the results for OpenFOAM, for OVITO, or as one VTKHDF file")
     validate = command("validate", "compare with independent solutions")
@@ -210,7 +211,7 @@ def _view(arguments: argparse.Namespace, _: Ranks | None) -> int:
 def _paraview(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.view.show import start_paraview
 
-    return start_paraview(arguments.case, arguments.cloud)
+    return start_paraview(arguments.case, arguments.cloud, arguments.region)
 
 
 def _report(arguments: argparse.Namespace, _: Ranks | None) -> int:

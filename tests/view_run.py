@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.measures import quaternion
 from foamprb.cloud.state import Status
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.tables import write_table
 from foamprb.results.vtk import PointCloud
@@ -107,7 +108,7 @@ def write_run(case: Path, moved: Motion, mesh: bool = True, fates: bool = False)
     if mesh:
         write_case(case, perturbation=0.0)
     folder = case / "postProcessing" / "softCloud"
-    series = Series(folder, "softCloud")
+    series = Series(ResultsFolder(folder, "softCloud"))
     for cloud in clouds(moved):
         series.append(cloud)
     if fates:

@@ -11,6 +11,7 @@ from typing import Any
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write
+from foamprb.results.folder import MANIFEST
 
 FORMAT = 1
 
@@ -37,7 +38,7 @@ class Manifest:
     @property
     def path(self) -> Path:
         """The file that lists the others, not itself."""
-        return self.folder / "manifest.json"
+        return self.folder / MANIFEST
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:

@@ -1,7 +1,7 @@
-"""Names that become names of files: which ones may, and how others are escaped.
+"""Names from settings and meshes that become file names: allowed characters, and escapes for the others.
 
-A user names clouds, cloud functions, injection models and regions, a mesh names patches. None of these names
-may lead out of the folder of the results, or replace a file in it.
+Users name clouds, cloud functions, injection models and regions; a mesh names patches. No such name may lead
+out of the folder of the results.
 """
 
 from __future__ import annotations
@@ -9,22 +9,15 @@ from __future__ import annotations
 import re
 import zlib
 
-__all__ = ["fault_of_folder", "fault_of_word", "file_name"]
+__all__ = ["fault_of_word", "file_name"]
 
 _MOST_BYTES = 200
-"""Of a name: file systems allow 255, of which suffixes and temporary names take some."""
-_RESULTS = frozenset(
-    {
-        *("checkpoint", "manifest", "manifest.json", "run.json"),
-        *(f"{table}.{kind}" for table in ("fates", "failed") for kind in ("csv", "parquet")),
-    }
-)
-"""What a run writes into the cloud's folder, beside the series of the cloud."""
+"""Longest name: file systems allow 255, and suffixes and temporary names need some."""
 _NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 
 
 def fault_of_word(name: str) -> str:
-    """Return why a name is no word of OpenFOAM that can be the name of a file; nothing if it is one."""
+    """Return why a name cannot be a word of OpenFOAM and a file name; empty if it can."""
     if not name:
         return "it is empty"
     if found := _NO_WORD.search(name):
@@ -38,16 +31,8 @@ def fault_of_word(name: str) -> str:
     return ""
 
 
-def fault_of_folder(name: str, cloud: str) -> str:
-    """Return why a folder in that of a cloud's results cannot have a name; nothing if it can."""
-    series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
-    if name in _RESULTS or series.fullmatch(name):
-        return "the results have a file of that name"
-    return fault_of_word(name)
-
-
 def file_name(name: str) -> str:
-    """Return a name for a file: as it is if it is a word, else with escapes, ``%2F`` for ``/``.
+    """Return a file name: the name itself if it is a word, else with escapes such as ``%2F`` for ``/``.
 
     Different names stay different.
     """

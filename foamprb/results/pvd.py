@@ -11,6 +11,7 @@ from xml.sax.saxutils import quoteattr
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write, forget
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
 
@@ -38,20 +39,12 @@ class Series:
     Parameters
     ----------
     folder
-        Where the files are; made when the first is written.
-    name
-        The cloud's name.
+        Folder of the files; made when the first is written.
     """
 
-    def __init__(self, folder: Path, name: str) -> None:
+    def __init__(self, folder: ResultsFolder) -> None:
         self.folder = folder
-        self.name = name
         self.entries: tuple[Entry, ...] = ()
-
-    @property
-    def pvd(self) -> Path:
-        """The file that ParaView opens."""
-        return self.folder / f"{self.name}.pvd"
 
     def append(self, cloud: PointCloud | Parts) -> Path:
         """Write a cloud and list it.
@@ -69,7 +62,7 @@ class Series:
         """
         file = with_ending(self.next(cloud.time), ".vtp")
         if self.entries:
-            forget(self.folder / self.entries[-1].file)
+            forget(self.folder.path / self.entries[-1].file)
         write_snapshot(file, cloud)
         self.add(cloud.time, file)
         return file
@@ -86,7 +79,7 @@ class Series:
             raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
         last = re.search(r"_(\d+)\.p?vtp$", self.entries[-1].file) if self.entries else None
         index = int(last[1]) + 1 if last else len(self.entries)
-        return self.folder / f"{self.name}_{index:06d}"
+        return self.folder.snapshot(index)
 
     def add(self, time: float, file: Path) -> None:
         """List a file that is whole, named by :meth:`next`.
@@ -109,11 +102,11 @@ class Series:
         if entries:
             self._list(tuple(entries))
         else:
-            self.pvd.unlink(missing_ok=True)
+            self.folder.pvd.unlink(missing_ok=True)
             self.entries = ()
 
     def _list(self, entries: tuple[Entry, ...]) -> None:
-        with atomic_write(self.pvd) as temporary:
+        with atomic_write(self.folder.pvd) as temporary:
             temporary.write_text(_pvd_text(entries), encoding="utf-8")
         self.entries = entries
 

@@ -21,9 +21,6 @@ from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
-KINDS = ("csv", "parquet")
-"""The kinds of tables, which are the endings of their files."""
-
 # Rows converted to text at a time: their pieces stay in the cache, without which it takes half as long again.
 _CHUNK = 2048
 
@@ -37,12 +34,6 @@ def require_kind(kind: str) -> None:
     """Raise InputError if tables of a kind cannot be written and read here."""
     if kind == "parquet":
         _parquet("tables of Parquet")
-
-
-def find_table(folder: Path, name: str) -> Path | None:
-    """The file of a table in a folder, of whatever kind; None if there is none."""
-    files = (folder / f"{name}.{kind}" for kind in KINDS)
-    return next((file for file in files if file.exists()), None)
 
 
 def write_table(

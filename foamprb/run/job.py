@@ -43,6 +43,7 @@ from foamprb.flow.read.source import (
 )
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
@@ -65,7 +66,7 @@ class Job:
     precompiler: Precompiler | None = None
     """The other process that compiles the loop, if there is one."""
     tables: str = "csv"
-    """The kind of the tables, one of :data:`foamprb.results.tables.KINDS`."""
+    """The kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
 
     @property
     def observed(self) -> ObservedCloud:
@@ -73,13 +74,9 @@ class Job:
         return ObservedCloud(self.cloud, self.injector_names, self.patch_names, self.tables)
 
     @property
-    def folder(self) -> Path:
-        """Where the results go."""
-        return self.settings.case / "postProcessing" / self.settings.region / self.settings.name
-
-    def table(self, name: str) -> Path:
-        """The file of a table in that folder."""
-        return self.folder / f"{name}.{self.tables}"
+    def folder(self) -> ResultsFolder:
+        """Folder of the results."""
+        return ResultsFolder.of_case(self.settings.case, self.settings.name, self.settings.region)
 
     @property
     def steps(self) -> int:

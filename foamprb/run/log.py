@@ -19,9 +19,9 @@ from foamprb.cloud.reasons import explain
 from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
 from foamprb.compile.cache import cache_directory
+from foamprb.results.folder import FAILURES
 from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.job import Job
-from foamprb.run.results import FAILURES
 
 log = logging.getLogger("foamprb")
 
@@ -151,7 +151,7 @@ class RunLog:
     def end(self, finished: bool) -> None:
         """Say what became of the particles, where the results are, and whether the run has ``finished``."""
         self._log_fates()
-        log.info("\nResults in %s", self._job.folder)
+        log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
         if finished:
             log.info("End")
@@ -219,7 +219,11 @@ class RunLog:
         if job.cloud.recovered:
             log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
         if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
-            log.warning("%d particles failed; %s lists them.", counts[Status.FAILED], job.table(FAILURES))
+            log.warning(
+                "%d particles failed; %s lists them.",
+                counts[Status.FAILED],
+                job.folder.table(FAILURES, job.tables),
+            )
 
 
 @contextmanager

@@ -16,9 +16,10 @@ from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.memory import require, wants
 from foamprb.parallel.signals import caught_signals
+from foamprb.results.folder import FAILURES
 from foamprb.run.job import Job
 from foamprb.run.log import RunLog, log_compiling, progress_bar
-from foamprb.run.results import FAILURES, HOW_TO_GO_ON, Results, open_results
+from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.settings import StartFrom
 
 _COPIES, _BESIDE = 0.5 * BYTES, 1e8
@@ -84,7 +85,7 @@ def execute(
         failing = _failing(job)
         log.end(finished=not failing)
     if failing:
-        raise RunStopped(f"{failing} The results until then are in {job.folder}.")
+        raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
     return job.cloud.particles.counts()
 
 
@@ -151,7 +152,7 @@ def _failing(job: Job) -> str:
         return ""
     return (
         f"{counts[Status.FAILED]} of {injected} particles have failed at t = {job.cloud.time:.12g} s, more "
-        f"than maxFailedFraction {most:g} allows; {job.table(FAILURES)} says why."
+        f"than maxFailedFraction {most:g} allows; {job.folder.table(FAILURES, job.tables)} says why."
     )
 
 

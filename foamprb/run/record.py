@@ -14,9 +14,8 @@ from foamprb.results.atomic import atomic_write
 from foamprb.run.checks import doubts, groups
 from foamprb.run.job import Job
 
-__all__ = ["RECORD", "record_of", "renew_record", "write_record"]
+__all__ = ["record_of", "renew_record", "write_record"]
 
-RECORD = "run.json"
 _FORMAT = 1
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
 

@@ -23,19 +23,18 @@ from foamprb.memory import OutOfMemory, ran_out
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoint, Checkpoints
+from foamprb.results.folder import FAILURES, FATES, KINDS
 from foamprb.results.manifest import Manifest
 from foamprb.results.paraview_state import write_state
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
-from foamprb.results.tables import KINDS, Column, find_table, write_table
+from foamprb.results.tables import Column, write_table
 from foamprb.run.job import Job
-from foamprb.run.record import RECORD, renew_record, write_record
+from foamprb.run.record import renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
 log = logging.getLogger("foamprb")
 
-FATES, FAILURES, CHECKPOINTS = "fates", "failed", "checkpoint"
-"""Two tables and a folder in a run's folder."""
 HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
 
 
@@ -51,7 +50,7 @@ def open_results(job: Job) -> Iterator[Results]:
         In place of any OSError within: results could not be written; or memory ran out.
     """
     try:
-        with only_writer(job.folder), Writer() as writer:
+        with only_writer(job.folder.path), Writer() as writer:
             yield Results(job, writer)
     except BrokenPipeError:
         # It comes from the log, which nobody reads any more.
@@ -84,9 +83,9 @@ class Results:
             "patch": job.patch_names,
             "injector": job.injector_names,
         }
-        self._series = Series(job.folder, job.settings.name)
-        self._manifest = Manifest(job.folder)
-        self._fates, self._failures = job.table(FATES), job.table(FAILURES)
+        self._series = Series(job.folder)
+        self._manifest = Manifest(job.folder.path)
+        self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
         self._snapshot: Snapshot | None = None
 
     def begin(self, start_from: StartFrom | None) -> None:
@@ -104,13 +103,13 @@ class Results:
         """
         job = self._job
         self._fingerprint = fingerprint(job.settings, job.cloud)
-        self._checkpoints = Checkpoints(job.folder / CHECKPOINTS)
+        self._checkpoints = Checkpoints(job.folder.checkpoints)
         unfinished = self._checkpoints.files()
-        if start_from is None and unfinished and not find_table(job.folder, FATES):
+        if start_from is None and unfinished and not job.folder.find_table(FATES):
             raise InputError(
-                f"{job.folder}: an unfinished run has come to t = {max(unfinished):g} s. To go on with it: "
-                "-resume, or startFrom latestTime; to begin anew in its place: -overwrite, or startFrom "
-                "startTime."
+                f"{job.folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To go on with "
+                "it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or "
+                "startFrom startTime."
             )
         checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
         if checkpoint is not None:
@@ -136,7 +135,7 @@ class Results:
         # As the first step does.
         cloud.load_flow(1)
         file = with_ending(self._series.next(cloud.time), ".vtp")
-        self._manifest.expect([self._series.pvd, file])
+        self._manifest.expect([self._job.folder.pvd, file])
         particles = released(cloud.particles, cloud.flow, cloud.time)
         self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
 
@@ -167,7 +166,7 @@ class Results:
         tables = self._write_functions()
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
         files = cloud.executor.snapshot_files(self._series.next(cloud.time))
-        self._manifest.expect([*tables, self._series.pvd, *files, *self._checkpoint_files()])
+        self._manifest.expect([*tables, self._job.folder.pvd, *files, *self._checkpoint_files()])
         end_write = cloud.executor.begin_write(self._series, snapshot, self._names)
         self._writer.begin(partial(self._end_write, end_write, snapshot, memory))
 
@@ -231,27 +230,27 @@ class Results:
         """
         folders = self._function_folders()
         before = _times_of_change(folders)
-        self._job.functions.write(self._job.folder)
+        self._job.functions.write(self._job.folder.path)
         return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
 
     def _descriptions(self) -> tuple[Path, ...]:
         """What a run writes once, when it begins: its record, and the state of ParaView that shows it."""
-        return self._job.folder / RECORD, self._job.folder / f"{self._job.settings.name}.py"
+        return self._job.folder.record, self._job.folder.state
 
     def _last_tables(self) -> list[Path]:
         """The tables that a run writes at its end, of every kind."""
-        return [self._job.folder / f"{name}.{kind}" for name in (FATES, FAILURES) for kind in KINDS]
+        return [self._job.folder.table(name, kind) for name in (FATES, FAILURES) for kind in KINDS]
 
     def _other_kinds(self) -> set[str]:
         """The endings of tables that this run does not write."""
         return {f".{kind}" for kind in KINDS if kind != self._job.tables}
 
     def _function_folders(self) -> list[Path]:
-        return [self._job.folder / name for name in self._job.functions.functions]
+        return [self._job.folder.path / name for name in self._job.functions.functions]
 
     def _begin_anew(self) -> None:
         """Remove what an earlier run has listed, and nothing else but what this run replaces by its name."""
-        folder = self._job.folder
+        folder = self._job.folder.path
         remedy = (
             f"So it is not known what an earlier run has written: remove or rename {folder} to begin anew."
         )
@@ -262,9 +261,9 @@ class Results:
         unlisted = [file for file in self._checkpoints.files().values() if file not in manifest.files]
         if unlisted:
             raise InputError(f"{manifest.path} does not list {unlisted[0].relative_to(folder)}. {remedy}")
-        if self._series.pvd.exists():
+        if self._job.folder.pvd.exists():
             try:
-                read_pvd(self._series.pvd)
+                read_pvd(self._job.folder.pvd)
             except InputError as error:
                 log.warning("%s It is replaced.", error)
         self._remove_unfinished(manifest)
@@ -272,33 +271,33 @@ class Results:
         # lists other files.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [self._series.pvd, *self._last_tables()]
+        lists = [self._job.folder.pvd, *self._last_tables()]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         self._manifest.expect(self._descriptions())
-        write_record(folder / RECORD, self._job)
-        write_state(folder / f"{self._job.settings.name}.py", self._job.settings.name)
+        write_record(self._job.folder.record, self._job)
+        write_state(self._job.folder.state, self._job.settings.name)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Take up what a checkpoint holds, and remove the files of later times."""
         job = self._job
-        where = f"{job.folder}: cannot go on from t = {checkpoint.time:.12g} s"
+        where = f"{job.folder.path}: cannot go on from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
-        entries = snapshots_until(checkpoint, self._series.pvd, where)
+        entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
         log.info(
             "Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, self._checkpoints.folder
         )
         try:
-            manifest = Manifest.read(job.folder)
+            manifest = Manifest.read(job.folder.path)
         except InputError as error:
             log.warning("%s It is made anew; files of later times may remain.", error)
-            manifest = Manifest(job.folder)
+            manifest = Manifest(job.folder.path)
         self._remove_unfinished(manifest)
         for table in self._last_tables():
             table.unlink(missing_ok=True)
         self._series.relist(entries)
-        renew_record(job.folder / RECORD, job)
-        snapshots = [file for entry in entries for file in files_of(job.folder / entry.file)]
+        renew_record(job.folder.record, job)
+        snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
         functions = self._function_folders()
         tables = [
             file
@@ -307,18 +306,18 @@ class Results:
         ]
         kept = {
             *self._descriptions(),
-            self._series.pvd,
+            self._job.folder.pvd,
             *snapshots,
             *tables,
             *self._checkpoints.files().values(),
         }
         manifest.remove(sorted(manifest.files - kept))
-        self._manifest = Manifest(job.folder, (file for file in kept if file.exists()))
+        self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
 
     def _remove_unfinished(self, manifest: Manifest) -> None:
         """Remove what killed runs have left half written."""
         folders = {file.parent for file in manifest.files}
-        for folder in {self._job.folder, *self._function_folders(), *folders}:
+        for folder in {self._job.folder.path, *self._function_folders(), *folders}:
             remove_unfinished(folder)
 
 

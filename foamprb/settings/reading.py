@@ -19,7 +19,8 @@ from foamprb.dictionary.schema import read_entries, read_entry, selected
 from foamprb.dictionary.tree import Dictionary, Source, unquoted
 from foamprb.dictionary.values import Files
 from foamprb.errors import InputError
-from foamprb.results.names import fault_of_folder, fault_of_word
+from foamprb.results.folder import fault_of_function
+from foamprb.results.names import fault_of_word
 from foamprb.settings import entries
 from foamprb.settings.fluid import of_region, read_fluid, read_gravity
 from foamprb.settings.injections import read_injections
@@ -181,7 +182,7 @@ def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:
     for entry in dictionary.entries.values():
         with mistakes:
             name, own = unquoted(entry.key), entry.dictionary()
-            if fault := fault_of_folder(name, cloud):
+            if fault := fault_of_function(name, cloud):
                 raise entry.mistake(f"is no name of a folder, which the results need: {fault}.")
             functions[name] = read_entries(selected(FUNCTIONS, own), own, also=("type",))
     mistakes.raise_any()

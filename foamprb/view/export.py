@@ -49,7 +49,8 @@ def export(kind: str, case: Path, cloud: str | None, source: Source, time: str, 
     OSError
         If a file cannot be written.
     """
-    run = open_run(case, cloud)
+    run = open_run(case, cloud, source.region)
+    source = run.source(source)
     target = output or run.folder / _TARGETS[kind].format(run.name)
     if kind == "vtkhdf":
         write_vtkhdf(target, [entry.time for entry in run.entries], run.cloud)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,9 +16,11 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.read.source import Source
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import Entry, read_pvd
-from foamprb.results.tables import KINDS, find_table, read_table
+from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.view.libraries import load
 
@@ -45,10 +47,8 @@ class Run:
 
     Parameters
     ----------
-    folder
-        ``postProcessing/<cloud>``.
-    name
-        Name of the cloud.
+    results
+        Folder of the files.
     entries
         Times and their files, in order of time; at least one.
     units
@@ -59,8 +59,7 @@ class Run:
         Number of components of each point array by name, in the order of the files.
     """
 
-    folder: Path
-    name: str
+    results: ResultsFolder
     entries: tuple[Entry, ...]
     units: Mapping[str, str]
     names: Mapping[str, tuple[str, ...]]
@@ -73,6 +72,20 @@ class Run:
         )
 
     @property
+    def folder(self) -> Path:
+        """Path of the folder."""
+        return self.results.path
+
+    @property
+    def name(self) -> str:
+        """Name of the cloud."""
+        return self.results.cloud
+
+    def source(self, source: Source | None) -> Source:
+        """Return the source of the flow, in the region of the run."""
+        return replace(source or Source(), region=self.results.region)
+
+    @property
     def times(self) -> NDArray[np.float64]:
         """Written times, (m,), s."""
         return np.array([entry.time for entry in self.entries])
@@ -80,7 +93,7 @@ class Run:
     @cached_property
     def record(self) -> dict[str, Any]:
         """Contents of ``run.json``: settings, versions, mesh, warnings. Empty without that file."""
-        file = self.folder / "run.json"
+        file = self.results.record
         if not file.exists():
             return {}
         try:
@@ -94,9 +107,7 @@ class Run:
     @property
     def tables(self) -> tuple[str, ...]:
         """Names of the tables, without endings: ``fates``, ``exposure/exposure``, …."""
-        patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
-        found = {file.relative_to(self.folder) for pattern in patterns for file in self.folder.glob(pattern)}
-        return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
+        return self.results.tables
 
     def file(self, table: str) -> Path:
         """Return the file of one of :attr:`tables`.
@@ -106,7 +117,7 @@ class Run:
         InputError
             If there is no such table.
         """
-        found = find_table(self.folder, table)
+        found = self.results.find_table(table)
         if found is None:
             raise InputError(f"{self.folder}: no table '{table}'. {suggestion(table, self.tables)}")
         return found
@@ -139,7 +150,7 @@ class Run:
     @property
     def has_fates(self) -> bool:
         """Whether the run has ended and written its table ``fates``."""
-        return find_table(self.folder, "fates") is not None
+        return self.results.find_table(FATES) is not None
 
     def fates(self) -> Table | None:
         """Return the table ``fates``; None if the run has not ended.
@@ -201,7 +212,7 @@ class Run:
     @property
     def tracks(self) -> pyvista.PolyData | None:
         """Paths of ``particleTracks``, one line each, with ``time`` at its points; None without."""
-        file = self._file_of_tracks()
+        file = self.results.tracks
         return load("pyvista").wrap(_read(file)) if file else None
 
     def paths(self, arrays: Iterable[str] = ()) -> Tracks | None:
@@ -216,7 +227,7 @@ class Run:
         InputError
             If the file is damaged.
         """
-        file = self._file_of_tracks()
+        file = self.results.tracks
         if file is None:
             return None
         wanted = ("time", *arrays)
@@ -233,11 +244,8 @@ class Run:
         values = {name: at_points[name][order] for name in wanted}
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
 
-    def _file_of_tracks(self) -> Path | None:
-        return min(self.folder.glob("*/tracks.vtp"), default=None)
 
-
-def open_run(path: Path | str, cloud: str | None = None) -> Run:
+def open_run(path: Path | str, cloud: str | None = None, region: str = "") -> Run:
     """Open the results of a cloud of a case.
 
     Parameters
@@ -246,6 +254,8 @@ def open_run(path: Path | str, cloud: str | None = None) -> Run:
         Folder of the case.
     cloud
         Name of the cloud; by default ``softCloud``, or the only one.
+    region
+        Region of the mesh; by default the default region, or any other if that has no results.
 
     Raises
     ------
@@ -253,29 +263,12 @@ def open_run(path: Path | str, cloud: str | None = None) -> Run:
         If there are no results, or several clouds without a name; if the list of files or the last file is
         damaged.
     """
-    case = Path(path)
-    if not case.is_dir():
-        raise InputError(f"{case}: no such folder.")
-    found = {path.stem: path for path in case.glob("postProcessing/*/*.pvd") if path.stem == path.parent.name}
-    first = "Run the particles first: foamprb run."
-    if not found:
-        raise InputError(f"{case}: no results here (postProcessing/<cloud>/<cloud>.pvd). {first}")
-    name = cloud or ("softCloud" if "softCloud" in found else next(iter(found)))
-    if cloud is None and len(found) > 1 and "softCloud" not in found:
-        raise InputError(f"{case}: results of {len(found)} clouds: {', '.join(sorted(found))}. "
-                         "Choose one with -cloud.")  # fmt: skip
-    if name not in found:
-        raise InputError(f"{case}: no results of a cloud '{name}'. {suggestion(name, found)}")
-    pvd = found[name]
-    entries = read_pvd(pvd)
+    results = ResultsFolder.find(Path(path), cloud, region)
+    entries = read_pvd(results.pvd)
     if not entries:
-        raise InputError(f"{pvd}: lists no files; the run has not written any yet. {first}")
-    return _described(pvd.parent, name, entries)
-
-
-def _described(folder: Path, name: str, entries: tuple[Entry, ...]) -> Run:
-    """Take units, names and components from the last file, which has the most particles."""
-    file = folder / entries[-1].file
+        raise InputError(f"{results.pvd}: lists no files; the run has not written any yet. {HOW}")
+    # Units, names and components stand in the last file, which has the most particles.
+    file = results.path / entries[-1].file
     data = _read(file)
     arrays = _arrays(data.GetPointData())
     components = {key: 1 if array.ndim == 1 else array.shape[1] for key, array in arrays.items()}
@@ -285,7 +278,7 @@ def _described(folder: Path, name: str, entries: tuple[Entry, ...]) -> Run:
     fields = data.GetFieldData()
     units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
     names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
-    return Run(folder, name, entries, units, names, components)
+    return Run(results, entries, units, names, components)
 
 
 def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:

@@ -94,7 +94,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     if not megabytes >= 1.0:
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
-    run = open_run(request.case, request.cloud)
+    run = _run_of(request)
     everything = len(run.entries)
     known = len(run.cloud(-1, ("origId",)).points)
     known = min(known, request.bodies or known)
@@ -119,7 +119,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
             ", ".join(page.left_out),
             megabytes,
         )
-    target = path or run.folder / f"{run.name}.html"
+    target = path or run.results.page
     text = page.write().encode("utf-8")
     with atomic_write(target) as temporary:
         temporary.write_bytes(text)
@@ -175,14 +175,13 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
     fates = run.fates()
     if fates is not None:
         bodies.fields.update(told(bodies, fates))
-    geometry, plane = _surroundings(request)
+    geometry, plane = _surroundings(request, run)
     first = busiest(bodies) if request.time is None else int(np.argmin(np.abs(bodies.times - request.time)))
     if request.time is not None and not math.isclose(
         bodies.times[first], request.time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15
     ):
         log.warning("-time %g s was not written; the nearest is %g s.", request.time, bodies.times[first])
     corners = box(geometry, bodies)
-    region = request.source.region if request.source else ""
     return Scene(
         title=request.case.resolve().name,
         subtitle=run.name,
@@ -191,7 +190,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         geometry=geometry,
         slice=plane,
         paths=run.paths(),
-        camera=camera_for(geometry, bodies, first, gravity(request.case, region)),
+        camera=camera_for(geometry, bodies, first, gravity(request.case, run.results.region)),
         enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
         colour=colour,
         range=request.range,
@@ -200,10 +199,14 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
     )
 
 
-def _surroundings(request: Request) -> tuple[Geometry | None, Slice | None]:
+def _run_of(request: Request) -> Run:
+    return open_run(request.case, request.cloud, request.source.region if request.source else "")
+
+
+def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | None]:
     """The geometry, and the plane through the flow if it is asked for."""
     try:
-        flow = read_flow(request.case, request.flow_time, request.source)
+        flow = read_flow(request.case, request.flow_time, run.source(request.source))
     except InputError as error:
         asked = (
             request.slice is not None or request.flow_time != LATEST or request.source not in (None, Source())
@@ -234,7 +237,7 @@ def picture_of(
     if png is None and movie is None:
         require_display()
     require_graphics()
-    run = open_run(request.case, request.cloud)
+    run = _run_of(request)
     scene = make_scene(request, run, range(len(run.entries)))
     if png is not None:
         picture(scene, png, size, style)
@@ -246,7 +249,7 @@ def picture_of(
     log.info("%d bodies: %s", len(scene.bodies.ids), png or movie)
 
 
-def start_paraview(case: Path, cloud: str | None) -> int:
+def start_paraview(case: Path, cloud: str | None, region: str) -> int:
     """Start ParaView with the state that a run has left beside its results; the exit status.
 
     Raises
@@ -254,8 +257,8 @@ def start_paraview(case: Path, cloud: str | None) -> int:
     InputError
         ParaView is not on PATH, there is no display, or no run has left a state.
     """
-    run = open_run(case, cloud)
-    state = run.folder / f"{run.name}.py"
+    run = open_run(case, cloud, region)
+    state = run.results.state
     if not state.exists():
         raise InputError(f"{state}: missing; runs of older versions left none. To make it: foamprb run.")
     program = shutil.which("paraview")

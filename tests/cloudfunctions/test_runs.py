@@ -15,8 +15,8 @@ from pipe_case import copy_of_pipe, edit, short_case
 from foamprb import execute, open_run, prepare
 from foamprb.cli import main
 from foamprb.errors import RunStopped
+from foamprb.results.folder import fault_of_function
 from foamprb.results.manifest import Manifest
-from foamprb.results.names import fault_of_folder
 
 BLOCK = """cloudFunctions
 {
@@ -143,4 +143,4 @@ def test_no_function_may_have_the_name_of_a_result(cases):
     plain, _ = cases
     written = [path.name for path in plain.iterdir()]
     assert len(written) > 4
-    assert all(fault_of_folder(name, "softCloud") for name in written)
+    assert all(fault_of_function(name, "softCloud") for name in written)

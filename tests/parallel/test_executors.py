@@ -19,6 +19,7 @@ from foamprb.errors import InputError, RunStopped
 from foamprb.parallel import launch
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series, read_pvd
 
 
@@ -58,13 +59,16 @@ def test_whoever_carries_the_particles_they_come_to_the_same():
 def test_a_snapshot_is_in_the_files_that_were_told(tmp_path):
     cloud = pipe_cloud("paper")
     cloud.advance(2)
-    series, names = Series(tmp_path, "pipe"), {"status": tuple(status.name for status in Status)}
+    series, names = (
+        Series(ResultsFolder(tmp_path, "pipe")),
+        {"status": tuple(status.name for status in Status)},
+    )
     told = cloud.executor.snapshot_files(series.next(cloud.time))
     end_write = cloud.executor.begin_write(series, cloud.snapshot(), names)
     cloud.advance(2)
     end_write()
-    assert {*tmp_path.iterdir()} == {*told, series.pvd}
-    assert [entry.time for entry in read_pvd(series.pvd)] == [2 * cloud.dt]
+    assert {*tmp_path.iterdir()} == {*told, series.folder.pvd}
+    assert [entry.time for entry in read_pvd(series.folder.pvd)] == [2 * cloud.dt]
 
 
 def test_threads_are_those_that_the_process_may_use():

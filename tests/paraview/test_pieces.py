@@ -9,6 +9,7 @@ import subprocess
 import pytest
 from clouds import cloud, in_parts
 
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import layout, write_pieces, write_snapshot
 
@@ -33,7 +34,7 @@ print(json.dumps(found))
 
 
 def test_paraview_reads_a_series_with_and_without_pieces(tmp_path):
-    series = Series(tmp_path, "cloud")
+    series = Series(ResultsFolder(tmp_path, "cloud"))
     series.append(in_parts(cloud(0.1, 6), (2, 4)))
     stem = series.next(0.2)
     pieces = [stem / f"{i}.vtp" for i in range(3)]
@@ -43,7 +44,7 @@ def test_paraview_reads_a_series_with_and_without_pieces(tmp_path):
     series.add(0.2, stem.with_suffix(".pvtp"))
     script = tmp_path / "read.py"
     script.write_text(SCRIPT)
-    done = subprocess.run(["pvpython", script, series.pvd], capture_output=True, text=True, check=True)
+    done = subprocess.run(["pvpython", script, series.folder.pvd], capture_output=True, text=True, check=True)
     found = json.loads(done.stdout.strip().splitlines()[-1])
     for (time, kind, n, point, F, name), expected, row in zip(
         found, (cloud(0.1, 6), cloud(0.2, 3)), (3, 0), strict=True

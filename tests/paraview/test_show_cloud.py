@@ -15,6 +15,7 @@ from pvpython import pvpython
 from view_run import with_orientation
 
 from foamprb.cloud.state import Status
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import PointCloud
 
@@ -84,7 +85,7 @@ def write_run(case: Path, radius: float = RADIUS) -> tuple[PointCloud, NDArray[A
     n = len(STATUSES)
     F = deformation_gradients(n)
     stretches = np.linalg.svd(F, compute_uv=False)
-    series = Series(case / "postProcessing" / "softCloud", "softCloud")
+    series = Series(ResultsFolder(case / "postProcessing" / "softCloud", "softCloud"))
     for time in (0.1, 0.2):
         points = np.c_[np.linspace(1e-3, 6e-3, n) + 1e-3 * time, np.full(n, 5e-4), np.full(n, 5e-4)]
         snapshot = PointCloud(
@@ -184,7 +185,7 @@ def test_run_without_cloud_shows_the_walls_and_says_so(duct: Path, tmp_path: Pat
 
 
 def test_time_that_was_not_written_and_nobody_in_the_flow(duct: Path, tmp_path: Path) -> None:
-    Series(duct / "postProcessing" / "softCloud", "softCloud").append(
+    Series(ResultsFolder(duct / "postProcessing" / "softCloud", "softCloud")).append(
         PointCloud(
             0.0,
             np.zeros((2, 3)),
@@ -216,7 +217,7 @@ def test_pipe_of_the_cases(tmp_path: Path) -> None:
 def test_copies_of_one_sphere_look_as_the_bodies_do(duct: Path, tmp_path: Path) -> None:
     cloud, _ = write_run(duct, radius=5e-5)
     cloud = with_orientation(replace(cloud, arrays=cloud.arrays | {"semiAxes": 5e-5 * semi_axes(cloud)}))
-    series = Series(duct / "postProcessing" / "softCloud", "softCloud")
+    series = Series(ResultsFolder(duct / "postProcessing" / "softCloud", "softCloud"))
     series.append(cloud)
     found = []
     for options in ((), ("--copies",)):

@@ -13,6 +13,7 @@ from PIL import Image
 from pvpython import pvpython
 from view_run import clouds, motion, with_orientation, write_run
 
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.paraview_state import write_state
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import PointCloud
@@ -64,7 +65,7 @@ def larger(cloud: PointCloud, factor: float) -> PointCloud:
 
 def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path) -> None:
     """Many bodies are drawn by the graphics card from their semi-axes and orientation."""
-    series = Series(tmp_path / "run", "softCloud")
+    series = Series(ResultsFolder(tmp_path / "run", "softCloud"))
     for cloud in clouds(motion(6, 3)):
         series.append(with_orientation(larger(cloud, 6.0)))
     state = tmp_path / "run/softCloud.py"

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.results.names import fault_of_folder, fault_of_word, file_name
+from foamprb.results.folder import fault_of_function
+from foamprb.results.names import fault_of_word, file_name
 
 WORDS = ["inlet", "out.let", "wall_1", "a:b", "(in|out)", "größe", "-x", "50%", "x" * 200]
 OTHERS = ["", ".", "..", ".hidden", "a/b", "../../pwn", "/etc/passwd", "a b", "a\tb", "a\nb", "a;b", "{a}",
@@ -16,13 +17,13 @@ OTHERS = ["", ".", "..", ".hidden", "a/b", "../../pwn", "/etc/passwd", "a b", "a
 @pytest.mark.parametrize("name", WORDS)
 def test_words_may_be_names(name):
     assert fault_of_word(name) == ""
-    assert fault_of_folder(name, "cloud") == ""
+    assert fault_of_function(name, "cloud") == ""
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_others_may_not(name):
     assert fault_of_word(name)
-    assert fault_of_folder(name, "cloud")
+    assert fault_of_function(name, "cloud")
 
 
 @pytest.mark.parametrize(
@@ -31,11 +32,11 @@ def test_others_may_not(name):
 )
 def test_the_results_own_names_are_taken(name):
     assert fault_of_word(name) == ""
-    assert fault_of_folder(name, "cloud") == "the results have a file of that name"
+    assert fault_of_function(name, "cloud") == "the results have a file of that name"
 
 
 def test_names_of_another_cloud_are_free():
-    assert fault_of_folder("other_000000.vtp", "cloud") == fault_of_folder("cloud_00000", "cloud") == ""
+    assert fault_of_function("other_000000.vtp", "cloud") == fault_of_function("cloud_00000", "cloud") == ""
 
 
 @given(st.text() | st.text(st.sampled_from("./% a")) | st.sampled_from(OTHERS))

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foamprb.errors import InputError
-from foamprb.results.tables import find_table, read_table, require_kind, write_table
+from foamprb.results.folder import ResultsFolder
+from foamprb.results.tables import read_table, require_kind, write_table
 
 
 def read(path: Path) -> list[list[str]]:
@@ -101,12 +102,12 @@ def test_parquet_has_the_columns_of_the_text(tmp_path: Path) -> None:
     found = []
     for kind in ("csv", "parquet"):
         write_table(tmp_path / f"t.{kind}", columns)
-        assert find_table(tmp_path, "t") == tmp_path / "t.csv"
+        assert ResultsFolder(tmp_path, "cloud").find_table("t") == tmp_path / "t.csv"
         found.append(read_table(tmp_path / f"t.{kind}"))
     for name, column in found[0].items():
         assert column.dtype.kind == found[1][name].dtype.kind
         assert column.tolist() == found[1][name].tolist()
-    assert find_table(tmp_path, "u") is None
+    assert ResultsFolder(tmp_path, "cloud").find_table("u") is None
     assert read_table(tmp_path / "t.csv", words=("id",))["id"].tolist() == ["7", "8"]
 
 

@@ -12,6 +12,7 @@ from limits import limit_of_file_size
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import Entry, Series, files_of, read_pvd
 from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
@@ -66,20 +67,20 @@ def test_full_disk_is_an_error_and_keeps_the_old_file(
 
 
 def test_series_lists_exact_times_in_order(tmp_path: Path) -> None:
-    series = Series(tmp_path / "softCloud", "softCloud")
+    series = Series(ResultsFolder(tmp_path / "softCloud", "softCloud"))
     times = [0.0, 0.1, 0.1 + 0.2, 1e-7 + 0.5]
     files = [series.append(cloud(time)) for time in times]
     assert [file.name for file in files] == [f"softCloud_{i:06d}.vtp" for i in range(4)]
 
-    reader = pyvista.get_reader(series.pvd)
+    reader = pyvista.get_reader(series.folder.pvd)
     assert reader.time_values == times
     reader.set_active_time_value(times[2])
     assert reader.read()[0].field_data["TimeValue"][0] == times[2]
-    assert series.entries == read_pvd(series.pvd)
+    assert series.entries == read_pvd(series.folder.pvd)
 
 
 def test_series_refuses_to_go_back(tmp_path: Path) -> None:
-    series = Series(tmp_path, "softCloud")
+    series = Series(ResultsFolder(tmp_path, "softCloud"))
     series.append(cloud(0.1))
     for time in (0.1, 0.05, np.nan):
         with pytest.raises(ValueError, match=r"does not follow 0\.1 s"):
@@ -87,44 +88,44 @@ def test_series_refuses_to_go_back(tmp_path: Path) -> None:
 
 
 def test_series_goes_on_after_the_entries_that_it_is_given(tmp_path: Path) -> None:
-    old = Series(tmp_path, "softCloud")
+    old = Series(ResultsFolder(tmp_path, "softCloud"))
     for time in (0.1, 0.2, 0.3, 0.4):
         old.append(cloud(time))
 
-    series = Series(tmp_path, "softCloud")
+    series = Series(ResultsFolder(tmp_path, "softCloud"))
     series.relist(old.entries[:2])
-    assert [entry.time for entry in read_pvd(series.pvd)] == [0.1, 0.2]
+    assert [entry.time for entry in read_pvd(series.folder.pvd)] == [0.1, 0.2]
     series.append(cloud(0.3))
-    assert series.entries == read_pvd(series.pvd) == old.entries[:3]
+    assert series.entries == read_pvd(series.folder.pvd) == old.entries[:3]
     assert series.entries[-1] == Entry(0.3, "softCloud_000002.vtp")
 
 
 def test_series_without_entries_has_no_list(tmp_path: Path) -> None:
-    series = Series(tmp_path, "softCloud")
+    series = Series(ResultsFolder(tmp_path, "softCloud"))
     series.relist(())
     series.append(cloud(0.0))
     series.relist(())
-    assert not series.pvd.exists()
+    assert not series.folder.pvd.exists()
     assert series.append(cloud(0.0)).name == "softCloud_000000.vtp"
 
 
 def test_name_of_a_series_may_have_dots(tmp_path: Path) -> None:
-    series = Series(tmp_path, "soft.cloud")
+    series = Series(ResultsFolder(tmp_path, "soft.cloud"))
     names = [series.append(cloud(time)).name for time in (0.1, 0.2)]
     assert names == ["soft.cloud_000000.vtp", "soft.cloud_000001.vtp"]
 
 
 def test_crash_between_cloud_and_list_keeps_the_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    series = Series(tmp_path, "softCloud")
+    series = Series(ResultsFolder(tmp_path, "softCloud"))
     series.append(cloud(0.1))
-    before = series.pvd.read_bytes()
+    before = series.folder.pvd.read_bytes()
     with monkeypatch.context() as patch:
         patch.setattr(Path, "write_text", fail)
         with pytest.raises(OSError, match="no space"):
             series.append(cloud(0.2))
-    assert series.pvd.read_bytes() == before
+    assert series.folder.pvd.read_bytes() == before
     series.append(cloud(0.2))
-    assert [entry.time for entry in read_pvd(series.pvd)] == [0.1, 0.2]
+    assert [entry.time for entry in read_pvd(series.folder.pvd)] == [0.1, 0.2]
 
 
 @pytest.mark.parametrize("text", ["", "<VTKFile>", '<a><DataSet file="x.vtp"/></a>', "\x00"])
@@ -143,10 +144,10 @@ def test_list_may_not_name_files_elsewhere(tmp_path: Path, file: str) -> None:
 
 @given(times=st.lists(st.floats(0, 1e9), unique=True, min_size=1, max_size=4))
 def test_times_round_trip_exactly(tmp_path_factory: pytest.TempPathFactory, times: list[float]) -> None:
-    series = Series(tmp_path_factory.mktemp("series"), 'a "name" & <more>')
+    series = Series(ResultsFolder(tmp_path_factory.mktemp("series"), 'a "name" & <more>'))
     for time in sorted(times):
         series.append(PointCloud(time, np.zeros((0, 3))))
-    assert [entry.time for entry in read_pvd(series.pvd)] == sorted(times)
+    assert [entry.time for entry in read_pvd(series.folder.pvd)] == sorted(times)
 
 
 def fail(*_: object, **__: object) -> None:
@@ -218,7 +219,7 @@ def test_pieces_are_one_cloud(tmp_path: Path, sizes: tuple[int, ...]) -> None:
 
 
 def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
-    series = Series(tmp_path, "cloud")
+    series = Series(ResultsFolder(tmp_path, "cloud"))
     series.append(cloud(0.1))
     for time in (0.2, 0.3):
         stem = series.next(time)
@@ -226,10 +227,10 @@ def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
         write_pieces(stem.with_suffix(".pvtp"), layout(cloud(time)), [stem / "0.vtp"])
         series.add(time, stem.with_suffix(".pvtp"))
     kept = series.entries[:2]
-    series = Series(tmp_path, "cloud")
+    series = Series(ResultsFolder(tmp_path, "cloud"))
     series.relist(kept)
     assert series.append(cloud(0.3)).name == "cloud_000002.vtp"
-    assert [entry.file for entry in read_pvd(series.pvd)] == [
+    assert [entry.file for entry in read_pvd(series.folder.pvd)] == [
         "cloud_000000.vtp",
         "cloud_000001.pvtp",
         "cloud_000002.vtp",

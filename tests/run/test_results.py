@@ -21,6 +21,7 @@ from foamprb.cloud.state import Status
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
 from foamprb.results.checkpoint import Checkpoints
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Entry, Series, read_pvd
 
@@ -133,8 +134,8 @@ def leave_behind(case: Path) -> None:
     for name in (*left, "softCloud_000004/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).touch()
-    series = Series(folder, "softCloud")
-    series.relist([*read_pvd(series.pvd), Entry(0.004, left[0])])
+    series = Series(ResultsFolder(folder, "softCloud"))
+    series.relist([*read_pvd(series.folder.pvd), Entry(0.004, left[0])])
 
 
 @pytest.mark.parametrize("option", ["-resume", "-overwrite"])

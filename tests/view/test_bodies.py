@@ -10,6 +10,7 @@ import pytest
 from view_run import INJECTORS, clouds, motion, write_run
 
 from foamprb.errors import InputError
+from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import write_snapshot
 from foamprb.view.bodies import UNNAMED, fates_of, gather, require_array, told
@@ -243,6 +244,6 @@ def test_a_cloud_without_particles(tmp_path):
     nobody = dataclasses.replace(
         empty, points=np.zeros((0, 3)), arrays={name: array[:0] for name, array in empty.arrays.items()}
     )
-    Series(folder, "softCloud").append(nobody)
+    Series(ResultsFolder(folder, "softCloud")).append(nobody)
     bodies = gather(open_run(tmp_path), [0])
     assert bodies.x.shape == (1, 0, 3)

@@ -86,11 +86,12 @@ def write_report(
     OSError
         If a file cannot be written.
     """
-    run = open_run(case, cloud)
+    run = open_run(case, cloud, source.region if source else "")
+    source = run.source(source)
     fates = run.fates()
     if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To go on: foamprb run -resume.")
-    target = output or run.folder / "report.html"
+    target = output or run.results.report
     given = _Given(run, fates, _geometry(case, source), tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     sections = [
@@ -121,7 +122,7 @@ def write_report(
     return target
 
 
-def _geometry(case: Path, source: Source | None) -> Geometry | None:
+def _geometry(case: Path, source: Source) -> Geometry | None:
     try:
         return boundary(read_flow(case, "latestTime", source).mesh)
     except InputError as error:
@@ -152,8 +153,8 @@ def _cards(given: _Given) -> list[tuple[str, str]]:
     return cards
 
 
-def _scene(given: _Given, case: Path, cloud: str | None, source: Source | None, target: Path) -> Section:
-    live = given.run.folder / f"{given.run.name}.html"
+def _scene(given: _Given, case: Path, cloud: str | None, source: Source, target: Path) -> Section:
+    live = given.run.results.page
     body = ""
     try:
         require_graphics()
@@ -393,12 +394,11 @@ def _what(given: _Given) -> Section:
 
 
 def _files(given: _Given, target: Path, beside: Path) -> Section:
-    folder, name = given.run.folder, given.run.name
-    shown = [folder / f"{name}.pvd", *map(given.run.file, given.run.tables)]
-    shown += [path for path in (folder / "run.json", folder / f"{name}.html") if path.exists()]
-    shown += sorted(folder.glob("*/tracks.vtp"))
+    results = given.run.results
+    shown = [results.pvd, *map(given.run.file, given.run.tables)]
+    shown += [path for path in (results.record, results.page, results.tracks) if path and path.exists()]
     items = [
-        f'<li><a href="{_link(path, target)}">{html.escape(str(path.relative_to(folder)))}</a></li>'
+        f'<li><a href="{_link(path, target)}">{html.escape(str(path.relative_to(results.path)))}</a></li>'
         for path in shown
     ]
     items += [
