@@ -86,7 +86,7 @@ class ResultsFolder:
             names = ", ".join(folder.path.relative_to(case / _ROOT).as_posix() for folder in found)
             option = "-cloud" if len(clouds) > 1 and name not in clouds else "-region"
             raise InputError(
-                f"{case}: the results of {len(found)} clouds are here: {names}. Choose one with {option}."
+                f"{case}: results of {len(found)} clouds: {names}. Choose one with {option}."
             )
         return found[0]
 

@@ -41,7 +41,7 @@ def test_results_are_found_by_cloud_and_region(tmp_path, places, options, found)
     ("places", "options", "message"),
     [
         ([], {}, "no results here"),
-        (["a", "b"], {}, "the results of 2 clouds are here: a, b. Choose one with -cloud"),
+        (["a", "b"], {}, "results of 2 clouds: a, b. Choose one with -cloud"),
         (["air/a", "air/b"], {"region": "air"}, "air/a, air/b. Choose one with -cloud"),
         (["air/softCloud", "water/softCloud"], {}, "air/softCloud, water/softCloud. Choose one with -region"),
         (["softCloud"], {"cloud": "softClod"}, "no results of a cloud 'softClod'.*softCloud"),
