@@ -85,9 +85,7 @@ class ResultsFolder:
         if len(found) > 1:
             names = ", ".join(folder.path.relative_to(case / _ROOT).as_posix() for folder in found)
             option = "-cloud" if len(clouds) > 1 and name not in clouds else "-region"
-            raise InputError(
-                f"{case}: results of {len(found)} clouds: {names}. Choose one with {option}."
-            )
+            raise InputError(f"{case}: results of {len(found)} clouds: {names}. Choose one with {option}.")
         return found[0]
 
     @property
