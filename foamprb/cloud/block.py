@@ -23,7 +23,7 @@ from foamprb.body.tensor import (
     stretches_in_frame,
 )
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
-from foamprb.cloud.limits import Bounds
+from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
 from foamprb.compile.link import side_by_side
 
@@ -83,8 +83,8 @@ class Rows(NamedTuple):
     verdict: Annotated[int, Row(1, "", "reason why the new state is not sound; 0 if it is")]
     length: Annotated[int, Row(1, "m", "longest semi-axis, or a little more", lasting=True)]
     clearance: Annotated[int, Row(1, "m", "gap between the body and the nearest wall", lasting=True)]
-    most_stretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed", lasting=True)]
-    most_length: Annotated[int, Row(1, "m", "longest semi-axis that is allowed", lasting=True)]
+    maxStretch: Annotated[int, Row(1, "1", "largest stretch of F that is allowed", lasting=True)]
+    maxLength: Annotated[int, Row(1, "m", "longest semi-axis that is allowed", lasting=True)]
     taken: Annotated[
         int, Row(1, "1", "steps taken since the last whole tracking step, also those repeated", lasting=True)
     ]
@@ -155,7 +155,7 @@ class Scratch(NamedTuple):
     """Room for the rebounds of this loop's particles, (n, :data:`REBOUND_NUMBERS`)."""
     noted: Any
     """Two whole numbers: how many are there, and how many of them of blocks that are done."""
-    bounds: Bounds
+    bounds: LoopLimits
     """What no particle may pass."""
     member: Any
     """LANES whole numbers: which particle of the cloud's arrays is in each lane, −1 for none."""
@@ -184,7 +184,7 @@ SHELF, LABELS, COUNTS = 15 * LANES, 8, 5
 def new_scratch(
     rows: int,
     stop: Any = None,
-    bounds: Bounds = Bounds(),  # noqa: B008
+    bounds: LoopLimits = LoopLimits(),  # noqa: B008
     room: int = 0,
     kept: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
 ) -> Scratch:
@@ -372,8 +372,8 @@ def accept_stage(block: Any, tolerance: float) -> None:
         verdict = select(block[at.error * LANES + i] <= tolerance, 0.0, float(NOT_CONVERGED))
         stretch = longest_stretch(F)
         length = block[at.R * LANES + i] * stretch
-        verdict = select(length <= block[at.most_length * LANES + i], verdict, float(TOO_LARGE))
-        verdict = select(stretch <= block[at.most_stretch * LANES + i], verdict, float(STRETCHED))
+        verdict = select(length <= block[at.maxLength * LANES + i], verdict, float(TOO_LARGE))
+        verdict = select(stretch <= block[at.maxStretch * LANES + i], verdict, float(STRETCHED))
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         block[at.verdict * LANES + i] = verdict
@@ -448,8 +448,8 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     store9(s.block, at.M, i, metric_at_rest(load9(s.block, at.F0, i)))
     s.block[at.clearance * LANES + i] = np.inf
     s.block[at.taken * LANES + i] = 0.0
-    s.block[at.most_stretch * LANES + i] = s.bounds.stretch * longest_stretch(load9(s.block, at.F0, i))
-    s.block[at.most_length * LANES + i] = s.bounds.length
+    s.block[at.maxStretch * LANES + i] = s.bounds.maxStretch * longest_stretch(load9(s.block, at.F0, i))
+    s.block[at.maxLength * LANES + i] = s.bounds.maxLength
     s.block[at.length * LANES + i] = p.R[k] * longest_stretch(load9(s.block, at.F, i))
 
 

@@ -15,7 +15,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.executor import Executor, Threads
 from foamprb.cloud.integrators.registry import automatic
-from foamprb.cloud.limits import Bounds, Limits
+from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import shape_stokes_number
 from foamprb.cloud.motion import SEEN
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
@@ -204,15 +204,15 @@ class Cloud:
                 return
 
     @property
-    def bounds(self) -> Bounds:
+    def bounds(self) -> LoopLimits:
         """What no particle may pass, and how far walls are listed."""
         limits = self.limits
-        length = limits.max_size * self.flow.width
+        length = limits.maxSize * self.flow.width
         listed = self.flow.lists_walls and bool(self._touchable)
         reach = self.reach if listed else np.inf
-        return Bounds(
-            limits.max_stretch, length, float(limits.max_sub_steps), reach, self._reach_grows,
-            limits.max_cells,
+        return LoopLimits(
+            limits.maxStretch, length, float(limits.maxSubSteps), reach, self._reach_grows,
+            limits.maxCells,
         )  # fmt: skip
 
     def begin(self, steps: int) -> None:
@@ -327,14 +327,14 @@ class Cloud:
 
     def _refuse_large(self) -> None:
         """Raise InputError if a particle that has not ended is larger than the flow is wide."""
-        p, most = self.particles, self.bounds.length
+        p, most = self.particles, self.bounds.maxLength
         longest = p.R * longest_stretch(tuple(p.F.T))
         wrong = np.flatnonzero((longest > most) & (p.status <= Status.ACTIVE))
         if len(wrong):
             raise InputError(
                 f"{len(wrong)} of {p.size} particles are too large for the flow, which is "
                 f"{self.flow.width:g} m wide: the longest semi-axis of particle {wrong[0]} is "
-                f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.max_size:g} "
+                f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.maxSize:g} "
                 "times the width; are diameters in m"
             )
 

@@ -126,7 +126,7 @@ def overspent(s: Scratch, i: int, rest: float) -> bool:
     ``rest`` is what was left of its stretch before the last step, in tracking steps.
     """
     begun = s.stride[i] - math.ceil(rest) + 1
-    if s.block[at.taken * LANES + i] <= s.bounds.sub_steps * max(1, begun):
+    if s.block[at.taken * LANES + i] <= s.bounds.maxSubSteps * max(1, begun):
         return False
     fail(s, i, SUB_STEPS)
     return True
@@ -155,7 +155,7 @@ def reach_end(
     store3(s.block, at.x, i, end)
     if s.status[i] == ACTIVE or s.status[i] == STUCK:
         spent *= touch(flow, patches, s, i, start, t_end - h, spent)
-    if s.bounds.cells < math.inf and s.status[i] == ACTIVE:
+    if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
         fail_in_small_cell(flow, s, i)
     s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
     return mended
@@ -164,7 +164,7 @@ def reach_end(
 def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
     """End the particle in lane i if its longest semi-axis is longer than so many sizes of its cell."""
     longest = s.block[at.length * LANES + i]
-    if longest**3 > s.bounds.cells**3 * cell_volume(flow, s.host[i]):
+    if longest**3 > s.bounds.maxCells**3 * cell_volume(flow, s.host[i]):
         fail(s, i, CELLS_TOO_MANY)
 
 

@@ -22,15 +22,15 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
     scheme = INTEGRATORS[models.integrator]
     hint = ""
     if reason == Reason.STRETCHED:
-        hint = f"maxStretch is {limits.max_stretch:g}; it has no steady shape there"
+        hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there"
     elif reason == Reason.TOO_LARGE:
-        hint = f"maxSize is {limits.max_size:g}; no gradient is uniform over such a body"
+        hint = f"maxSize is {limits.maxSize:g}; no gradient is uniform over such a body"
     elif reason == Reason.CELLS_TOO_MANY:
-        hint = f"maxCells is {limits.max_cells:g}"
+        hint = f"maxCells is {limits.maxCells:g}"
     elif reason == Reason.WALLS_TOO_MANY:
         hint = "no gradient is uniform over such a body"
     elif reason == Reason.SUB_STEPS:
-        hint = f"maxSubSteps is {limits.max_sub_steps:g}"
+        hint = f"maxSubSteps is {limits.maxSubSteps:g}"
     elif reason == Reason.VOLUME_RATIO and models.material == "saintVenantKirchhoff":
         hint = "a Saint Venant-Kirchhoff solid gives way when it is compressed"
     elif reason == Reason.VOLUME_RATIO and scheme.adaptive:

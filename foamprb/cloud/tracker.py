@@ -28,7 +28,7 @@ from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
-from foamprb.cloud.limits import Bounds
+from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_of, reach_end
 from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.rebounds import CROWDED, in_order, note
@@ -237,7 +237,7 @@ class Tracker:
         arguments |= {"held": False}
         compile_part(function, arguments, self.bindings, self.separate)
 
-    def _scratch(self, stop: Any = None, bounds: Bounds = Bounds()) -> Scratch:  # noqa: B008
+    def _scratch(self, stop: Any = None, bounds: LoopLimits = LoopLimits()) -> Scratch:  # noqa: B008
         kept = self.layout.kept, self.layout.fresh
         return new_scratch(self.layout.rows, stop, bounds, self._room, kept)
 
@@ -248,7 +248,7 @@ class Tracker:
         step: int,
         steps: int,
         threads: int,
-        bounds: Bounds = Bounds(),  # noqa: B008
+        bounds: LoopLimits = LoopLimits(),  # noqa: B008
         stop: Callable[[], bool] = never,
     ) -> Outcome:
         """Carry particles from step ``step`` through ``steps`` steps, in place.
@@ -285,7 +285,7 @@ class Tracker:
         rows: NDArray[np.int64],
         steps: tuple[int, int],
         threads: int,
-        bounds: Bounds,
+        bounds: LoopLimits,
         stop: Callable[[], bool],
     ) -> Outcome:
         """Carry the particles of some rows from a step through so many steps."""

@@ -21,7 +21,7 @@ from foamprb.cloud.block import COUNTS, LABELS, ROWS, Medium, Scratch
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Executor
 from foamprb.cloud.integrators.paper import track_block as track
-from foamprb.cloud.limits import Bounds
+from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import ACTIVE, PatchTable, longest_now
 from foamprb.cloud.state import CHANGING, Particles
 from foamprb.cloud.tracker import Outcome, Tracker, never
@@ -68,7 +68,7 @@ def track_each(
     dt: float,
     start: float,
     options: tuple[float, ...],
-    bounds: Bounds,
+    bounds: LoopLimits,
     mended: NDArray[np.int64],
 ) -> None:
     """Carry the particles of some rows through ``steps`` steps.

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.executor import longest_semi_axis
-from foamprb.cloud.limits import Bounds
+from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import report
 from foamprb.cloud.state import Particles, Status, concatenate, empty
@@ -160,7 +160,9 @@ class Worker:
         self.ids = np.concatenate([self.ids[~gone], ids])
         self._fresh = np.concatenate([self._fresh[~gone], np.ones(len(ids), dtype=bool)])
 
-    def advance(self, step: int, steps: int, bounds: Bounds, stop: Callable[[], bool] | None = None) -> Share:
+    def advance(
+        self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
+    ) -> Share:
         """Carry the particles through some steps, or to where ``stop``, else a signal, ends them."""
         stop = stop or (lambda: bool(self.signals))
         outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)

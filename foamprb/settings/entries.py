@@ -150,7 +150,7 @@ class Solution:
         float,
         _ABOVE_ONE,
         Meaning("a particle that is stretched more, from its shape at rest, fails", "1"),
-    ] = Limits.max_stretch
+    ] = Limits.maxStretch
     maxSize: Annotated[
         float,
         Positive,
@@ -159,10 +159,10 @@ class Solution:
             "so is an error",
             "1",
         ),
-    ] = Limits.max_size
+    ] = Limits.maxSize
     maxSubSteps: Annotated[
         float, _FROM_ONE, Meaning("one that needs more time steps in one `deltaT` fails", "1")
-    ] = Limits.max_sub_steps
+    ] = Limits.maxSubSteps
     maxCells: (
         Annotated[
             float,

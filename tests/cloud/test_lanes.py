@@ -50,7 +50,7 @@ def in_vortex(flow, integrator, rows=slice(None), models=()):
     chosen = Models(integrator=integrator, surroundings=models, rebounds=True, stride=4)
     medium = Medium(0.011, 1.0, (0.0, -7.0, -7.0))
     walls = [Mirror() if patch.name == "floor" else Rebound() for patch in flow.patches]
-    limits = Limits(max_stretch=1.3)
+    limits = Limits(maxStretch=1.3)
     cloud = Cloud(p, flow, medium, walls, 0.02, chosen, threads=1, limits=limits)
     cloud.particles = p.take(np.arange(N)[rows])
     return cloud

@@ -51,8 +51,7 @@ def test_the_defaults_are_those_that_the_manual_tells():
     page = Path(__file__).parents[2] / "docs/settings.md"
     told = dict(re.findall(r"^\| `(max\w+)` \| 1 \| (\w[\w.]*) \|", page.read_text(), re.MULTILINE))
     for name, default in asdict(Limits()).items():
-        word = told["max" + "".join(part.capitalize() for part in name.split("_")[1:])]
-        assert default == (math.inf if word == "none" else float(word))
+        assert default == (math.inf if told[name] == "none" else float(told[name]))
 
 
 class TestStretch:
@@ -72,17 +71,17 @@ class TestStretch:
     def test_it_is_from_the_shape_at_rest(self):
         p = spheres(np.zeros((1, 3)), d=1e-5, rho=1000.0, mu=1e6)
         set_rest_shape(p, (40.0, 1.0, 1.0))
-        cloud = Cloud(p, analytic.shear(1.0), OIL, (), 0.1, Models(), 1, limits=Limits(max_stretch=2.0))
+        cloud = Cloud(p, analytic.shear(1.0), OIL, (), 0.1, Models(), 1, limits=Limits(maxStretch=2.0))
         cloud.advance(10)
         assert p.status[0] == Status.ACTIVE
         assert np.linalg.norm(p.F[0].reshape(3, 3), 2) > 10.0
 
     @pytest.mark.parametrize("integrator", INTEGRATORS)
     def test_every_integrator_heeds_it(self, integrator):
-        cloud = in_extension([10.0], Limits(max_stretch=3.0), 1e-4, integrator)
+        cloud = in_extension([10.0], Limits(maxStretch=3.0), 1e-4, integrator)
         cloud.particles.rho[:] = 1e12
         cloud = Cloud(
-            cloud.particles, cloud.flow, OIL, (), 1e-2, cloud.models, 1, limits=Limits(max_stretch=3.0)
+            cloud.particles, cloud.flow, OIL, (), 1e-2, cloud.models, 1, limits=Limits(maxStretch=3.0)
         )
         cloud.carry(700)
         assert reasons(cloud) == [Reason.STRETCHED]
@@ -100,7 +99,7 @@ class TestSize:
         p = spheres(np.full((1, 3), (0.5, 0.1, 0.0)), d=0.02, rho=1000.0, mu=1e-3)
         walls = (Rebound(), Escape(), Escape())
         flow = analytic.pipe(0.15, 0.5, 100.0)
-        cloud = Cloud(p, flow, OIL, walls, 1e-2, Models(), 1, limits=Limits(max_size=0.1))
+        cloud = Cloud(p, flow, OIL, walls, 1e-2, Models(), 1, limits=Limits(maxSize=0.1))
         cloud.carry(1000)
         assert reasons(cloud) == [Reason.TOO_LARGE]
         assert 0.02 < 0.01 * np.linalg.norm(p.F[0].reshape(3, 3), 2) < 0.03
@@ -148,7 +147,7 @@ class TestCells:
         x = np.array([[0.3, 0.4, 0.5], [0.7, 0.6, 0.5]])
         size = flow.cell_size(flow.locate(x))
         p = spheres(x, d=0.8 * 2.0 * size, rho=1e3, mu=[1e-2, 1e3])
-        limits = Limits(max_cells=1.0, max_size=1e3)
+        limits = Limits(maxCells=1.0, maxSize=1e3)
         models = Models(integrator=integrator, touching="centre")
         walls = [Rebound() for _ in flow.patches]
         cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
@@ -164,7 +163,7 @@ class TestCells:
         flow = self.flow(False)
         p = spheres([[0.5, 0.5, 0.5]], d=50.0, rho=1e6, mu=1e3)
         walls = [Rebound() for _ in flow.patches]
-        models, limits = Models(touching="centre"), Limits(max_size=1e3)
+        models, limits = Models(touching="centre"), Limits(maxSize=1e3)
         cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
         cloud.carry(10)
         assert p.status[0] == Status.ACTIVE
@@ -173,7 +172,7 @@ class TestCells:
 class TestCost:
     def test_a_particle_that_needs_more_steps_than_it_may_fails(self):
         for most, reason in ((3, Reason.SUB_STEPS), (1e6, Reason.NONE)):
-            cloud = in_extension([0.2], Limits(max_sub_steps=most), dt=1.0)
+            cloud = in_extension([0.2], Limits(maxSubSteps=most), dt=1.0)
             cloud.carry(1)
             assert reasons(cloud) == [reason]
             assert (cloud.particles.t[0] < 1.0) == (reason == Reason.SUB_STEPS)
@@ -261,7 +260,7 @@ class TestStop:
             Ca = np.where(np.arange(320) < 160, 0.01, 4.0)
             p = spheres(np.zeros((len(Ca), 3)), d=1e-5, rho=1000.0, mu=1.0 / Ca)
             models = Models(integrator="stokes", tolerance=1e-11)
-            limits = Limits(max_sub_steps=1e12)
+            limits = Limits(maxSubSteps=1e12)
             return Cloud(p, analytic.shear(1.0), OIL, (), 200.0, models, 2, limits=limits)
 
         whole, parts = cloud(), cloud()
@@ -300,7 +299,7 @@ class TestStop:
         # Ellipsoids that tumble.
         p = spheres(np.zeros((64, 3)), d=1e-5, rho=1000.0, mu=1e4)
         set_rest_shape(p, (2.0, 1.0, 1.0))
-        models, limits = Models(integrator="stokes"), Limits(max_sub_steps=1e12)
+        models, limits = Models(integrator="stokes"), Limits(maxSubSteps=1e12)
         cloud = Cloud(p, analytic.shear(1.0), OIL, (), 1e5, models, 1, limits=limits)
 
         def stop():
@@ -341,7 +340,7 @@ def test_a_state_with_one_component_that_is_no_number_is_not_taken(row):
             store9(block, at.F, i, IDENTITY)
             for name in ("J", "moving", "R"):
                 block[getattr(at, name) * LANES + i] = 1.0
-            for name in ("most_length", "most_stretch"):
+            for name in ("maxLength", "maxStretch"):
                 block[getattr(at, name) * LANES + i] = 10.0
         block[(getattr(at, row) + component) * LANES] = np.nan
         accept_stage(block, 1.0)

@@ -107,6 +107,6 @@ def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, messag
 
 def test_limits_of_particles_are_those_of_their_entries(read: Reader) -> None:
     limits = read((OWN, f"{OWN} maxStretch 5; maxSize 0.25; maxSubSteps 7; maxCells 2;")).solution.limits
-    assert limits == Limits(max_stretch=5.0, max_size=0.25, max_sub_steps=7.0, max_cells=2.0)
+    assert limits == Limits(maxStretch=5.0, maxSize=0.25, maxSubSteps=7.0, maxCells=2.0)
     assert read((OWN, OWN)).solution.limits == Limits()
-    assert Limits().max_cells == math.inf
+    assert Limits().maxCells == math.inf
