@@ -105,9 +105,6 @@ def _parser() -> argparse.ArgumentParser:
         "--parallel", action="store_true", help="share the particles among the processes of mpirun"
     )
     run.add_argument(
-        "--device", choices=("cpu", "cuda"), default="cpu", help="what advances the particles [cpu]"
-    )
-    run.add_argument(
         "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
     )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
@@ -125,7 +122,7 @@ def _parser() -> argparse.ArgumentParser:
 def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
     from foamprb.compile.helper import early_helper
 
-    alone = ranks is None and arguments.device == "cpu" and not arguments.dry_run
+    alone = ranks is None and not arguments.dry_run
     helper = early_helper("foamprb.run.precompile") if alone else None
     try:
         return _run_with(helper, arguments, ranks)
@@ -135,14 +132,14 @@ def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
 
 
 def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks | None) -> int:
-    from foamprb.parallel.launch import choose_executor
+    from foamprb.cloud.executor import Threads
     from foamprb.run.job import prepare
     from foamprb.run.log import describe, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    executor = choose_executor(arguments.device, ranks)
+    executor = ranks or Threads()
     job = prepare(
         arguments.case,
         "latestTime" if arguments.latestTime else arguments.time,

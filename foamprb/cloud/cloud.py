@@ -215,14 +215,6 @@ class Cloud:
             limits.maxCells,
         )  # fmt: skip
 
-    def begin(self, steps: int) -> None:
-        """Let the executor begin with steps while this process does something else, if it is one that can.
-
-        Until :meth:`advance` is called with the same number nothing is seen of them, and when it is called
-        with another they are dropped.
-        """
-        self.executor.begin(steps)
-
     def load_flow(self, steps: int) -> tuple[Any, int]:
         """Make the flow ready for the next ``steps`` steps, or for as many of them as it can be.
 

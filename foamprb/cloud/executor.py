@@ -25,10 +25,6 @@ if TYPE_CHECKING:
 __all__ = ["Executor", "Threads", "longest_semi_axis"]
 
 
-AT_ONCE = 200_000_000
-"""Steps of a particle that threads take in a minute or so; to take up its state and put it down costs one."""
-
-
 class Executor(ABC):
     """Carries the particles of a cloud through their steps, and writes them.
 
@@ -37,10 +33,8 @@ class Executor(ABC):
     for executors that leave the particles in the cloud's arrays.
     """
 
-    at_once: int
-    """Largest number of steps of a particle that it takes in a call."""
-    heeds_stop: bool = True
-    """Whether ``stop`` ends a call of :meth:`advance` before its steps are done."""
+    at_once: int = 200_000_000
+    """Largest number of steps of one particle in a call of :meth:`advance`; it takes about a minute."""
     precompiles: bool = False
     """Whether another process may compile the loop for it before it is wanted."""
     signals: Sequence[int] = ()
@@ -61,13 +55,6 @@ class Executor(ABC):
     def compiled(self) -> bool:
         """Whether the loop is compiled."""
 
-    def begin(self, steps: int) -> None:  # noqa: B027
-        """Begin with steps while the cloud's arrays stay as they are or are gathered, if that can be done.
-
-        The next :meth:`advance` takes these steps if it asks for as many; else they are as if they had never
-        been begun.
-        """
-
     @abstractmethod
     def advance(self, flow: Any, steps: int, stop: Callable[[], bool] = never) -> Outcome:
         """Take steps with what the flow's kernels read.
@@ -75,8 +62,7 @@ class Executor(ABC):
         Parameters
         ----------
         flow, stop
-            As of :meth:`foamprb.cloud.tracker.Tracker.advance`; only :attr:`heeds_stop` says that ``stop``
-            is asked.
+            See :meth:`foamprb.cloud.tracker.Tracker.advance`.
         steps
             Their number.
         """
@@ -143,7 +129,6 @@ class Executor(ABC):
 class Threads(Executor):
     """The threads of this process, as many as the cloud says, in the cloud's own arrays."""
 
-    at_once = AT_ONCE
     precompiles = True
 
     @property

@@ -17,9 +17,7 @@ from numpy.typing import NDArray
 __all__ = ["IDENTITY", "LANES", "Layout", "Row", "end", "keep", "layout", "offsets", "rows_of"]
 
 LANES = 16
-"""Number of particles of a block, side by side: so few that its rows stay in the first level of the cache.
-
-On a CUDA device, where each thread has a block of its own, 1 is bound in its place."""
+"""Number of particles of a block, side by side: so few that its rows stay in the first level of the cache."""
 
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 

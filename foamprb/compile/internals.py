@@ -42,7 +42,7 @@ from foamprb.compile.cache import Store
 from foamprb.compile.trace import LANES, Code, UntraceableError, trace
 from foamprb.errors import InputError, suggestion
 
-__all__ = ["Internals", "Role", "internals", "use_cache_for_cuda"]
+__all__ = ["Internals", "Role", "internals"]
 
 log = logging.getLogger("foamprb")
 
@@ -681,60 +681,6 @@ def _cache() -> _Changes:
         return CompileResult._rebuild(context, *payload)
 
     return _Changes(use_cache=use_cache)
-
-
-def use_cache_for_cuda(kernel: Any, name: str) -> Store | None:
-    """Give a CUDA kernel a place in the cache under a name, as :func:`_cache` does for the processor.
-
-    It belongs to the same part. Without it numba-cuda compiles the kernel in each process.
-    """
-    if "cache" not in internals().parts:
-        return None
-    try:
-        from numba.cuda.dispatcher import CUDACache, CUDACacheImpl
-        from numba.cuda.serialize import dumps
-
-        store = Store(name, dumps)
-
-        class Locator:
-            """Where numba-cuda would look for files of its own."""
-
-            @classmethod
-            def from_function(cls, function: Any, file: str) -> Locator:  # noqa: ARG003
-                return cls()
-
-            def ensure_cache_path(self) -> None:
-                """The store makes it."""
-
-            def get_cache_path(self) -> str:
-                return str(store.folder)
-
-            def get_source_stamp(self) -> str:
-                return name
-
-            def get_disambiguator(self) -> str:
-                return ""
-
-        class Impl(CUDACacheImpl):  # type: ignore[misc]
-            _locator_classes = (Locator,)
-
-        class Cache(CUDACache):  # type: ignore[misc]
-            _impl_class = Impl
-
-            def load_overload(self, signature: Any, context: Any) -> Any:
-                with suppress(Exception):
-                    return super().load_overload(signature, context)
-                return None
-
-        own = Cache(kernel.py_func)
-        _need(own, "_cache_file")
-        _need(kernel, "_cache")
-        own._cache_file = store
-        kernel._cache = own
-    except Exception as error:
-        log.debug("numba-cuda has not what the cache takes: %r", error)
-        return None
-    return store
 
 
 PARTS: dict[str, Callable[[], _Changes]] = {

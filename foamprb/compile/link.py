@@ -2,9 +2,9 @@
 
 The mathematics of foamprb is written once, as plain functions of floats, tuples and array elements.
 :func:`link` follows the functions that an entry function calls, through their module globals, and compiles
-the whole with numba, for the processor or for a CUDA device; the plain text stays callable as it is, on
+the whole with numba; the plain text stays callable as it is, on
 floats or on numpy arrays. A model that the user chooses (a traction, a drag law, a flow) is bound to the name
-by which the entry function calls it, and so is a constant that is not the same for both targets.
+by which the entry function calls it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ import platform
 import sys
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from functools import cache, partial
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -30,11 +30,9 @@ from foamprb.body.tensor import select
 from foamprb.compile import internals as inner
 from foamprb.compile import trace
 from foamprb.compile.cache import Store
-from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals, use_cache_for_cuda
+from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals
 
-__all__ = ["Target", "compile_part", "is_compiled", "link", "side_by_side"]
-
-Target: TypeAlias = Literal["cpu", "cuda"]
+__all__ = ["compile_part", "is_compiled", "link", "side_by_side"]
 
 # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
 _FAST_MATH = ("contract", "nsz")
@@ -50,7 +48,6 @@ def link(
     entry: Callable[..., Any],
     bindings: Mapping[str, Any] | None = None,
     separate: Collection[Callable[..., Any]] = (),
-    target: Target = "cpu",
 ) -> Any:
     """Compile ``entry`` with everything it calls.
 
@@ -65,8 +62,6 @@ def link(
     separate
         Callees that are compiled on their own, and called, so that several entries of a process share them;
         every other callee is inlined.
-    target
-        ``"cuda"`` makes a kernel of ``entry`` and device functions of its callees; it needs numba-cuda.
 
     Returns
     -------
@@ -74,7 +69,7 @@ def link(
     separate callees are saved in :mod:`foamprb.compile.cache`, under keys made of the code of every function
     that was linked.
     """
-    return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate), target), "entry").dispatcher
+    return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate)), "entry").dispatcher
 
 
 def side_by_side(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -103,7 +98,7 @@ def compile_part(
         As the entry will have them. Only separate callees are saved in the cache, for others to find.
     """
     role: Role = "separate" if function in separate else "inlined"
-    part = _link(function, _Linkage(dict(bindings), frozenset(separate), "cpu"), role)
+    part = _link(function, _Linkage(dict(bindings), frozenset(separate)), role)
     names = inspect.signature(function).parameters
     part.dispatcher.compile(tuple(numba.typeof(arguments[name]) for name in names))
 
@@ -118,7 +113,6 @@ class _Linkage(NamedTuple):
 
     bindings: dict[str, Any]
     separate: frozenset[Callable[..., Any]]
-    target: Target
 
 
 class _Part(NamedTuple):
@@ -139,14 +133,11 @@ _stores: dict[int, Store | None] = {}
 
 def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     """Compile a function after its callees; a part that has been compiled before is used again."""
-    target = linkage.target
     if function is select:
-        return _link_select(target)
+        return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
     scope = dict(function.__globals__)
-    own = (
-        f"{_compiler(target)} {role} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
-    )
+    own = f"{_compiler()} {role} {function.__module__} {function.__qualname__} {function.__defaults__!r}"
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
@@ -159,29 +150,25 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
         elif isinstance(value, int | float | tuple):
-            scope[name] = _offsets(value, target) if _are_offsets(value) else _constant(value, target)
+            scope[name] = _offsets(value) if _are_offsets(value) else _constant(value)
             digest.update(f"{name}={value!r};".encode())
         elif isinstance(value, type) and issubclass(value, tuple):
             digest.update(f"{name}={getattr(value, '_fields', '')};".encode())
-    if target == "cuda":
-        scope |= _for_cuda(scope)
     key = digest.hexdigest()[:24]
     if key not in _parts:
-        cells = tuple(CellType(_constant(value, target)) for value in captured)
+        cells = tuple(CellType(_constant(value)) for value in captured)
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
         # Code is linked by name, and other processes may have put other models behind a name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
         setattr(clone, SIDE_BY_SIDE, together)
-        make = _compile_for_cpu if target == "cpu" else _compile_for_cuda
-        _parts[key] = _Part(make(clone, role, key), key)
+        _parts[key] = _Part(_compile(clone, role, key), key)
     return _parts[key]
 
 
-def _constant(value: Any, target: Target) -> Any:
+def _constant(value: Any) -> Any:
     """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
-    # Sizes of local arrays on a device must be Python's.
-    return np.int64(value) if type(value) is int and target == "cpu" else value
+    return np.int64(value) if type(value) is int else value
 
 
 def _are_offsets(value: Any) -> bool:
@@ -189,20 +176,18 @@ def _are_offsets(value: Any) -> bool:
     return hasattr(value, "_fields") and all(type(item) is int for item in value)
 
 
-def _offsets(value: Any, target: Target) -> ModuleType:
+def _offsets(value: Any) -> ModuleType:
     """What stands for such a tuple: numba takes a module's attribute for the constant that it is."""
     module = ModuleType(type(value).__name__)
-    vars(module).update({name: _constant(item, target) for name, item in value._asdict().items()})
+    vars(module).update({name: _constant(item) for name, item in value._asdict().items()})
     return module
 
 
-def _link_select(target: Target) -> _Part:
+def _link_select() -> _Part:
     """The branch that ``select`` is of scalars."""
-    key = f"select {target}"
+    key = "select"
     if key not in _parts:
-        cpu = target == "cpu"
-        inlined = numba.njit(inline="always") if cpu else partial(_compile_for_cuda, role="inlined", key=key)
-        _parts[key] = _Part(inlined(trace.branch), key)
+        _parts[key] = _Part(numba.njit(inline="always")(trace.branch), key)
     return _parts[key]
 
 
@@ -210,11 +195,9 @@ def _link_select(target: Target) -> _Part:
 _version = cache(version)
 
 
-def _compiler(target: Target) -> str:
+def _compiler() -> str:
     """What makes the code, and how, and for which processor."""
     python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_LINKING}"
-    if target == "cuda":
-        return f"{python} numba-cuda {_version('numba-cuda')}"
     # A set has another order in every process.
     options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
     how = f"{_FAST_MATH} {options} {internals().parts}"
@@ -232,37 +215,13 @@ def _processor() -> str:
     return platform.machine()
 
 
-def _compile_for_cpu(function: Callable[..., Any], role: Role, key: str) -> Any:
+def _compile(function: Callable[..., Any], role: Role, key: str) -> Any:
     used = internals()
     dispatcher = numba.njit(**used.options[role], **_OPTIONS)(function)
     used.prepare(dispatcher)
     if role != "inlined":
         _stores[id(dispatcher)] = used.use_cache(dispatcher, key, role)
     return dispatcher
-
-
-def _for_cuda(scope: Mapping[str, Any]) -> dict[str, Any]:
-    """What must stand for some globals in device functions."""
-    from numba import cuda
-
-    if cuda.config.ENABLE_CUDASIM:
-        return {}
-    from foamprb.compile.cuda import numpy_on_device
-
-    return {name: numpy_on_device for name, value in scope.items() if value is np}
-
-
-def _compile_for_cuda(function: Callable[..., Any], role: Role, key: str) -> Any:
-    from numba import cuda
-
-    if cuda.config.ENABLE_CUDASIM:
-        # In the simulator a kernel calls plain functions.
-        return cuda.jit(function) if role == "entry" else function
-    if role != "entry":
-        return cuda.jit(device=True, forceinline=role == "inlined")(function)
-    kernel = cuda.jit(function)
-    _stores[id(kernel)] = use_cache_for_cuda(kernel, key)
-    return kernel
 
 
 @cache

@@ -1,45 +1,17 @@
-"""Which executor a command's options select, and how the processes of ``mpirun`` find each other."""
+"""Start-up of the processes of ``mpirun``: how they find each other."""
 
 from __future__ import annotations
 
 import logging
 import os
 from collections.abc import Callable
-from importlib.util import find_spec
 
-from foamprb.cloud.executor import Executor, Threads
 from foamprb.errors import InputError
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
 from foamprb.parallel.worker import Worker
 
 _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
-
-
-def choose_executor(device: str, ranks: Ranks | None) -> Executor:
-    """The executor of a run.
-
-    Parameters
-    ----------
-    device
-        ``"cpu"`` or ``"cuda"``.
-    ranks
-        The processes of ``mpirun``, if there are others than this.
-
-    Raises
-    ------
-    InputError
-        If numba-cuda or a device that it can use is missing, or there are other processes and a device.
-    """
-    if device == "cpu":
-        return ranks or Threads()
-    if ranks is not None:
-        raise InputError("-device cuda does not go together with -parallel: it is for one process.")
-    if find_spec("numba_cuda") is None:
-        raise InputError("-device cuda needs numba-cuda: pip install 'foamprb[cuda]'.")
-    from foamprb.parallel.device import Device
-
-    return Device()
 
 
 def run_together(lead: Callable[[Ranks | None], int]) -> int:

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
-from foamprb.cloud.executor import AT_ONCE, Executor
+from foamprb.cloud.executor import Executor
 from foamprb.cloud.rebounds import in_order
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
@@ -46,8 +46,6 @@ class Ranks(Executor):
     threads
         Number of threads of each process, as many as its computer has for it.
     """
-
-    at_once = AT_ONCE
 
     def __init__(self, worker: Worker, threads: int) -> None:
         self.worker, self._threads = worker, threads

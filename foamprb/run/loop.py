@@ -164,10 +164,7 @@ def _moving(cloud: Cloud) -> bool:
 def _advance(
     job: Job, results: Results, stop: Callable[[], bool], show: Callable[[float], None], pace: _Pace
 ) -> bool:
-    """Advance to the next write time; return whether it was reached before ``stop`` said so.
-
-    The executor may then begin with the steps that come after it.
-    """
+    """Advance to the next write time; return whether it was reached before ``stop`` said so."""
     cloud, target = job.cloud, job.next_write(job.cloud.step)
     while cloud.step < target and _moving(cloud):
         results.check()
@@ -179,17 +176,15 @@ def _advance(
             results.observe()
         show(cloud.time)
     cloud.step = target
-    if target < job.steps and _moving(cloud):
-        pace.begin(cloud, results.next_observation(job.next_write(target)))
     return True
 
 
 _FIRST_CALL = 1 / 800
 """Share of the most that an executor takes in a call: some tenths of a second."""
-_CALL, _PROMPT = 2.0, 0.25
-"""Seconds that a call should take, where a stop ends it and where it does not."""
+_CALL = 2.0
+"""Seconds that a call should take."""
 _FEW, _LONG = 100, 30.0
-"""Steps that a call has anyway where a stop ends it, unless they take longer than so many seconds."""
+"""Smallest number of steps of a call, unless they take longer than so many seconds."""
 _SLOWER, _FASTER = 0.1, 4.0
 
 
@@ -198,26 +193,17 @@ class _Pace:
 
     def __init__(self) -> None:
         self._steps: float = 0.0
-        self._begun = 0
 
     def advance(self, cloud: Cloud, target: int, stop: Callable[[], bool]) -> None:
-        """Take some steps towards a target, those that were begun if there are any."""
-        steps = min(self._begun, target - cloud.step) or self._at_once(cloud, target)
-        self._begun = 0
+        """Take some steps towards a target."""
+        steps = self._at_once(cloud, target)
         # What is compiled at the first call says nothing of the next.
         compiled, started = cloud.compiled, clock.perf_counter()
         cloud.carry(steps, stop)
         if compiled:
             seconds = clock.perf_counter() - started
-            wanted = _PROMPT
-            if cloud.executor.heeds_stop:
-                wanted = max(_CALL, min(_LONG, _FEW * seconds / steps))
+            wanted = max(_CALL, min(_LONG, _FEW * seconds / steps))
             self._steps = steps * min(_FASTER, max(_SLOWER, wanted / (seconds + 1e-9)))
-
-    def begin(self, cloud: Cloud, target: int) -> None:
-        """Let the executor begin with the steps that :meth:`advance` takes next."""
-        self._begun = self._at_once(cloud, target)
-        cloud.begin(self._begun)
 
     def _at_once(self, cloud: Cloud, target: int) -> int:
         counts = cloud.counts()

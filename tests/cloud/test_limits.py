@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from device_cases import box_cloud, pipe_cloud
+from small_clouds import box_cloud, pipe_cloud
 
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
 from foamprb.body.material import MATERIALS

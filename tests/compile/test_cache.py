@@ -11,9 +11,7 @@ import signal
 import stat
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,7 +21,6 @@ from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
 from foamprb.compile import trial
 from foamprb.compile.cache import Store
-from foamprb.compile.internals import use_cache_for_cuda
 from foamprb.compile.link import is_compiled, link
 
 IS_ROOT = os.geteuid() == 0
@@ -361,43 +358,3 @@ class TestSpace:
         assert is_compiled(f)
         (record,) = caplog.records
         assert record.getMessage() == f"The compiled code in {folder} is not complete: File exists"
-
-
-@pytest.mark.usefixtures("folder")
-@pytest.mark.skipif(find_spec("numba_cuda") is None, reason="numba-cuda is not installed")
-class TestCuda:
-    """The cache of kernels, with a kernel and a device that are stand-ins: there need not be a device."""
-
-    @pytest.fixture
-    def kernel(self, monkeypatch):
-        from numba.cuda.dispatcher import CUDACacheImpl
-
-        monkeypatch.setattr(CUDACacheImpl, "reduce", lambda *given: given[-1].code)
-        monkeypatch.setattr(CUDACacheImpl, "rebuild", lambda *given: given[-1])
-        kernel = SimpleNamespace(py_func=swapped_by_hand, _cache=None)
-        assert use_cache_for_cuda(kernel, "name") is not None
-        return kernel
-
-    @pytest.fixture
-    def device(self):
-        codegen = SimpleNamespace(magic_tuple=lambda: ("cuda", (9, 0)))
-        return SimpleNamespace(refresh=lambda: None, codegen=lambda: codegen)
-
-    def test_kernels_are_found_again_unless_they_are_damaged(self, kernel, device, folder):
-        cache = kernel._cache
-        assert cache.load_overload("signature", device) is None
-        cache.save_overload("signature", SimpleNamespace(code=b"code", codegen=device.codegen()))
-        assert cache.load_overload("signature", device) == b"code"
-        assert cache.load_overload("another", device) is None
-        (file,) = folder.rglob("*.code")
-        data = file.read_bytes()
-        file.write_bytes(data[:-1] + bytes([data[-1] ^ 4]))
-        assert cache.load_overload("signature", device) is None
-
-    def test_kernels_that_others_can_have_written_are_not_used(self, kernel, device, folder, caplog):
-        cache = kernel._cache
-        cache.save_overload("signature", SimpleNamespace(code=b"code", codegen=device.codegen()))
-        folder.chmod(0o777)
-        assert cache.load_overload("signature", device) is None
-        (record,) = caplog.records
-        assert "is not used: others may write to" in record.getMessage()

@@ -1,4 +1,4 @@
-"""The protocol of who carries the particles, and how one is chosen; each has tests of its own."""
+"""How executors advance a cloud, and how the processes of a parallel run end."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import threading
 
 import numpy as np
 import pytest
-from device_cases import pipe_cloud
+from small_clouds import pipe_cloud
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.executor import Threads
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import never
 from foamprb.compile.helper import available_threads
-from foamprb.errors import InputError, RunStopped
+from foamprb.errors import RunStopped
 from foamprb.parallel import launch
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
@@ -72,17 +72,9 @@ def test_a_snapshot_is_in_the_files_that_were_told(tmp_path):
 
 
 def test_threads_are_those_that_the_process_may_use():
-    executor = launch.choose_executor("cpu", None)
-    assert isinstance(executor, Threads)
+    executor = Threads()
     assert executor.threads == available_threads() == len(os.sched_getaffinity(0))
     assert tuple(executor.signals) == ()
-
-
-def test_a_device_is_for_one_process():
-    ranks = object.__new__(Ranks)
-    assert launch.choose_executor("cpu", ranks) is ranks
-    with pytest.raises(InputError, match="does not go together with -parallel"):
-        launch.choose_executor("cuda", ranks)
 
 
 class Dismissed(Ranks):

@@ -6,8 +6,8 @@ import logging
 
 import numpy as np
 import pytest
-from device_cases import box_cloud
 from mesh_shapes import block, box_patches
+from small_clouds import box_cloud
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud

@@ -40,9 +40,6 @@ def test_a_script_says_what_it_can_do(script):
     command, variables = [sys.executable, script], environment() | {"PYTHONPATH": str(ROOT)}
     if (ROOT / script).read_text().startswith(("#!/bin/sh", "#!/usr/bin/env bash")):
         command = ["bash", script]
-    elif script == "tools/benchmarks/device.py":
-        # A part of the package, as its documentation says.
-        command, variables = [sys.executable, "-m", "benchmarks.device"], environment()
     done = subprocess.run([*command, "-help"], cwd=ROOT, env=variables, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.lower().startswith("usage: ")
