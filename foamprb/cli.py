@@ -134,7 +134,7 @@ def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
 def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks | None) -> int:
     from foamprb.cloud.executor import Threads
     from foamprb.run.job import prepare
-    from foamprb.run.log import describe, log_dry_run
+    from foamprb.run.log import log_description, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
     if arguments.threads is not None and arguments.threads < 1:
@@ -150,7 +150,7 @@ def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks
         helper=helper,
         tables=arguments.tables,
     )
-    describe(job)
+    log_description(job.description)
     if arguments.dry_run:
         log_dry_run(job)
         return 0

@@ -7,6 +7,7 @@ import math
 import re
 import zlib
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,7 @@ from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
+from foamprb.run.description import describe
 from foamprb.run.precompile import Precompiler
 from foamprb.settings.patches import match_patches
 from foamprb.settings.reading import read_settings
@@ -77,6 +79,11 @@ class Job:
     def folder(self) -> ResultsFolder:
         """Folder of the results."""
         return ResultsFolder.of_case(self.settings.case, self.settings.name, self.settings.region)
+
+    @cached_property
+    def description(self) -> dict[str, Any]:
+        """Description of the run, made before the first step."""
+        return describe(self.settings, self.cloud, self.steps)
 
     @property
     def steps(self) -> int:
@@ -153,9 +160,8 @@ def prepare(
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
         for note in flow.notes:
-            if isinstance(note, Caveat):
-                log.warning("%s", note)
-            else:
+            # Caveats are warnings of the description.
+            if not isinstance(note, Caveat):
                 log.info("    %s", note)
         return replace(assemble(settings, flow, threads, tables), precompiler=precompiler)
     except BaseException:

@@ -1,11 +1,13 @@
-"""What a person reads of a run: what was selected, how far it has come, and what became of the particles."""
+"""Log of a run: its selections, its progress, and the fates of the particles."""
 
 from __future__ import annotations
 
 import logging
+import math
 import time as clock
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,82 +15,76 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from foamprb.cloud.integrators.paper import PAPER
-from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
-from foamprb.cloud.measures import shape_stokes_number, shear_rate
+from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
 from foamprb.compile.cache import cache_directory
 from foamprb.results.folder import FAILURES
-from foamprb.run.checks import Groups, doubts, groups
 from foamprb.run.job import Job
 
 log = logging.getLogger("foamprb")
 
 _MAX_LISTED_FAILURES = 10
-_CHUNK = 1 << 20
+_GROUPS = {
+    "shear_rate": "shear rate [1/s]",
+    "capillary": "capillary number",
+    "reynolds": "Reynolds number",
+    "stokes": "shape Stokes number",
+    "step": "deltaT/relaxation time",
+    "size": "size/cell size",
+}
 _BETWEEN_LINES = 30.0
 """Seconds between two lines on how far a run is."""
 
 
-def describe(job: Job) -> list[str]:
-    """Log what was selected and what it means; return the warnings, each logged as well."""
-    settings, cloud = job.settings, job.cloud
-    _log_flow(job)
-    log.info("Selecting tractionModel %s", settings.traction)
-    forces = {"ellipsoidDrag": settings.drag, **settings.forces, **settings.surroundings}
-    named = ", ".join(f"{name} {force}".rstrip() for name, force in forces.items())
-    log.info("Selecting particleForces %s", named)
-    log.info("Selecting solid %s", cloud.models.material)
-    scheme = cloud.models.integrator
-    log.info("Selecting integrationScheme %s: %s", scheme, INTEGRATORS[scheme].description)
-    if settings.solution.shape == "auto":
-        number = shape_stokes_number(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time)
+def log_description(description: Mapping[str, Any]) -> None:
+    """Log a run's selections and their numbers, as :func:`foamprb.run.description.describe` returns them."""
+    fluid, flow, models = (description[key] for key in ("fluid", "flow", "models"))
+    log.info(
+        "Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid["nu"], fluid["mu"], fluid["rho"]
+    )
+    if flow["U"] is not None:
+        first = " (the first)" if description["time"]["transient"] else ""
+        log.info("Flow%s", f" at time {flow['time']}{first}" if flow["time"] else "")
+        _log_range("|U| [m/s]", flow["U"])
+        _log_range("shear rate [1/s]", flow["shearRate"])
+    log.info("Selecting tractionModel %s", models["traction"])
+    forces = {"ellipsoidDrag": models["drag"], **models["forces"], **models["surroundings"]}
+    log.info(
+        "Selecting particleForces %s", ", ".join(f"{name} {own}".rstrip() for name, own in forces.items())
+    )
+    log.info("Selecting solid %s", models["solid"])
+    log.info("Selecting integrationScheme %s: %s", models["integrator"], models["integratorDescription"])
+    if models["shapeStokesNumber"] is not None:
         log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
-                 number, SMALL_STOKES)  # fmt: skip
-    if cloud.tracker.stride > 1:
-        log.info("    steps of up to %d deltaT where the error allows it", cloud.tracker.stride)
-    for name, dispersion in settings.dispersion.items():
-        log.info("Selecting dispersionModel %s %s", name, dispersion)
-    for model in cloud.models.surroundings:
-        for line in model.notes(cloud.particles, cloud.make_ready(), cloud.flow):
-            log.info("    %s", line)
-    log.info("Selecting patchInteractionModel %s, touching by the %s",
-             settings.interaction, settings.touching)  # fmt: skip
-    for patch, interaction in zip(cloud.flow.patches, cloud.interactions, strict=True):
-        log.info("    %-16s %s", patch.name, type(interaction).__name__.lower())
-    warnings = []
-    for index, injection in enumerate(settings.injections):
-        g = groups(cloud, index)
-        log.info("Selecting injectionModel %s: %s", injection.name, type(injection.model).__name__)
-        _log_groups(g)
-        warnings += doubts(g, cloud.models.integrator, f"injection model {injection.name}") if g.n else []
-    for model in cloud.models.surroundings:
-        warnings += model.warnings(cloud.particles, cloud.flow, cloud.medium, cloud.dt)
-    for name, function in settings.functions.items():
-        log.info("Selecting cloudFunction %s: %s", name, type(function).__name__)
-    if cloud.particles.size == 0:
-        warnings.append("there is no particle: no injection model releases any.")
-    for warning in warnings:
+                 models["shapeStokesNumber"], SMALL_STOKES)  # fmt: skip
+    if models["longestStep"] > 1:
+        log.info("    steps of up to %d deltaT where the error allows it", models["longestStep"])
+    for name, own in models["dispersion"].items():
+        log.info("Selecting dispersionModel %s %s", name, own)
+    for line in models["notes"]:
+        log.info("    %s", line)
+    log.info(
+        "Selecting patchInteractionModel %s, touching by the %s", models["interaction"], models["touching"]
+    )
+    for patch in description["patches"]:
+        log.info("    %-16s %s", patch["name"], patch["interaction"])
+    for injection in description["injections"]:
+        log.info("Selecting injectionModel %s: %s", injection["name"], injection["type"])
+        log.info("    particles                %d", injection["particles"])
+        for key, name in _GROUPS.items():
+            if key in injection:
+                _log_range(name, injection[key])
+    for name, kind in description["functions"].items():
+        log.info("Selecting cloudFunction %s: %s", name, kind)
+    for warning in description["warnings"]:
         log.warning("%s", warning)
-    return warnings
 
 
-def _log_flow(job: Job) -> None:
-    """Log the fluid, and the ranges of the flow that was read."""
-    fluid, (time, u, l) = job.settings.fluid, job.cloud.flow.at_nodes()
-    log.info("Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid.nu, fluid.mu, fluid.rho)
-    if len(u) == 0:
-        return
-    parts = [slice(start, start + _CHUNK) for start in range(0, len(u), _CHUNK)]
-    first = " (the first)" if job.settings.solution.transient else ""
-    log.info("Flow%s", f" at time {time}{first}" if time else "")
-    for name, values in (
-        ("|U| [m/s]", [np.linalg.norm(u[part], axis=1) for part in parts]),
-        ("shear rate [1/s]", [shear_rate(tuple(l[part].T)) for part in parts]),
-    ):
-        low, high = min(v.min() for v in values), max(v.max() for v in values)
-        log.info("    %-24s %.4g to %.4g", name, low, high)
+def _log_range(name: str, ends: Sequence[float | None]) -> None:
+    low, high = (math.nan if end is None else end for end in ends)
+    log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 
 def log_dry_run(job: Job) -> None:
@@ -96,21 +92,6 @@ def log_dry_run(job: Job) -> None:
     log.info(
         "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, job.steps
     )
-
-
-def _log_groups(g: Groups) -> None:
-    log.info("    particles                %d", g.n)
-    if g.n == 0:
-        return
-    for name, (low, high) in (
-        ("shear rate [1/s]", g.shear_rate),
-        ("capillary number", g.capillary),
-        ("Reynolds number", g.reynolds),
-        ("shape Stokes number", g.stokes),
-        ("deltaT/relaxation time", g.step),
-        ("size/cell size", g.size),
-    ):
-        log.info("    %-24s %.4g%s", name, low, "" if high <= low * (1 + 1e-9) else f" to {high:.4g}")
 
 
 def log_compiling() -> None:

@@ -28,8 +28,8 @@ from foamprb.results.manifest import Manifest
 from foamprb.results.paraview_state import write_state
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, write_table
+from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
-from foamprb.run.record import renew_record, write_record
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
 from foamprb.settings.settings import StartFrom
 
@@ -274,7 +274,7 @@ class Results:
         lists = [self._job.folder.pvd, *self._last_tables()]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         self._manifest.expect(self._descriptions())
-        write_record(self._job.folder.record, self._job)
+        write_record(self._job.folder.record, self._job.description)
         write_state(self._job.folder.state, self._job.settings.name)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
@@ -296,7 +296,7 @@ class Results:
         for table in self._last_tables():
             table.unlink(missing_ok=True)
         self._series.relist(entries)
-        renew_record(job.folder.record, job)
+        renew_record(job.folder.record, job.description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
         functions = self._function_folders()
         tables = [

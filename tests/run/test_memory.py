@@ -19,14 +19,14 @@ import gc, sys
 from pathlib import Path
 from paths import ROOT
 from foamprb import execute, prepare
-from foamprb.run.log import describe
+from foamprb.run.log import log_description
 
 def peak_of_run(case):
     gc.collect()
     # From here on the peak counts.
     Path("/proc/self/clear_refs").write_text("5")
     job = prepare(case, threads=1)
-    describe(job)
+    log_description(job.description)
     execute(job, "startTime")
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM"))

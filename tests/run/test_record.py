@@ -10,7 +10,7 @@ import pytest
 from paths import PIPE
 
 from foamprb.cli import main
-from foamprb.run.record import renew_record
+from foamprb.run.description import renew_record
 
 
 @pytest.fixture
@@ -54,3 +54,22 @@ def test_a_record_that_is_damaged_stays_as_it_is(tmp_path):
     (tmp_path / "run.json").write_text("{")
     renew_record(tmp_path / "run.json", None)
     assert (tmp_path / "run.json").read_text() == "{"
+
+
+def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):
+    file = case / "constant/softCloudProperties"
+    models = "wallLift; faxenCorrection; BrownianMotion { T 293; }"
+    text = file.read_text().replace("gravity;", f"gravity; {models}", 1)
+    file.write_text(text)
+    change(case, "shape", "rosenbrock")
+    change(case, "deltaT", "2e-4")
+    assert main(["run", "-case", str(case)]) == 0
+    log, found = capsys.readouterr().out, record(case)
+    assert list(found["models"]["surroundings"]) == ["faxenCorrection", "wallLift", "BrownianMotion"]
+    for name, entries in found["models"]["surroundings"].items():
+        assert f"{name} {entries}".rstrip() in log
+    for note in found["models"]["notes"]:
+        assert f"    {note}" in log
+    warned = [line.partition(" : ")[2] for line in log.splitlines() if "foamprb Warning" in line]
+    assert found["warnings"]
+    assert warned[: len(found["warnings"])] == found["warnings"]

@@ -6,7 +6,7 @@ import html
 import logging
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
@@ -365,7 +365,8 @@ def _what(given: _Given) -> Section:
         ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
         ("solid", models["solid"]),
         ("traction, drag", f"{models['traction']}, {models['drag']}"),
-        ("other forces", ", ".join(models["forces"]) or "none"),
+        ("other forces", _named(models["forces"]) or "none"),
+        ("surroundings", _named(models["surroundings"] | models["dispersion"]) or "none"),
         ("integrator of the shape", models["integrator"]),
         ("patches", ", ".join(f"{p['name']} ({p['type']}): {p['interaction']}" for p in record["patches"])),
         ("functions", ", ".join(f"{name} ({kind})" for name, kind in record["functions"].items()) or "none"),
@@ -391,6 +392,10 @@ def _what(given: _Given) -> Section:
         name = html.escape(record["settings"]["file"])
         body += f"<details><summary>{name}, as it was</summary><pre>{html.escape(text)}</pre></details>"
     return Section("run", "What was run", body)
+
+
+def _named(models: Mapping[str, str]) -> str:
+    return ", ".join(f"{name} {entries}".rstrip() for name, entries in models.items())
 
 
 def _files(given: _Given, target: Path, beside: Path) -> Section:

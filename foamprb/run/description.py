@@ -1,0 +1,185 @@
+"""Description of a run: the log begins with it, and ``run.json`` records it."""
+
+from __future__ import annotations
+
+import json
+import math
+import platform
+from collections.abc import Iterable, Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.measures import shape_stokes_number, shear_rate
+from foamprb.flow.base import Caveat
+from foamprb.results.atomic import atomic_write
+from foamprb.run.checks import doubts, groups
+from foamprb.settings.settings import Settings
+
+__all__ = ["describe", "renew_record", "write_record"]
+
+_FORMAT = 2
+_PACKAGES = ("foamprb", "numpy", "numba", "vtk")
+_CHUNK = 1 << 20
+
+
+def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
+    """Return the selections of a run, their numbers, and warnings about doubtful ones.
+
+    The description depends on the input alone: not on the date, the computer or the number of processes.
+
+    Parameters
+    ----------
+    settings, cloud
+        The input, and the cloud before its first step.
+    steps
+        Number of tracking steps.
+
+    Returns
+    -------
+    Values of JSON by name. A range is a list of its ends; a number that is not finite is None.
+    """
+    flow, models = cloud.flow, cloud.models
+    injections = []
+    warnings = [str(note) for note in flow.notes if isinstance(note, Caveat)]
+    for index, injection in enumerate(settings.injections):
+        g = groups(cloud, index)
+        ranges = {name: value for name, value in g._asdict().items() if name != "n"} if g.n else {}
+        injections.append(
+            {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
+        )
+        if g.n:
+            warnings += doubts(g, models.integrator, f"injection model {injection.name}")
+    for model in models.surroundings:
+        warnings += model.warnings(cloud.particles, flow, cloud.medium, cloud.dt)
+    if cloud.particles.size == 0:
+        warnings.append("there is no particle: no injection model releases any.")
+    arrays = cloud.make_ready()
+    notes = [line for model in models.surroundings for line in model.notes(cloud.particles, arrays, flow)]
+    number = None
+    if settings.solution.shape == "auto":
+        number = shape_stokes_number(cloud.particles, flow, cloud.medium.mu, cloud.time)
+    description: dict[str, Any] = _as_json({
+        "format": _FORMAT,
+        "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
+        "settings": _text_of(settings),
+        "fluid": {
+            "rho": settings.fluid.rho, "nu": settings.fluid.nu, "mu": settings.fluid.mu,
+            "gravity": settings.gravity,
+        },
+        "flow": _ranges(cloud),
+        "models": {
+            "traction": settings.traction,
+            "drag": settings.drag,
+            "forces": _written(settings.forces),
+            "surroundings": _written(settings.surroundings),
+            "dispersion": _written(settings.dispersion),
+            "solid": models.material,
+            "integrator": models.integrator,
+            "integratorDescription": INTEGRATORS[models.integrator].description,
+            "shapeStokesNumber": number,
+            "longestStep": cloud.tracker.stride,
+            "interaction": settings.interaction,
+            "touching": settings.touching,
+            "notes": notes,
+        },
+        "time": _times(settings, cloud, steps),
+        "mesh": _mesh(cloud),
+        "patches": [
+            {"name": patch.name, "type": patch.type, "interaction": type(interaction).__name__.lower()}
+            for patch, interaction in zip(flow.patches, cloud.interactions, strict=True)
+        ],
+        "injections": injections,
+        "functions": {name: type(function).__name__ for name, function in settings.functions.items()},
+        "warnings": warnings,
+    })  # fmt: skip
+    return description
+
+
+def write_record(path: Path, description: Mapping[str, Any]) -> None:
+    """Write a description, in one step.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    with atomic_write(path) as temporary:
+        text = json.dumps(description, indent=1, ensure_ascii=False, allow_nan=False)
+        temporary.write_text(f"{text}\n", encoding="utf-8")
+
+
+def renew_record(path: Path, description: Mapping[str, Any]) -> None:
+    """Replace settings and times in the record of a run that continues; no-op without a readable record.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return
+    if isinstance(record, dict) and record.get("format") == _FORMAT:
+        write_record(path, record | {key: description[key] for key in ("settings", "time")})
+
+
+def _text_of(settings: Settings) -> dict[str, str]:
+    try:
+        text = settings.file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        text = ""
+    return {"file": settings.file.name, "text": text}
+
+
+def _written(selected: Mapping[str, object]) -> dict[str, str]:
+    """Return the entries of selected models, as in a dictionary, by their names."""
+    return {name: str(model) for name, model in selected.items()}
+
+
+def _ranges(cloud: Cloud) -> dict[str, Any]:
+    """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes."""
+    time, u, l = cloud.flow.at_nodes()
+    if len(u) == 0:
+        return {"time": time, "U": None, "shearRate": None}
+    # Part by part: norms of all nodes at once would need the memory of another field.
+    parts = [slice(start, start + _CHUNK) for start in range(0, len(u), _CHUNK)]
+    speeds = _range(np.linalg.norm(u[part], axis=1) for part in parts)
+    return {"time": time, "U": speeds, "shearRate": _range(shear_rate(tuple(l[part].T)) for part in parts)}
+
+
+def _range(parts: Iterable[NDArray[np.float64]]) -> tuple[float, float]:
+    ends = [(float(part.min()), float(part.max())) for part in parts]
+    return min(low for low, _ in ends), max(high for _, high in ends)
+
+
+def _times(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
+    return {
+        "deltaT": cloud.dt,
+        "start": cloud.start,
+        "end": settings.solution.endTime,
+        "steps": steps,
+        "transient": settings.solution.transient,
+    }
+
+
+def _mesh(cloud: Cloud) -> dict[str, int]:
+    mesh = getattr(cloud.flow, "mesh", None)
+    if mesh is None:
+        return {}
+    return {"cells": mesh.n_cells, "points": mesh.n_points, "tetrahedra": len(mesh.tets)}
+
+
+def _as_json(value: Any) -> Any:
+    """Return a value with lists for tuples, and None for numbers that are not finite."""
+    if isinstance(value, Mapping):
+        return {key: _as_json(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_as_json(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
