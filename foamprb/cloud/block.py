@@ -199,15 +199,35 @@ def new_scratch(
     kept
         The layout's ``kept`` and ``fresh``, if particles are to be put aside.
     """
-    a, b, c, d, e, f, g, h, k, l = np.empty((10, LANES), dtype=np.int64)
-    nothing = np.zeros((2, 1), dtype=np.int64)
+    rows_kept, fresh = kept
+    # One array, so that no other thread writes to the same lines of memory.
+    lanes = iter(np.zeros((10, LANES), dtype=np.int64))
+
     return Scratch(
-        new_block(rows), a, b, c, d, e, f, np.empty((9, 10)),
-        nothing[0] if stop is None else stop, g, nothing[1],
-        np.empty((room, REBOUND_NUMBERS)), np.zeros(2, dtype=np.int64), bounds,
-        h, k, *kept, np.empty((SHELF, len(kept[0]))),
-        np.empty((SHELF, LABELS), dtype=np.int64), np.zeros(COUNTS, dtype=np.int64), np.empty(1), l,
-    )  # fmt: skip
+        block=new_block(rows),
+        status=next(lanes),
+        reason=next(lanes),
+        patch=next(lanes),
+        host=next(lanes),
+        ahead=next(lanes),
+        step=next(lanes),
+        matrix=np.empty((9, 10)),
+        stop=np.zeros(1, dtype=np.int64) if stop is None else stop,
+        number=next(lanes),
+        outgrown=np.zeros(1, dtype=np.int64),
+        rebounds=np.empty((room, REBOUND_NUMBERS)),
+        noted=np.zeros(2, dtype=np.int64),
+        bounds=bounds,
+        member=next(lanes),
+        mended=next(lanes),
+        kept=rows_kept,
+        fresh=fresh,
+        shelf=np.empty((SHELF, len(rows_kept))),
+        labels=np.empty((SHELF, LABELS), dtype=np.int64),
+        counts=np.zeros(COUNTS, dtype=np.int64),
+        asked=np.empty(1),
+        stride=next(lanes),
+    )
 
 
 def new_block(rows: int) -> NDArray[np.float64]:
@@ -270,10 +290,10 @@ def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None
 def load_integrals(block: Any, i: int) -> Integrals:
     """Jeffery's integrals of lane i."""
     return Integrals(
-        load3(block, at.alpha, i),
-        load3(block, at.ring, i),
-        load3(block, at.star, i),
-        block[at.chi * LANES + i],
+        alpha=load3(block, at.alpha, i),
+        ring=load3(block, at.ring, i),
+        star=load3(block, at.star, i),
+        chi=block[at.chi * LANES + i],
     )
 
 
@@ -434,7 +454,8 @@ def elongated_stage(block: Any) -> None:
         g, elongated = integrals(stretches), is_elongated(stretches)
         alpha = choose3(elongated, g.alpha, known.alpha)
         ring, star = choose3(elongated, g.ring, known.ring), choose3(elongated, g.star, known.star)
-        store_integrals(block, i, Integrals(alpha, ring, star, select(elongated, g.chi, known.chi)))
+        chi = select(elongated, g.chi, known.chi)
+        store_integrals(block, i, Integrals(alpha=alpha, ring=ring, star=star, chi=chi))
 
 
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:

@@ -23,7 +23,7 @@ from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.tracker import Models, Tracker, check, never
 from foamprb.compile.helper import available_threads
-from foamprb.compile.link import link
+from foamprb.compile.link import link, read_by
 from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
@@ -274,7 +274,8 @@ class Cloud:
             bindings["gap"] = gap_free
         normals = np.empty((len(rows), 3))
         self._grow_reach()
-        link(contact_normals, bindings)(self.flow_arrays(), self.particles, rows, normals)
+        kernel = link(contact_normals, read_by(contact_normals, bindings))
+        kernel(self.flow_arrays(), self.particles, rows, normals)
         return normals
 
     def flow_arrays(self) -> Any:

@@ -119,9 +119,15 @@ def layout(*parts: tuple[int, ...]) -> Layout:
     loaded = _numbers(placed for placed in rows.values() if placed[1].of)
     lasting = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
     found = Layout(
-        end(parts[-1]), scope["idle"], scope["load_rows"], scope["save_rows"], scope["ask_rows"], parts,
-        np.array(loaded, dtype=np.int64), np.empty(0),
-    )  # fmt: skip
+        rows=end(parts[-1]),
+        idle=scope["idle"],
+        load=scope["load_rows"],
+        save=scope["save_rows"],
+        ask=scope["ask_rows"],
+        parts=parts,
+        kept=np.array(loaded, dtype=np.int64),
+        fresh=np.empty(0),
+    )
     return keep(found, lasting)
 
 

@@ -35,7 +35,7 @@ from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.compile.link import compile_part, is_compiled, link
+from foamprb.compile.link import compile_part, is_compiled, link, read_by
 from foamprb.errors import InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
@@ -151,12 +151,16 @@ class Tracker:
             bindings["note_rebound"] = note
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
-        bindings |= {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         bindings["ask_rows"] = layout.ask
-        bindings |= integrator.bindings
-        bindings |= compose(models.forces)
+        required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
+        required |= integrator.bindings
+        required |= compose(models.forces)
+        bindings |= required
         bindings |= surroundings.compose(integrator.layout, models.surroundings, integrator.inertia)
-        self.kernels, self.bindings = kernels, bindings
+        # The flow and the models offer more than every loop reads.
+        read = read_by(track_share, {**bindings, "track": integrator.track})
+        self.kernels = kernels
+        self.bindings = {name: bindings[name] for name in bindings if name in read or name in required}
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
             *(stage for model in models.surroundings for stage in type(model).stages()),
@@ -179,7 +183,7 @@ class Tracker:
         """Calls that begin and end at multiples of so many steps may cut a run anywhere: no bit changes."""
         self._rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
-        self._track = link(track_share, {**bindings, "track": integrator.track}, self.separate)
+        self._track = link(track_share, {**self.bindings, "track": integrator.track}, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Another process compiles for itself.
@@ -434,7 +438,7 @@ def check(models: Models, tense: bool) -> None:
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:
     rebounds = [i if isinstance(i, Rebound) else Rebound() for i in interactions]
     return PatchTable(
-        np.array([i.code for i in interactions], dtype=np.int8),
-        np.array([r.e for r in rebounds], dtype=float),
-        np.array([r.mu for r in rebounds], dtype=float),
+        code=np.array([i.code for i in interactions], dtype=np.int8),
+        e=np.array([r.e for r in rebounds], dtype=float),
+        mu=np.array([r.mu for r in rebounds], dtype=float),
     )

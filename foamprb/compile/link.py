@@ -20,7 +20,7 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeGuard
 
 import numba
 import numpy as np
@@ -32,7 +32,7 @@ from foamprb.compile import trace
 from foamprb.compile.cache import Store
 from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals
 
-__all__ = ["compile_part", "is_compiled", "link", "side_by_side"]
+__all__ = ["compile_part", "is_compiled", "link", "read_by", "side_by_side"]
 
 # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
 _FAST_MATH = ("contract", "nsz")
@@ -68,8 +68,34 @@ def link(
     A numba dispatcher. Equal code with equal bindings is compiled once per process; the entry and its
     separate callees are saved in :mod:`foamprb.compile.cache`, under keys made of the code of every function
     that was linked.
+
+    Raises
+    ------
+    NameError
+        If no linked function reads a name in ``bindings`` (:func:`read_by` selects from a larger set).
     """
-    return _link(entry, _Linkage(dict(bindings or {}), frozenset(separate)), "entry").dispatcher
+    bindings = dict(bindings or {})
+    unread = bindings.keys() - read_by(entry, bindings).keys()
+    if unread:
+        names = ", ".join(sorted(unread))
+        raise NameError(f"{entry.__qualname__} is bound to {names}, a name that no linked function reads")
+    return _link(entry, _Linkage(bindings, frozenset(separate)), "entry").dispatcher
+
+
+def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return those of the bindings whose names ``entry`` or a function linked with it reads."""
+    found: set[str] = set()
+    reached = {entry}
+    pending = [entry]
+    while pending:
+        function = pending.pop()
+        for name in _global_names(function.__code__):
+            found.add(name)
+            value = bindings.get(name, function.__globals__.get(name))
+            if _is_linked(value) and value not in reached:
+                reached.add(value)
+                pending.append(value)
+    return {name: value for name, value in bindings.items() if name in found}
 
 
 def side_by_side(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -145,7 +171,7 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     digest.update(f"{captured!r} {together}".encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
-        if isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba")):
+        if _is_linked(value):
             part = _link(value, linkage, "separate" if value in linkage.separate else "inlined")
             scope[name] = part.dispatcher
             digest.update(f"{name}={part.key};".encode())
@@ -164,6 +190,11 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         setattr(clone, SIDE_BY_SIDE, together)
         _parts[key] = _Part(_compile(clone, role, key), key)
     return _parts[key]
+
+
+def _is_linked(value: Any) -> TypeGuard[FunctionType]:
+    """Return True for a plain function, which is compiled with its callers."""
+    return isinstance(value, FunctionType) and not value.__module__.startswith(("numpy", "numba"))
 
 
 def _constant(value: Any) -> Any:

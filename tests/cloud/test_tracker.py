@@ -9,10 +9,15 @@ from pathlib import Path
 import numba
 import pytest
 
+import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.tracker import Models, Tracker
+from foamprb.compile.link import read_by
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.series import SeriesFlow
+
+AIR = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0))
 
 
 def test_the_tolerance_is_the_one_that_the_manual_tells():
@@ -51,3 +56,24 @@ def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator,
     for types in found.values():
         for name in types.keys() & expected:
             assert types[name] == expected[name], name
+
+
+@pytest.mark.parametrize("kind", [MeshFlow, SeriesFlow])
+def test_every_name_that_a_model_binds_is_read_by_some_loop(kind, monkeypatch):
+    """A tracker drops the names that its own loop does not read, a misspelt one too."""
+    offered, read = set(), set()
+
+    def select(entry, bindings):
+        found = read_by(entry, bindings)
+        offered.update(bindings)
+        read.update(found)
+        return found
+
+    monkeypatch.setattr("foamprb.cloud.tracker.read_by", select)
+    monkeypatch.setattr("foamprb.cloud.tracker.link", lambda *_: None)
+    around = foamprb.FaxenCorrection(), foamprb.WallLift(), foamprb.BrownianMotion(T=300.0)
+    for integrator in INTEGRATORS:
+        for shaped in (False, True):
+            models = Models(integrator=integrator, surroundings=around, rebounds=True)
+            Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=shaped, tense=True)
+    assert offered - read == {"turbulence", "rotation_at"} & offered

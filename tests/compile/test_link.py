@@ -20,7 +20,7 @@ from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
 from foamprb.compile.internals import SWITCH
-from foamprb.compile.link import compile_part, link, side_by_side
+from foamprb.compile.link import compile_part, link, read_by, side_by_side
 
 FIRST, SECOND = 2, 3
 MANY = 48
@@ -192,6 +192,14 @@ def test_called_and_inlined_functions_give_the_same(cache, separate, monkeypatch
     assert link(quadrupled, separate=separate)(1.25) == 5.0
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(quadrupled, separate=separate)(1.25) == 5.0
+
+
+def test_unread_name_in_bindings_is_an_error(cache):
+    """A misspelt name would leave the stand-in in place."""
+    with pytest.raises(NameError, match="octupled is bound to duobled, a name that no linked function reads"):
+        link(octupled, {"duobled": scaled})
+    both = {"duobled": scaled, "doubled": scaled}
+    assert link(octupled, read_by(octupled, both))(1.5) == 12.0
 
 
 def test_garbage_is_collected_again_after_a_compilation(cache):

@@ -22,7 +22,7 @@ from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import SEEN
 from foamprb.cloud.tracker import Models, in_blocks
-from foamprb.compile.link import link
+from foamprb.compile.link import link, read_by
 from foamprb.flow.meshflow import LONG
 from foamprb.flow.walk import sample, walk
 from foamprb.flow.walls import gap
@@ -166,11 +166,11 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
         medium = cloud.tracker.medium
         if stage.takes == "medium":
             bindings = cloud.tracker.bindings | {"medium_stage": stage.function}
-            kernel = link(_repeat_medium, bindings, (stage.function,))
+            kernel = link(_repeat_medium, read_by(_repeat_medium, bindings), (stage.function,))
             runs[name] = lambda times, k=kernel, m=medium: [k(data, m, times) for _, data in chosen]
         elif stage.takes == "judging":
             bindings = cloud.tracker.bindings | {"judging_stage": stage.function}
-            kernel = link(_repeat_judging, bindings, (stage.function,))
+            kernel = link(_repeat_judging, read_by(_repeat_judging, bindings), (stage.function,))
             runs[name] = lambda times, k=kernel, m=medium: [k(data, m, 1e-4, times) for _, data in chosen]
         else:
             kernel = link(_repeat, {"frame_stage": stage.function}, separate=(stage.function,))

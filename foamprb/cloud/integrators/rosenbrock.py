@@ -539,13 +539,13 @@ def _load_stiffness(block: Any, i: int) -> Stiffness:
     )
     (p0, p1, q0), (q1, r0, r1) = load3(block, own.elastic_pairs, i), load3(block, own.elastic_pairs + 3, i)
     return Stiffness(
-        load3(block, own.b, i),
-        load9(block, own.traction, i),
-        (p, q, r),
-        load9(block, own.elastic, i),
-        ((p0, p1), (q0, q1), (r0, r1)),
-        block[own.weight * LANES + i],
-        block[own.own * LANES + i],
+        b=load3(block, own.b, i),
+        traction=load9(block, own.traction, i),
+        traction_pairs=(p, q, r),
+        elastic=load9(block, own.elastic, i),
+        elastic_pairs=((p0, p1), (q0, q1), (r0, r1)),
+        weight=block[own.weight * LANES + i],
+        own=block[own.own * LANES + i],
     )
 
 

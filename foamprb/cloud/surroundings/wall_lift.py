@@ -52,7 +52,7 @@ from foamprb.cloud.forces import forces_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.surroundings.base import Surrounding, resistances
-from foamprb.compile.link import link
+from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.analytic import walls_free as walls
@@ -447,7 +447,8 @@ def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
 def nearest_walls(p: Particles, arrays: Any, flow: Flow, cut_off: float, chosen: NDArray[np.int8]) -> Floats:
     """Return distances of particles from the nearest wall, in radii, (n,); infinite beyond ``cut_off``."""
     nearest = np.empty(p.size)
-    link(_nearest_walls, flow.kernels)(arrays, p, cut_off, chosen, nearest)
+    bindings = read_by(_nearest_walls, flow.kernels)
+    link(_nearest_walls, bindings)(arrays, p, cut_off, chosen, nearest)
     return nearest
 
 
