@@ -62,7 +62,6 @@ def _parser() -> argparse.ArgumentParser:
     paraview.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
     reporting = command("report", "write a page of what was run and what came of it")
     exporting = command("export", "write the results for OpenFOAM, for OVITO, or as one VTKHDF file")
-    validate = command("validate", "compare with independent solutions")
     estimating = command("estimate", "say from a few numbers which effects matter to a particle")
     helping = command("help", "say what an entry, a dictionary or a type of the settings is")
     command("compile", "compile the particle loops, so that no run has to")
@@ -108,14 +107,6 @@ def _parser() -> argparse.ArgumentParser:
         "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
     )
     run.add_argument("--dry-run", action="store_true", help="check all, say what would be done, and stop")
-    validate.add_argument(
-        "--case", nargs="+", action="extend", default=[], metavar="NAME", help="only these [all]"
-    )
-    validate.add_argument("--quick", action="store_true", help="a short form of every case")
-    validate.add_argument(
-        "--output", type=Path, default=Path("validation"), metavar="DIR", help="[validation]"
-    )
-    validate.add_argument("--list", action="store_true", help="list the cases and stop")
     return parser
 
 
@@ -219,18 +210,6 @@ def _export(arguments: argparse.Namespace, _: Ranks | None) -> int:
     return export(arguments, _source(arguments))
 
 
-def _validate(arguments: argparse.Namespace, _: Ranks | None) -> int:
-    from foamprb.validation.registry import CASES
-    from foamprb.validation.report import choose, validate
-
-    chosen = choose(CASES, arguments.case)
-    if arguments.list:
-        for name, case in chosen.items():
-            print(f"{name:14s} {case.title} ({case.section})")
-        return 0
-    return 0 if validate(chosen, arguments.output, arguments.quick) else 1
-
-
 def _estimate(arguments: argparse.Namespace, _: Ranks | None) -> int:
     from foamprb.run.estimates import lines
 
@@ -253,7 +232,6 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace, Ranks | None], int]] = {
     "paraview": _paraview,
     "report": _report,
     "export": _export,
-    "validate": _validate,
     "estimate": _estimate,
     "help": _help,
     "compile": _compile,
@@ -284,8 +262,8 @@ def _log_to_stdout() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status.
 
-    It is 0; 1 for a mistake in the input, a run that had to end early or a validation that fails; 130 after
-    Ctrl-C, 143 after SIGTERM, and 141 where nobody reads the output any more.
+    It is 0; 1 for a mistake in the input or a run that had to end early; 130 after Ctrl-C, 143 after
+    SIGTERM, and 141 if the reader of the output has closed it.
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 from paths import ROOT
+from validation.registry import CASES
 
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.validation.registry import CASES
 
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 MODELS = sorted((ROOT / "docs" / "models").glob("*.md"))

@@ -1,9 +1,9 @@
-"""The flow on the axis of the device, as a table: what `foamprb validate -case extensionDevice` reads.
+"""The flow on the axis of the device, as a table: what `tools/validate -case extensionDevice` reads.
 
 Samples the flows that ``Allrun`` computed, one folder per mesh, where the beads go.
 
     ./Allrun coarse; ./Allrun medium; ./Allrun fine
-    python axis.py coarse medium fine > ../../foamprb/validation/extension_axis.csv
+    python axis.py coarse medium fine > ../../tools/validation/extension_axis.csv
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import flat, mild_stretches, rotations, square, tensors
+from validation.references import wall as ref
 
 from foamprb.body.brownian import (
     BOLTZMANN,
@@ -34,7 +35,6 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import roscoe
 from foamprb.body.wall import hindered_resistance, hindrance
-from foamprb.validation.references import wall as ref
 
 VOLUME = 4.0 / 3.0 * np.pi
 ZERO = (0.0,) * 9

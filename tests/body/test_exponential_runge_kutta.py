@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from strategies import flat, square, tensors
+from validation.references.shear import inertialess_rate
 
 from foamprb.body import exponential_runge_kutta as pair
 from foamprb.body.turning import commutator
-from foamprb.validation.references.shear import inertialess_rate
 
 
 def test_its_nodes_are_those_of_a_method_of_order_three():

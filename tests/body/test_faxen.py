@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from strategies import flat, mild_stretches, rotations
+from validation.references import wall as ref
 
 from foamprb.body.faxen import curvature_of, faxen_velocity
-from foamprb.validation.references import wall as ref
 
 RADIUS, SPEED = 10.0, 1.0
 

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from strategies import flat, mild_stretches, rotations, square, tensors
+from validation.references import wall as ref
 
 from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals, reach
@@ -23,7 +24,6 @@ from foamprb.body.wall import (
     stresslet_gradient,
     stresslet_velocity,
 )
-from foamprb.validation.references import wall as ref
 
 UP = (0.0, 0.0, 1.0)
 POINT = (0.0,) * 9

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.stats import kstest
+from validation.references import wall as ref
 
 from foamprb.body.brownian import BOLTZMANN
 from foamprb.body.wall import normal_mobility, parallel_mobility
@@ -17,7 +18,6 @@ from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow import analytic
-from foamprb.validation.references import wall as ref
 
 MU_F, R, T = 1e-3, 0.5e-6, 300.0
 KT = BOLTZMANN * T

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
+from validation.rotating import OMEGA, carried, differences
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -19,7 +20,6 @@ from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
-from foamprb.validation.rotating import OMEGA, carried, differences
 
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
 

@@ -7,6 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 from strategies import flat, square
+from validation.references.roscoe import roscoe_at
+from validation.references.shear import shear_shape
 
 from foamprb import (
     Cloud,
@@ -28,8 +30,6 @@ from foamprb.body.material import MATERIALS, piola
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.tensor import principal_frame
 from foamprb.cloud.state import set_rest_shape
-from foamprb.validation.references.roscoe import roscoe_at
-from foamprb.validation.references.shear import shear_shape
 
 MU_F, R = 1e-3, 1e-6
 REST = (0.0, 0.0, 0.0)

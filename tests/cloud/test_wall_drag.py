@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from strategies import flat, square
+from validation.references import wall as ref
 
 from foamprb import analytic
 from foamprb.body.drag import oberbeck
@@ -21,7 +22,6 @@ from foamprb.cloud.state import Status, concatenate, set_rest_shape, spheres
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
-from foamprb.validation.references import wall as ref
 
 R, MU_F, RHO = 1e-5, 1e-3, 2000.0
 TAU = 2.0 / 9.0 * RHO * R**2 / MU_F

@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches, pipe, pipe_patches
+from validation.references import wall as ref
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
@@ -21,7 +22,6 @@ from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls
-from foamprb.validation.references import wall as ref
 
 R, RATE, MU_F = 1e-6, 100.0, 1e-3
 OIL = Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))

@@ -13,7 +13,7 @@ from pipe_case import copy_of_pipe, edit
 
 from foamprb.cli import main
 
-COMMANDS = ("run", "info", "validate", "compile")
+COMMANDS = ("run", "info", "compile")
 # As on a user's computer, where Python buffers what it writes into a pipe.
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 ENVIRONMENT["PYTHONPATH"] = os.pathsep.join([str(ROOT), *sys.path])
@@ -86,7 +86,7 @@ def test_a_run_that_is_under_way_when_nobody_reads_on_ends_quietly(tmp_path):
     assert len(list((case / "postProcessing/softCloud/checkpoint").iterdir())) == 2
 
 
-@pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-h"), ("validate", "-list")])
+@pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-h")])
 def test_output_that_nobody_reads_ends_quietly(words):
     """Whether the whole of it went into the pipe before its end was closed, or not."""
     status, err, _ = pipe_into_head(*words)

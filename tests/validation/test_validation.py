@@ -3,26 +3,24 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-
-from foamprb.cli import main
-from foamprb.validation import device, report, tumbling
-from foamprb.validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
-from foamprb.validation.references import rigid, soft
-from foamprb.validation.references.ellipsoid import (
+from validation import device, main, report, tumbling
+from validation.case import Case, Curve, Figure, Outcome, Panel, Row, worst
+from validation.references import rigid, soft
+from validation.references.ellipsoid import (
     integrals,
     prolate_resistances,
     resistances,
     traction_stress,
 )
-from foamprb.validation.references.extension import (
+from validation.references.extension import (
     EXTENSIONS,
     settling_in_extension,
     steady_compressible_extension,
     steady_extension,
 )
-from foamprb.validation.references.inertia import Surroundings, poiseuille, rigid_sphere
-from foamprb.validation.references.roscoe import roscoe, roscoe_at
-from foamprb.validation.references.shear import (
+from validation.references.inertia import Surroundings, poiseuille, rigid_sphere
+from validation.references.roscoe import roscoe, roscoe_at
+from validation.references.shear import (
     SHEAR,
     STEADY_SHAPES,
     TRANSIENT_SHAPES,
@@ -32,7 +30,7 @@ from foamprb.validation.references.shear import (
     steady_shear,
     tank_treading_rate,
 )
-from foamprb.validation.registry import CASES
+from validation.registry import CASES
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -307,11 +305,10 @@ class TestRows:
 class TestCommand:
     def test_a_failing_row_gives_exit_status_1(self, tmp_path, monkeypatch, capsys):
         pytest.importorskip("matplotlib")
-        import foamprb.validation.registry as registry
 
         for rows, status in (([GOOD, INFORMS], 0), ([GOOD, BAD], 1)):
-            monkeypatch.setattr(registry, "CASES", fake(rows))
-            assert main(["validate", "-output", str(tmp_path)]) == status
+            monkeypatch.setattr(main, "CASES", fake(rows))
+            assert main.main(["-output", str(tmp_path)]) == status
         printed = capsys.readouterr().out
         assert "failed: madeUp: bad | bar" in printed
         assert "1 of 2 rows pass" in printed
@@ -325,10 +322,10 @@ class TestCommand:
         assert (tmp_path / "made-up.png").exists()
 
     def test_list_names_every_case(self, capsys):
-        assert main(["validate", "-list"]) == 0
+        assert main.main(["-list"]) == 0
         printed = capsys.readouterr().out
         assert all(name in printed for name in CASES)
 
     def test_an_unknown_case_is_an_error_that_says_what_was_meant(self, capsys):
-        assert main(["validate", "-case", "rotatoin"]) == 1
+        assert main.main(["-case", "rotatoin"]) == 1
         assert "Did you mean 'rotation'" in capsys.readouterr().err
