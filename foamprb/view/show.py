@@ -16,7 +16,7 @@ import numpy as np
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
 from foamprb.results.atomic import atomic_write
-from foamprb.view.bodies import fates_of, gather, require_array, told
+from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
@@ -171,10 +171,10 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
             f"-percentiles {low:g} {high:g}: two numbers from 0 to 100 are needed, the second the larger one."
         )
     colour = require_array(run, request.colour)
-    bodies = gather(run, frames, most=request.bodies)
+    bodies = gather(run, frames, request.bodies)
     fates = run.fates()
     if fates is not None:
-        bodies.fields.update(told(bodies, fates))
+        bodies.fields.update(fields_of_fates(bodies, fates))
     geometry, plane = _surroundings(request, run)
     first = busiest(bodies) if request.time is None else int(np.argmin(np.abs(bodies.times - request.time)))
     if request.time is not None and not math.isclose(

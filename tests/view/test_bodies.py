@@ -13,7 +13,7 @@ from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pvd import Series
 from foamprb.results.vtk import write_snapshot
-from foamprb.view.bodies import UNNAMED, fates_of, gather, require_array, told
+from foamprb.view.bodies import UNNAMED, fates_of, fields_of_fates, gather, require_array
 from foamprb.view.results import open_run
 
 N, M = 12, 7
@@ -88,7 +88,7 @@ def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
 def test_what_the_table_tells_is_there_for_each_body(case):
     results = open_run(case)
     bodies = gather(results, range(M))
-    more = told(bodies, results.fates())
+    more = fields_of_fates(bodies, results.fates())
     np.testing.assert_allclose(more["Ca"].values[0, :, 0], np.linspace(0.1, 1.0, N), rtol=1e-6)
     assert more["t1"].unit == "s"
 
