@@ -1,4 +1,4 @@
-"""A scene as one HTML file that needs nothing else: no network, no other file, no installation."""
+"""Scene as one HTML file that needs no network, no other file and no installation."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import base64
 import hashlib
 import html
 import json
+import re
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -14,21 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.view.bodies import Bodies, Codes, Field
+from foamprb.view import encode
+from foamprb.view.bodies import Codes
 from foamprb.view.colours import DARK, LIGHT, MAPS, colour_map
-from foamprb.view.encode import (
-    Column,
-    Grid,
-    Packed,
-    grid_of,
-    pack,
-    pack_bits,
-    pack_field,
-    pack_points,
-    pack_shapes,
-    pack_values,
-)
-from foamprb.view.geometry import Surface
+from foamprb.view.encode import Column, Grid
+from foamprb.view.geometry import Slice, Surface
 from foamprb.view.scene import (
     INSETS,
     MARGIN,
@@ -38,7 +29,6 @@ from foamprb.view.scene import (
     Camera,
     Scene,
     anchor,
-    box,
     extremes_of,
     limits_of,
     round_limits,
@@ -46,25 +36,24 @@ from foamprb.view.scene import (
 
 _FOLDER = Path(__file__).parent / "page"
 _NOTES, _DESCRIPTION = 400, 2000
-"""Bytes that a page may say of arrays that are left out, and of one that is not."""
+"""Bytes for the note on arrays that are left out, and for the description of an array."""
 
 
 class Page:
-    """The parts of a page, packed; the text of the file is :meth:`write`.
+    """Packed parts of a page; :meth:`write` returns the text of the file.
 
-    ``needed`` is its size without what can be left out, bytes, and ``left_out`` names what is.
+    ``needed`` is its size without optional arrays, bytes, and ``left_out`` names the arrays that do not fit.
 
     Parameters
     ----------
     scene
-        What is shown, with all its arrays.
+        Scene with all its arrays.
     most_bytes
-        Size that the file is to stay below. Arrays that do not fit are left out; that by which the bodies are
-        coloured stays.
+        Largest size of the file. Arrays that do not fit are left out, except the array to colour by.
     order
-        Names of the arrays, those that matter most first.
+        Names of arrays by priority; other arrays follow.
     version
-        Of foamprb.
+        Version of foamprb.
     """
 
     def __init__(self, scene: Scene, most_bytes: int, order: Sequence[str], version: str) -> None:
@@ -73,48 +62,43 @@ class Page:
         self._version = version
         self._scene = scene
         bodies, geometry = scene.bodies, scene.geometry
-        points = geometry.points if geometry is not None else np.zeros((0, 3))
-        extra = [part.points for part in (scene.slice, scene.paths) if part is not None]
-        grid = grid_of(points, bodies.x[bodies.present], *extra)
-        self._frame = _Frame(*_corners(points, bodies, extra))
-        self._header = self._described() | self._bodies(grid) | self._surroundings(grid)
+        shown = [geometry.points] if geometry is not None else []
+        shown += [bodies.x[bodies.present]]
+        shown += [part.points for part in (scene.slice, scene.paths) if part is not None]
+        low, high = encode.bounds(*shown)
+        # The coordinates of the page: the origin is the middle of the box, the unit its longest side.
+        self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
+        grid = encode.grid_of(*shown)
+        self._header = self._described(0.5 * (high - low)) | self._bodies(grid) | self._surroundings(grid)
         fields = self._header["fields"] = {}
-        name = scene.colour[0]
-        if name in bodies.fields:
-            fields[name] = self._field(bodies.fields[name], pack_field(bodies.fields[name]))
+        chosen = scene.colour[0]
+        if chosen in bodies.fields:
+            fields[chosen] = self._field(chosen, encode.pack_field(bodies.fields[chosen]))
         self.needed = len(self.write().encode("utf-8"))
         room = most_bytes - self.needed - _NOTES
-        for name in sorted(
-            bodies.fields, key=lambda name: order.index(name) if name in order else len(order)
-        ):
-            if name in fields:
-                continue
-            packed = pack_field(bodies.fields[name])
-            size = len(packed.column.data) + _DESCRIPTION
+        others = [name for name in bodies.fields if name not in fields]
+        for name in sorted(others, key=lambda name: order.index(name) if name in order else len(order)):
+            column = encode.pack_field(bodies.fields[name])
+            size = len(column.data) + _DESCRIPTION
             if size > room:
                 self.left_out.append(name)
             else:
                 room -= size
-                fields[name] = self._field(bodies.fields[name], packed)
+                fields[name] = self._field(name, column)
 
     def write(self) -> str:
-        """The text of the file."""
-        notes = []
-        if self.left_out:
-            notes.append(f"Left out, to keep the file small: {', '.join(self.left_out)}.")
+        """Return the text of the file."""
+        notes = [f"Left out for lack of room: {', '.join(self.left_out)}."] if self.left_out else []
         header = json.dumps(self._header | {"notes": notes}, ensure_ascii=False, separators=(",", ":"))
-        script, style = _script(), _text("page.css")
-        policy = (
-            f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
-            "img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'"
-        )
+        script, style = _text("bundle.js"), _text("page.css")
         parts = {
-            "policy": policy,
+            "policy": f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
+            "img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'",
             "version": self._version,
             "title": html.escape(f"{self._scene.title} – {self._scene.subtitle}"),
             "style": style,
             "licence": html.escape(_text("LICENSE.three"), quote=False),
-            # Inside a script element only this could end it.
+            # Only this character could end a script element.
             "scene": header.replace("<", "\\u003c"),
             "sections": "\n".join(
                 f'<script type="text/plain" id="section-{k}">{data}</script>'
@@ -122,20 +106,19 @@ class Page:
             ),
             "script": script,
         }
-        text = _text("page.html")
-        pieces = []
-        for index, piece in enumerate(text.split("{{")):
-            name, _, rest = piece.partition("}}")
-            pieces.append(piece if index == 0 else parts[name] + rest)
-        return "".join(pieces)
+        return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _text("page.html"))
 
-    def _described(self) -> dict[str, Any]:
+    def _described(self, halves: NDArray[np.float64]) -> dict[str, Any]:
         scene = self._scene
         return {
             "title": scene.title,
             "subtitle": scene.subtitle,
             "made": f"Made by foamprb {self._version}: {scene.subtitle} of the case {scene.title}.",
-            "frame": self._frame.described(),
+            "frame": {
+                "middle": self._middle.tolist(),
+                "size": self._size,
+                "halves": _rounded(halves / self._size),
+            },
             "times": _rounded(scene.bodies.times),
             "home": self._camera(scene.camera),
             "enlargement": scene.enlargement,
@@ -148,14 +131,13 @@ class Page:
         }
 
     def _camera(self, camera: Camera) -> dict[str, Any]:
-        size = self._frame.size
         return {
-            "focus": _rounded(self._frame.inside(camera.focus)),
+            "focus": self._inside(camera.focus),
             "towards": _rounded(camera.towards),
             "up": _rounded(camera.up),
-            "corners": [_rounded(corner / size) for corner in camera.corners],
+            "corners": [_rounded(corner / self._size) for corner in camera.corners],
             # JSON has no infinity.
-            "leastWidth": min(camera.least_width / size, 1e9),
+            "leastWidth": min(camera.least_width / self._size, 1e9),
             "angle": VIEW_ANGLE,
             "margin": MARGIN,
             "tall": TALL,
@@ -163,29 +145,32 @@ class Page:
         }
 
     def _bodies(self, grid: Grid) -> dict[str, Any]:
-        bodies = self._scene.bodies
-        wanted = self._scene.colour[0]
-        told = {name: own for name, own in bodies.codes.items() if _tells(own) or name == wanted}
-        codes = {"status": bodies.status} | told | {"fate": self._scene.fate}
+        bodies, chosen = self._scene.bodies, self._scene.colour[0]
+        useful = {name: own for name, own in bodies.codes.items() if _has_names(own) or name == chosen}
+        codes = {"status": bodies.status} | useful | {"fate": self._scene.fate}
         return {
             "bodies": {
-                "ids": self._column(pack(bodies.ids)),
-                "places": self._packed(pack_points(bodies.x, grid)),
-                "shapes": self._packed(pack_shapes(bodies)),
-                "present": self._column(pack_bits(bodies.present)),
-                "radius": self._packed(pack_values(bodies.radius)),
+                "ids": self._add(encode.pack(bodies.ids)),
+                "places": self._add(encode.pack_points(bodies.x, grid)),
+                "shapes": self._add(encode.pack_shapes(bodies)),
+                "present": self._add(encode.pack_bits(bodies.present)),
+                "radius": self._add(encode.pack_values(bodies.radius)),
             },
-            "codes": {name: self._codes(one) for name, one in codes.items()},
+            "codes": {
+                name: {"name": own.name, "label": own.label, "meanings": own.meanings}
+                | self._add(encode.pack(own.codes))
+                for name, own in codes.items()
+            },
         }
 
     def _surroundings(self, grid: Grid) -> dict[str, Any]:
-        scene = self._scene
-        surfaces = scene.geometry.surfaces if scene.geometry is not None else ()
-        edges = scene.geometry.edges.reshape(-1, 3) if scene.geometry is not None else np.zeros((0, 3))
+        scene, geometry = self._scene, self._scene.geometry
+        surfaces = geometry.surfaces if geometry is not None else ()
+        edges = geometry.edges.reshape(-1, 3) if geometry is not None else np.zeros((0, 3))
         return {
             "surfaces": [self._surface(surface, grid) for surface in surfaces],
-            "edges": self._packed(pack_points(edges, grid)),
-            "slice": self._slice(grid),
+            "edges": self._add(encode.pack_points(edges, grid)),
+            "slice": None if scene.slice is None else self._slice(scene.slice, grid),
             "paths": self._paths(grid),
         }
 
@@ -193,25 +178,21 @@ class Page:
         return {
             "name": surface.name,
             "type": surface.type,
-            "anchor": _rounded(self._frame.inside(anchor(surface, self._scene.camera))),
-            "points": self._packed(pack_points(surface.points, grid)),
-            "triangles": self._column(pack(surface.triangles)),
+            "anchor": self._inside(anchor(surface, self._scene.camera)),
+            "points": self._add(encode.pack_points(surface.points, grid)),
+            "triangles": self._add(encode.pack(surface.triangles)),
         }
 
-    def _slice(self, grid: Grid) -> dict[str, Any] | None:
-        plane = self._scene.slice
-        if plane is None:
-            return None
-        values = []
-        for name, (label, unit, value) in plane.values.items():
-            limits = round_limits(float(value.min()), float(value.max()))
-            values.append(
-                {"name": name, "label": label, "unit": unit, "range": limits}
-                | self._packed(pack_values(value))
-            )
+    def _slice(self, plane: Slice, grid: Grid) -> dict[str, Any]:
+        # The sections of the values come first.
+        values = [
+            {"name": name, "label": label, "unit": unit, "range": round_limits(value.min(), value.max())}
+            | self._add(encode.pack_values(value))
+            for name, (label, unit, value) in plane.values.items()
+        ]
         return {
-            "points": self._packed(pack_points(plane.points, grid)),
-            "triangles": self._column(pack(plane.triangles)),
+            "points": self._add(encode.pack_points(plane.points, grid)),
+            "triangles": self._add(encode.pack(plane.triangles)),
             "values": values,
         }
 
@@ -219,87 +200,52 @@ class Page:
         paths, ids = self._scene.paths, self._scene.bodies.ids
         if paths is None or len(ids) == 0:
             return None
-        place = np.minimum(np.searchsorted(ids, paths.tracks["origId"]), len(ids) - 1)
-        # Of bodies that are not shown there are paths as well.
-        place = np.where(ids[place] == paths.tracks["origId"], place, -1)
+        numbers = paths.tracks["origId"]
+        place = np.minimum(np.searchsorted(ids, numbers), len(ids) - 1)
+        # Some paths belong to bodies that are not in the scene.
+        place = np.where(ids[place] == numbers, place, -1)
         return {
-            "bodies": self._column(pack(place)),
-            "start": self._column(pack(paths.start)),
-            "points": self._packed(pack_points(paths.points, grid)),
-            "times": self._packed(pack_values(paths.values["time"])),
+            "bodies": self._add(encode.pack(place)),
+            "start": self._add(encode.pack(paths.start)),
+            "points": self._add(encode.pack_points(paths.points, grid)),
+            "times": self._add(encode.pack_values(paths.values["time"])),
         }
 
-    def _field(self, field: Field, packed: Packed) -> dict[str, Any]:
-        return {
-            "name": field.name,
-            "label": field.label,
-            "unit": field.unit,
-            "parts": field.parts,
-            "ranges": {part: self._ranges(field.name, part) for part in field.parts},
-        } | self._packed(packed)
-
-    def _ranges(self, name: str, part: str) -> dict[str, list[float]]:
-        """Limits of the colours at first, those of all values, and the least and the largest value."""
+    def _field(self, name: str, column: Column) -> dict[str, Any]:
         bodies = self._scene.bodies
-        usual = limits_of(bodies, name, part, self._scene.percentiles)
-        whole = limits_of(bodies, name, part)
-        found = {"usual": usual, "whole": whole, "extremes": extremes_of(bodies, name, part) or whole}
-        return {key: _rounded(np.array(values)) for key, values in found.items()}
+        field = bodies.fields[name]
+        ranges = {}
+        for part in field.parts:
+            whole = limits_of(bodies, name, part)
+            found = {
+                "usual": limits_of(bodies, name, part, self._scene.percentiles),
+                "whole": whole,
+                "extremes": extremes_of(bodies, name, part) or whole,
+            }
+            ranges[part] = {key: _rounded(np.array(values)) for key, values in found.items()}
+        described = {"name": name, "label": field.label, "unit": field.unit, "parts": field.parts}
+        return described | {"ranges": ranges} | self._add(column)
 
-    def _codes(self, codes: Codes) -> dict[str, Any]:
-        described = {"name": codes.name, "label": codes.label, "meanings": codes.meanings}
-        return described | self._column(pack(codes.codes))
-
-    def _column(self, column: Column) -> dict[str, Any]:
+    def _add(self, column: Column) -> dict[str, Any]:
+        """Add a section with the data of a column; return its description."""
         self._sections.append(column.data)
-        return {
-            "shape": column.shape,
-            "order": column.order,
-            "bytes": column.bytes,
-            "section": len(self._sections) - 1,
-        }
+        described = {"shape": column.shape, "order": column.order, "bytes": column.bytes}
+        scale = {} if column.low is None else {"low": column.low, "step": column.step}
+        return described | {"section": len(self._sections) - 1} | scale
 
-    def _packed(self, packed: Packed) -> dict[str, Any]:
-        return self._column(packed.column) | {"low": packed.low, "step": packed.step}
+    def _inside(self, point: NDArray[np.float64]) -> list[float]:
+        """Return a point, m, in the coordinates of the page."""
+        return _rounded((point - self._middle) / self._size)
 
 
-class _Frame:
-    """The page's own coordinates: the origin is the middle of the box of all, the unit its longest side."""
-
-    def __init__(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
-        self.middle = 0.5 * (low + high)
-        self.size = float((high - low).max()) or 1.0
-        self.halves = 0.5 * (high - low) / self.size
-
-    def inside(self, point: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray((point - self.middle) / self.size)
-
-    def described(self) -> dict[str, Any]:
-        return {"middle": self.middle.tolist(), "size": self.size, "halves": _rounded(self.halves)}
-
-
-def _corners(
-    points: NDArray[np.float64], bodies: Bodies, extra: Sequence[NDArray[np.float64]]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    seen = [p.reshape(-1, 3) for p in (points, bodies.x[bodies.present], *extra) if p.size]
-    if not seen:
-        return box(None, bodies)
-    low, high = np.min([p.min(axis=0) for p in seen], axis=0), np.max([p.max(axis=0) for p in seen], axis=0)
-    return low, high
-
-
-def _tells(codes: Codes) -> bool:
-    """Whether any body has a name, as the reason of a failure has where none failed."""
+def _has_names(codes: Codes) -> bool:
+    """Return whether any body has a name; no body has a reason of failure if none failed, for example."""
     return any(codes.meanings[k] for k in np.unique(codes.codes).tolist() if k < len(codes.meanings))
 
 
 @cache
 def _text(name: str) -> str:
     return (_FOLDER / name).read_text(encoding="utf-8")
-
-
-def _script() -> str:
-    return _text("bundle.js")
 
 
 def _hash(text: str) -> str:

@@ -1,4 +1,4 @@
-"""What a run looks like, however it is drawn: bodies, walls, camera, colours and words."""
+"""Scene of a run, independent of how it is drawn: bodies, walls, camera, colours and texts."""
 
 from __future__ import annotations
 
@@ -24,33 +24,33 @@ from foamprb.view.geometry import Geometry, Slice, Surface
 Floats = NDArray[np.float64]
 
 BODY_SIZE = 1 / 16
-"""Diameter at rest with which bodies are drawn if none is asked for, of the second longest side."""
+"""Default diameter at which bodies at rest are drawn, as a share of the second longest side."""
 WINDOW_LENGTH = 3.5
-"""How much of a long geometry the camera looks at, of the second longest side."""
+"""Visible length of a long geometry, as a multiple of the second longest side."""
 VIEW_ANGLE = 30.0
 """Vertical, degrees."""
 MARGIN = 1.06
-"""How much more is seen than must be."""
+"""Ratio of the visible size to the size that must be visible."""
 INSETS = (66.0, 88.0)
-"""Pixels that words take above and below what is shown."""
+"""Pixels that texts take above and below the scene."""
 TALL = 1.6
-"""Something long is at least 1/1.6 of the picture high, its length cut, unless too little of that is left."""
+"""A long object takes at least 1/1.6 of the height of the picture. Its length is cut for that."""
 PERCENTILES = (1.0, 99.0)
-"""Of the values of an array that are ever shown: what lies beyond may be clamped."""
+"""Default percentiles of all shown values that limit the colours; values beyond may be clamped."""
 ALL = (0.0, 100.0)
-"""The percentiles between which all values are."""
+"""Percentiles that include all values."""
 MOST_DEPOSITS = 3000
-"""Of more deposits none is marked at first."""
+"""Largest number of deposits that are marked by default."""
 _SLACK = 1e-5
-"""How far beyond the limits, as a share of what is between them, a value is not noticed."""
+"""Distance beyond the limits, as a share of their range, that counts as inside."""
 _THIN = 0.35
-"""A geometry whose shortest side is a smaller share of the second one is looked at along the shortest."""
+"""A geometry with a smaller ratio of the shortest side to the second one is viewed along the shortest."""
 _TILTED = 1.3
-"""How many times larger than that along the principal axes the box along the axes must be to give way."""
+"""Ratio of the volumes of the coordinate box and the principal box above which the latter is used."""
 
 
 class Camera(NamedTuple):
-    """From where one looks at first; vectors (3,)."""
+    """First view; vectors (3,)."""
 
     focus: Floats
     """m."""
@@ -59,19 +59,19 @@ class Camera(NamedTuple):
     up: Floats
     """Unit vector, vertical in the picture."""
     corners: Floats
-    """What must be seen: points to the right of, above and before the focus, (k, 3), m."""
+    """Points that must be visible: right of, above and in front of the focus, (k, 3), m."""
     least_width: float
-    """Of what is to the right or left as much as must be seen even in a narrow picture, m."""
+    """Half width that must be visible even in a narrow picture, m."""
 
     def distance(self, aspect: float, free: float = 1.0) -> float:
-        """Distance of the eye from the focus, m.
+        """Return the distance of the eye from the focus, m.
 
         Parameters
         ----------
         aspect
-            How many times wider than high the picture is.
+            Ratio of the width of the picture to its height.
         free
-            Share of its height that words leave free.
+            Share of its height without texts.
         """
         slope = math.tan(math.radians(VIEW_ANGLE / 2))
         x, y, z = np.abs(self.corners[:, 0]), np.abs(self.corners[:, 1]), self.corners[:, 2]
@@ -81,34 +81,34 @@ class Camera(NamedTuple):
 
 @dataclass(frozen=True)
 class Scene:
-    """All that is shown.
+    """Everything that is drawn.
 
     Parameters
     ----------
     title, subtitle
-        The case, and what it is about.
+        Names of the case and of the cloud.
     bodies
-        All bodies over their times.
+        Bodies over their times.
     fate
-        What became of each, (1, n).
+        Fate of each body, (1, n).
     geometry
-        The boundary, if the mesh could be read.
+        Boundary of the mesh, if it could be read.
     slice
-        A plane through the flow, if it is asked for.
+        Plane through the flow, if requested.
     paths
-        Paths finer than the bodies' times, if the run recorded them.
+        Paths that are finer than the bodies' times, if the run recorded them.
     camera
-        From where one looks at first.
+        First view.
     enlargement
-        How many times larger than they are the bodies are drawn.
+        Ratio of the drawn size of the bodies to their size.
     colour
-        Name and component of the array by which they are coloured.
+        Name and component of the array to colour by.
     range
-        Its lowest and highest colour, if the user chose them.
+        Limits of the colours, if the user chose them.
     first
         Index of the time that is shown first.
     percentiles
-        Between which of all values the colours range, where the user chose no range.
+        Percentiles of all values that limit the colours without a range.
     """
 
     title: str
@@ -127,52 +127,45 @@ class Scene:
 
     @cached_property
     def limits(self) -> tuple[float, float]:
-        """Lowest and highest value of the chosen array that have colours of their own."""
-        name, part = self.colour
-        if self.range is not None:
-            return self.range
-        return limits_of(self.bodies, name, part, self.percentiles)
+        """Values of the chosen array at which its colours begin and end."""
+        return self.range or limits_of(self.bodies, *self.colour, self.percentiles)
 
     @cached_property
     def beyond(self) -> tuple[bool, bool]:
-        """Whether values of the chosen array that are ever shown lie below the limits, and above them."""
+        """Whether shown values of the chosen array lie below the limits, and above them."""
         low, high = self.limits
         least, most = extremes_of(self.bodies, *self.colour) or (low, high)
         slack = _SLACK * (high - low)
         return least < low - slack, most > high + slack
 
     def codes(self, name: str) -> Codes:
-        """A property that has names, by its own."""
+        """Return a property that has names."""
         return self.fate if name == self.fate.name else self.bodies.codes[name]
 
     @property
     def map_name(self) -> str:
-        """The colour map of the chosen array."""
+        """Colour map of the chosen array."""
         low, high = self.limits
         return MAPS[-1] if low == -high else MAPS[0]
 
     def caption(self, shown: int) -> str:
-        """Say how many bodies there are and how they are drawn."""
-        return caption(shown, self.enlargement)
-
-
-def caption(shown: int, enlargement: float) -> str:
-    """Say how many bodies there are and how they are drawn."""
-    number = f"{shown} {'body' if shown == 1 else 'bodies'}"
-    return f"{number}, drawn {enlargement:g}× larger" if enlargement != 1.0 else f"{number}, drawn to scale"
+        """Return a sentence with the number of shown bodies and their enlargement."""
+        number = f"{shown} {'body' if shown == 1 else 'bodies'}"
+        scale = f"{self.enlargement:g}× larger" if self.enlargement != 1.0 else "to scale"
+        return f"{number}, drawn {scale}"
 
 
 def limits_of(
     bodies: Bodies, name: str, part: str, percentiles: tuple[float, float] = ALL
 ) -> tuple[float, float]:
-    """Round numbers around the values of an array that are ever shown; from zero where that is near.
+    """Return round limits of the shown values of an array; zero if it is near.
 
     Parameters
     ----------
     bodies, name, part
         The bodies, the array, and its component.
     percentiles
-        Which of the values count; of up to a hundred values, and where those that count are all alike, all.
+        Values beyond are left out, unless the values between them are all equal.
     """
     values = _values(bodies, name, part)
     if not values.size:
@@ -186,7 +179,7 @@ def limits_of(
 
 
 def extremes_of(bodies: Bodies, name: str, part: str) -> tuple[float, float] | None:
-    """Least and largest of the values of an array that are ever shown; None if there is none."""
+    """Return the least and the largest shown value of an array; None without values."""
     values = _values(bodies, name, part)
     return (float(values.min()), float(values.max())) if values.size else None
 
@@ -197,10 +190,9 @@ def _values(bodies: Bodies, name: str, part: str) -> Floats:
 
 
 def round_limits(low: float, high: float) -> tuple[float, float]:
-    """Round numbers, the first not above ``low``, the second not below ``high``.
+    """Return round numbers, the first not above ``low``, the second not below ``high``.
 
-    A range that lies on one side of zero and reaches near it begins there, and one on both sides of zero is
-    symmetric.
+    A range on one side of zero that reaches near it begins at zero. A range on both sides is symmetric.
     """
     if low < 0.0 < high:
         most = _round_up(max(-low, high))
@@ -210,36 +202,34 @@ def round_limits(low: float, high: float) -> tuple[float, float]:
         return -b, -a
     if high == 0.0:
         return 0.0, 1.0
-    if low <= 0.3 * high:
-        return 0.0, _round_up(high)
-    if high - low <= 1e-6 * high:
+    if low <= 0.3 * high or high - low <= 1e-6 * high:
         return 0.0, _round_up(high)
     step = _round_up(high - low) / 10.0
     return math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
 
 
 def _round_up(value: float) -> float:
-    """The least multiple of a power of ten, of one digit, that is not below a positive value."""
+    """Return the least number of one digit that is not below a positive value."""
     power = 10.0 ** math.floor(math.log10(value))
     return float(f"{math.ceil(value / power * (1 - 1e-6)) * power:.12g}")
 
 
 def round_down(value: float) -> float:
-    """The largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not above a positive value."""
+    """Return the largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not above a positive value."""
     power = 10.0 ** math.floor(math.log10(value))
     digit = max(digit for digit in (1, 2, 3, 4, 5, 6, 8) if digit * power <= value * (1 + 1e-12))
     return float(f"{digit * power:.12g}")
 
 
 def automatic_enlargement(bodies: Bodies, sides: Floats) -> float:
-    """A round number ≥ 1: bodies at rest are seen, and mostly not in each other.
+    """Return a round number ≥ 1 at which bodies at rest are visible and mostly do not overlap.
 
     Parameters
     ----------
     bodies
         The bodies.
     sides
-        Of the box that they are in, (3,), m.
+        Sides of the box around them, (3,), m.
     """
     sides = np.sort(sides)
     known = bodies.radius[bodies.radius > 0.0]
@@ -252,13 +242,13 @@ def automatic_enlargement(bodies: Bodies, sides: Floats) -> float:
 
 
 def busiest(bodies: Bodies) -> int:
-    """Index of the last of those times at which most bodies are in the flow or on a wall."""
+    """Return the index of the time with most bodies in the flow or on a wall; of several, the last."""
     number = bodies.shown.sum(axis=1)
     return int(len(number) - 1 - np.argmax(number[::-1]))
 
 
 def box(geometry: Geometry | None, bodies: Bodies) -> tuple[Floats, Floats]:
-    """Lowest and highest corner of the geometry, or of where the bodies ever are, m."""
+    """Return the lowest and the highest corner of the geometry, or without it of all bodies, m."""
     points = geometry.points if geometry is not None else bodies.x[bodies.present]
     if len(points) == 0:
         return np.full(3, -0.5), np.full(3, 0.5)
@@ -270,20 +260,20 @@ def box(geometry: Geometry | None, bodies: Bodies) -> tuple[Floats, Floats]:
 
 
 def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats) -> Camera:
-    """Look at what there is.
+    """Return the first view of a geometry and bodies.
 
-    A long geometry lies across the picture and is seen from the side, a little from above and from one end;
-    of one much longer than wide only the part where most bodies are. A thin one is seen along its shortest
-    side, one with ``empty`` patches or wedges straight along their normal. Gravity points down.
+    A long geometry lies across the picture, viewed from the side, a little from above and from one end. If it
+    is much longer than wide, only the part with most bodies is visible. A thin geometry is viewed along its
+    shortest side, one with ``empty`` patches or wedges along their normal. Gravity points down.
 
     Parameters
     ----------
     geometry, bodies
-        What there is.
+        The boundary of the mesh, if it could be read, and the bodies.
     first
         Index of the time that is shown first.
     g
-        Gravity, m/s²; zero where there is none.
+        Gravity, m/s²; zero without it.
     """
     low, high = box(geometry, bodies)
     points = geometry.points if geometry is not None else np.array([low, high])
@@ -304,7 +294,7 @@ def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats)
     places = bodies.x[first][bodies.shown[first]] @ right
     ends = middle @ right + 0.5 * extent * np.array([-1.0, 1.0])
     focus = middle + right * (densest(places, window, ends) - middle @ right)
-    # Of what is long, the parts that are nearer than the focus, and farther, are cut.
+    # The ends of a long geometry, nearer and farther than the focus, are cut.
     wide = 0.5 * window * math.cos(yaw)
     tall = 0.5 * float(np.abs(frame[1] @ axes) @ np.where(np.abs(right @ axes) > 0.5, 0.0, sides))
     return Camera(focus, towards, up, signs * np.array([wide, tall, 0.0]), min(wide, 1.2 * tall))
@@ -313,7 +303,7 @@ def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats)
 def _directions(
     axes: Floats, sides: Floats, flat: Floats | None, g: Floats
 ) -> tuple[Floats, Floats, Floats, tuple[float, float]]:
-    """Directions to the right, upwards and to the viewer, and how far the eye is turned from there, rad."""
+    """Return the directions right, up and to the viewer, and yaw and pitch of the eye from there, rad."""
     order = np.argsort(-sides, kind="stable")
     if flat is not None:
         up = _up(g, flat)
@@ -332,7 +322,7 @@ def _directions(
 
 
 def _up(g: Floats, depth: Floats) -> Floats:
-    """Unit vector against gravity, upright on a direction; y or z where gravity does not say."""
+    """Return a unit vector normal to ``depth`` against gravity; along y or z if gravity does not decide."""
     y_or_z = np.eye(3)[1] if abs(depth[2]) > 0.5 or not depth.any() else np.eye(3)[2]
     size = float(np.linalg.norm(g))
     up = -g / size if size > 0.0 else y_or_z
@@ -343,7 +333,7 @@ def _up(g: Floats, depth: Floats) -> Floats:
 
 
 def anchor(surface: Surface, camera: Camera) -> NDArray[np.float64]:
-    """Where the name of a patch stands: in the middle of a flat one, at the top of one that surrounds."""
+    """Return the position of the name of a patch: the middle of a flat patch, the top of a closed one."""
     areas = surface.areas
     size = np.linalg.norm(areas, axis=1)
     middle = (surface.centres * size[:, None]).sum(axis=0) / max(float(size.sum()), 1e-300)
@@ -360,7 +350,7 @@ def anchor(surface: Surface, camera: Camera) -> NDArray[np.float64]:
 
 
 def principal_axes(points: Floats, low: Floats, high: Floats) -> Floats:
-    """Columns: the coordinate axes, unless the box along the principal axes of inertia is much smaller."""
+    """Return the axes as columns: principal axes of inertia if their box is much smaller, else x, y, z."""
     spread = points - points.mean(axis=0)
     axes = np.linalg.eigh(spread.T @ spread)[1][:, ::-1]
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])
@@ -372,7 +362,7 @@ def principal_axes(points: Floats, low: Floats, high: Floats) -> Floats:
 
 
 def densest(places: Floats, window: float, ends: Floats) -> float:
-    """Middle of the stretch of length ``window`` between the ends that holds most of the places."""
+    """Return the middle of the interval of length ``window`` between the ends that holds most places."""
     low, high = ends.min() + window / 2, ends.max() - window / 2
     if len(places) == 0 or high <= low:
         return float(ends.mean())
@@ -382,7 +372,7 @@ def densest(places: Floats, window: float, ends: Floats) -> float:
 
 
 def gravity(case: Path, region: str = "") -> Floats:
-    """Gravity of ``constant/g``, m/s²; zero where the case has none."""
+    """Return the gravity of ``constant/g``, m/s²; zero without the file."""
     path = case / "constant" / region / "g"
     try:
         value: tuple[float, float, float] = read_entry(read_dictionary(path, case), "value", Vector3)

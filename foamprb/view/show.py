@@ -1,4 +1,4 @@
-"""From the folder of a case to what a person looks at."""
+"""From the folder of a case to its page, picture, film or window."""
 
 from __future__ import annotations
 
@@ -38,32 +38,32 @@ LATEST = "latestTime"
 DEFAULT_COLOUR = "taylorDeformation"
 ORDER = ("taylorDeformation", "shearRate", "U", "Ca", "t0", "t1", "d", "rho", "age", "capillaryNumber",
          "angularVelocity", "J", "semiAxes", "stresslet")  # fmt: skip
-"""Arrays in the order in which they get room in a page."""
+"""Arrays by their priority in a page of limited size."""
 
 _BYTES_PER_STATE = 8
-"""Fewest that a body at a time has ever taken in a page."""
+"""Least size of a body at one time in a page."""
 _TIMES_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
 class Request:
-    """What a user asks to see."""
+    """Options of a page or a picture."""
 
     case: Path
     cloud: str | None = None
     source: Source | None = None
-    """Where the geometry and the flow of a plane come from."""
+    """Source of the geometry and of the flow on a plane."""
     flow_time: str = LATEST
     time: float | None = None
-    """Time that is shown first, or in a picture, s; by default the one with most bodies."""
+    """First time shown, or time of a picture, s; by default the time with most bodies."""
     colour: str = DEFAULT_COLOUR
     range: tuple[float, float] | None = None
     enlargement: float | None = None
     slice: str | None = None
     bodies: int | None = None
-    """Most bodies."""
+    """Largest number of bodies."""
     percentiles: tuple[float, float] = PERCENTILES
-    """Between which of all values the colours range, without a range."""
+    """Percentiles of all values that limit the colours without a range."""
 
 
 def write_page(request: Request, path: Path | None, megabytes: float, version: str) -> Path:
@@ -72,13 +72,13 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     Parameters
     ----------
     request
-        What is asked for.
+        Options of the page.
     path
         The file; by default ``<cloud>.html`` beside the results.
     megabytes
-        Size that it is to stay below: arrays are left out, and then times, evenly.
+        Largest size. Arrays that do not fit are left out, then times, evenly.
     version
-        Of foamprb.
+        Version of foamprb.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     Raises
     ------
     InputError
-        As :func:`make_scene`; or not even one time fits.
+        See :func:`make_scene`; or the size is below 1 MB.
     OSError
         If the file cannot be written.
     """
@@ -95,30 +95,29 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
     run = _run_of(request)
-    everything = len(run.entries)
+    written = len(run.entries)
     known = len(run.cloud(-1, ("origId",)).points)
     known = min(known, request.bodies or known)
     fitting = max(1, math.ceil(most / max(1, known * _BYTES_PER_STATE)))
-    scene = make_scene(request, run, spread(everything, fitting))
+    scene = make_scene(request, run, spread(written, fitting))
     page = Page(scene, most, ORDER, version)
-    while page.needed > most and len(scene.bodies.times) > 1:
-        m = len(scene.bodies.times)
-        scene = _thinned(scene, spread(m, max(1, min(m - 1, int(0.98 * m * most / page.needed)))))
+    m = len(scene.bodies.times)
+    while page.needed > most and m > 1:
+        chosen = np.array(spread(m, max(1, min(m - 1, int(0.98 * m * most / page.needed)))))
+        first = int(np.argmin(np.abs(chosen - scene.first)))
+        scene = replace(scene, bodies=scene.bodies.at(chosen), first=first)
         page = Page(scene, most, ORDER, version)
+        m = len(chosen)
     if page.needed > most:
         log.warning("-maxSize %g: even one time takes %.1f MB. -bodies N takes fewer bodies.", megabytes,
                     page.needed / 1e6)  # fmt: skip
-    m = len(scene.bodies.times)
-    if m < everything:
+    if m < written:
         log.warning(
-            "%d of %d times fit in %g MB, evenly spread. -maxSize allows more.", m, everything, megabytes
+            "%d of %d times fit in %g MB, evenly spread. -maxSize allows more.", m, written, megabytes
         )
     if page.left_out:
-        log.warning(
-            "%s: left out, there is no room in %g MB. -maxSize allows more.",
-            ", ".join(page.left_out),
-            megabytes,
-        )
+        log.warning("%s: left out, there is no room in %g MB. -maxSize allows more.",
+                    ", ".join(page.left_out), megabytes)  # fmt: skip
     target = path or run.results.page
     text = page.write().encode("utf-8")
     with atomic_write(target) as temporary:
@@ -128,34 +127,29 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
 
 
 def spread(count: int, most: int) -> list[int]:
-    """At most so many of the numbers below ``count``, evenly spread, the last one among them."""
+    """Return at most ``most`` of the integers below ``count``, evenly spread, with the last one."""
     if count <= most:
         return list(range(count))
     return sorted({count - 1 - (k * count) // most for k in range(most)})
 
 
-def _thinned(scene: Scene, frames: Sequence[int]) -> Scene:
-    chosen = np.array(frames)
-    first = int(np.argmin(np.abs(chosen - scene.first)))
-    return replace(scene, bodies=scene.bodies.at(chosen), first=first)
-
-
 def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
-    """Read and arrange what is shown.
+    """Read bodies, geometry and flow, and arrange them for drawing.
 
     Parameters
     ----------
     request
-        What is asked for.
+        Options of the page or picture.
     run
-        Its results.
+        Results of the cloud.
     frames
         Indices of the times.
 
     Raises
     ------
     InputError
-        Files are missing or damaged, an array is unknown, the plane is none, or a number makes no sense.
+        If files are missing or damaged, an array is unknown, the plane is not valid, or a number is out of
+        range.
     """
     if request.bodies is not None and request.bodies < 1:
         raise InputError(f"-bodies {request.bodies}: a number >= 1 is needed.")
@@ -176,11 +170,11 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
     if fates is not None:
         bodies.fields.update(fields_of_fates(bodies, fates))
     geometry, plane = _surroundings(request, run)
-    first = busiest(bodies) if request.time is None else int(np.argmin(np.abs(bodies.times - request.time)))
-    if request.time is not None and not math.isclose(
-        bodies.times[first], request.time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15
-    ):
-        log.warning("-time %g s was not written; the nearest is %g s.", request.time, bodies.times[first])
+    first, time = busiest(bodies), request.time
+    if time is not None:
+        first = int(np.argmin(np.abs(bodies.times - time)))
+        if not math.isclose(bodies.times[first], time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15):
+            log.warning("-time %g s was not written; the nearest is %g s.", time, bodies.times[first])
     corners = box(geometry, bodies)
     return Scene(
         title=request.case.resolve().name,
@@ -204,14 +198,11 @@ def _run_of(request: Request) -> Run:
 
 
 def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | None]:
-    """The geometry, and the plane through the flow if it is asked for."""
+    """Return the geometry, and the plane through the flow if requested."""
     try:
         flow = read_flow(request.case, request.flow_time, run.source(request.source))
     except InputError as error:
-        asked = (
-            request.slice is not None or request.flow_time != LATEST or request.source not in (None, Source())
-        )
-        if asked:
+        if request.slice is not None or request.flow_time != LATEST or request.source not in (None, Source()):
             raise
         log.warning("No geometry is shown: %s", error)
         return None, None
@@ -229,7 +220,7 @@ def picture_of(
     Raises
     ------
     InputError
-        As :func:`make_scene` and the functions of :mod:`foamprb.view.picture`.
+        See :func:`make_scene` and the functions of :mod:`foamprb.view.picture`.
     OSError
         If the file cannot be written.
     """
@@ -250,25 +241,25 @@ def picture_of(
 
 
 def start_paraview(case: Path, cloud: str | None, region: str) -> int:
-    """Start ParaView with the state that a run has left beside its results; the exit status.
+    """Start ParaView with the state file that the run has written; return the exit status.
 
     Raises
     ------
     InputError
-        ParaView is not on PATH, there is no display, or no run has left a state.
+        If ParaView is not on PATH, or there is no display or no state file.
     """
     run = open_run(case, cloud, region)
     state = run.results.state
     if not state.exists():
-        raise InputError(f"{state}: missing; runs of older versions left none. To make it: foamprb run.")
+        raise InputError(f"{state}: missing. It is written by: foamprb run.")
     program = shutil.which("paraview")
     if program is None:
         raise InputError("no paraview on PATH. On Debian: apt-get install paraview python3-paraview.")
     if not has_display():
-        raise InputError(f"there is no display for ParaView; pvpython runs {state} without one.")
+        raise InputError(f"no display for ParaView. Without a display: pvpython {state}.")
     return subprocess.run([program, f"--script={state.resolve()}"], check=False).returncode
 
 
 def open_in_browser(path: Path) -> bool:
-    """Show a page in the user's browser, if there is a display; whether it was done."""
+    """Open a page in the user's browser if there is a display; return whether it was opened."""
     return has_display() and webbrowser.open(path.resolve().as_uri())

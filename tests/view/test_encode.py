@@ -68,7 +68,7 @@ def test_what_moves_evenly_takes_no_room():
 def test_positions_are_known_to_a_share_of_the_domain(x):
     packed = pack_points(x, grid_of(x))
     side = np.ptp(x.reshape(-1, 3), axis=0).max()
-    found = np.array(packed.low) + packed.step[0] * unpacked(packed.column)
+    found = np.array(packed.low) + packed.step[0] * unpacked(packed)
     # Half a step, besides what double precision loses at the size of the coordinates.
     assert np.abs(found - x).max() <= 0.5001 * side / (2**POSITION_BITS - 1) + 1e-12
 
@@ -77,7 +77,7 @@ def test_shapes_are_known_to_a_part_in_two_thousand():
     """For volume-preserving bodies; relative, in Frobenius' norm."""
     F = motion(200, 20).F
     packed = pack_shapes(Shapes(F))
-    found = packed.step[0] * unpacked(packed.column).reshape(F.shape)
+    found = packed.step[0] * unpacked(packed).reshape(F.shape)
     assert np.abs(found - F).max() <= 0.5001 * SHAPE_STEP
     error = np.linalg.norm(found - F, axis=(2, 3)) / np.linalg.norm(F, axis=(2, 3))
     assert error.max() < 5e-4
@@ -88,7 +88,7 @@ def test_stretched_shapes_keep_their_relative_error(largest, seed):
     F = np.random.default_rng(seed).uniform(-1.0, 1.0, (3, 4, 3, 3))
     F *= largest / np.abs(F).max()
     packed = pack_shapes(Shapes(F))
-    whole = unpacked(packed.column)
+    whole = unpacked(packed)
     assert np.abs(whole).max() < 2**15
     found = packed.step[0] * whole.reshape(F.shape)
     assert np.abs(found - F).max() <= max(0.51 * SHAPE_STEP, largest / 65_000)
@@ -103,7 +103,7 @@ def test_stretched_shapes_keep_their_relative_error(largest, seed):
 )
 def test_values_are_known_to_a_part_of_their_range(values):
     packed = pack_field(Field("a", "a", "", ("",), values))
-    whole = unpacked(packed.column)
+    whole = unpacked(packed)
     assert whole.max() < 2**16
     np.testing.assert_array_equal(whole == 0, np.isnan(values))
     for k in range(values.shape[2]):
@@ -119,9 +119,9 @@ def test_values_are_known_to_a_part_of_their_range(values):
 def test_plain_values_are_known_to_24_bits(random):
     values = random.uniform(3.0, 7.0, 1000)
     packed = pack_values(values)
-    found = packed.low[0] + packed.step[0] * unpacked(packed.column)
+    found = packed.low[0] + packed.step[0] * unpacked(packed)
     assert np.abs(found - values).max() <= 4.0 / 2**25 * 1.01
-    assert unpacked(pack_values(np.full(3, 2.5)).column).tolist() == [0, 0, 0]
+    assert unpacked(pack_values(np.full(3, 2.5))).tolist() == [0, 0, 0]
 
 
 @given(hnp.arrays(np.bool_, st.tuples(st.integers(1, 5), st.integers(1, 40))))
