@@ -1,8 +1,8 @@
 """Vectors and 3×3 tensors as tuples of scalars, and the principal frame of a deformation.
 
-A vector is ``(x, y, z)``; a tensor is its nine components row by row, ``(T11, T12, T13, T21, …, T33)``. A
-component is a float or an array of any shape (then every function works elementwise), and no function
-branches on a value, so that the same text serves one particle, a lane of a block and a numpy oracle.
+A vector is ``(x, y, z)``. A tensor is its nine components row by row, ``(T11, T12, T13, T21, …, T33)``. A
+component is a float, or an array of any shape; every function then works elementwise. No function branches on
+a value, so the same text serves one particle, a lane of a block and a reference in numpy.
 """
 
 from __future__ import annotations
@@ -20,17 +20,16 @@ _TINY = 1e-300
 _LEAST = 1e-60
 _SMALL = 1e-150
 
-
 ZERO: Tensor = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def select(condition: Any, a: Scalar, b: Scalar) -> Scalar:
-    """``a`` where ``condition`` holds, else ``b``; both are evaluated."""
+    """Return ``a`` where ``condition`` holds, else ``b``; both are evaluated."""
     return np.where(condition, a, b)
 
 
 def add(S: Tensor, T: Tensor) -> Tensor:
-    """S + T."""
+    """Return S + T."""
     return (
         S[0] + T[0], S[1] + T[1], S[2] + T[2],
         S[3] + T[3], S[4] + T[4], S[5] + T[5],
@@ -38,14 +37,33 @@ def add(S: Tensor, T: Tensor) -> Tensor:
     )  # fmt: skip
 
 
+def subtract(S: Tensor, T: Tensor) -> Tensor:
+    """Return S − T."""
+    return (
+        S[0] - T[0], S[1] - T[1], S[2] - T[2],
+        S[3] - T[3], S[4] - T[4], S[5] - T[5],
+        S[6] - T[6], S[7] - T[7], S[8] - T[8],
+    )  # fmt: skip
+
+
 def scale(s: Scalar, T: Tensor) -> Tensor:
-    """The tensor s T."""
+    """Return s T."""
     return (s * T[0], s * T[1], s * T[2], s * T[3], s * T[4], s * T[5], s * T[6], s * T[7], s * T[8])
 
 
+def add_scaled(S: Tensor, s: Scalar, T: Tensor) -> Tensor:
+    """Return S + s T."""
+    return add(S, scale(s, T))
+
+
 def scale_vector(s: Scalar, v: Vector) -> Vector:
-    """S v."""
+    """Return s v."""
     return s * v[0], s * v[1], s * v[2]
+
+
+def combine_vectors(s: Scalar, u: Vector, t: Scalar, v: Vector) -> Vector:
+    """Return s u + t v."""
+    return s * u[0] + t * v[0], s * u[1] + t * v[1], s * u[2] + t * v[2]
 
 
 def plus(v: Vector, w: Vector) -> Vector:
@@ -78,40 +96,50 @@ def vector_product(v: Vector, w: Vector) -> Vector:
     return v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]
 
 
+def rows(T: Tensor) -> tuple[Vector, Vector, Vector]:
+    """Return the three rows of T."""
+    return (T[0], T[1], T[2]), (T[3], T[4], T[5]), (T[6], T[7], T[8])
+
+
+def from_rows(p: Vector, q: Vector, r: Vector) -> Tensor:
+    """Return the tensor with the rows p, q, r."""
+    return (p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2])
+
+
 def add_identity(T: Tensor, s: Scalar) -> Tensor:
-    """T + s I."""
+    """Return T + s I."""
     return (T[0] + s, T[1], T[2], T[3], T[4] + s, T[5], T[6], T[7], T[8] + s)
 
 
 def transpose(T: Tensor) -> Tensor:
-    """Tᵀ."""
+    """Return Tᵀ."""
     return (T[0], T[3], T[6], T[1], T[4], T[7], T[2], T[5], T[8])
 
 
 def trace(T: Tensor) -> Scalar:
-    """The trace T_ii."""
+    """Return the trace T_ii."""
     return T[0] + T[4] + T[8]
 
 
 def sym(T: Tensor) -> Tensor:
-    """The symmetric part ½(T + Tᵀ)."""
+    """Return the symmetric part ½(T + Tᵀ)."""
     p, q, r = 0.5 * (T[1] + T[3]), 0.5 * (T[2] + T[6]), 0.5 * (T[5] + T[7])
     return (T[0], p, q, p, T[4], r, q, r, T[8])
 
 
 def skew(T: Tensor) -> Tensor:
-    """The skew part ½(T − Tᵀ)."""
+    """Return the skew part ½(T − Tᵀ)."""
     p, q, r = 0.5 * (T[1] - T[3]), 0.5 * (T[2] - T[6]), 0.5 * (T[5] - T[7])
     return (0.0, p, q, -p, 0.0, r, -q, -r, 0.0)
 
 
 def dev(T: Tensor) -> Tensor:
-    """The deviatoric part T − ⅓ tr(T) I."""
+    """Return the deviatoric part T − ⅓ tr(T) I."""
     return add_identity(T, trace(T) * (-1.0 / 3.0))
 
 
 def dot(S: Tensor, T: Tensor) -> Tensor:
-    """The product S·T."""
+    """Return the product S·T."""
     return (
         S[0] * T[0] + S[1] * T[3] + S[2] * T[6],
         S[0] * T[1] + S[1] * T[4] + S[2] * T[7],
@@ -126,7 +154,7 @@ def dot(S: Tensor, T: Tensor) -> Tensor:
 
 
 def dot_vector(T: Tensor, v: Vector) -> Vector:
-    """The vector T·v."""
+    """Return the vector T·v."""
     return (
         T[0] * v[0] + T[1] * v[1] + T[2] * v[2],
         T[3] * v[0] + T[4] * v[1] + T[5] * v[2],
@@ -135,12 +163,12 @@ def dot_vector(T: Tensor, v: Vector) -> Vector:
 
 
 def vector_dot(v: Vector, T: Tensor) -> Vector:
-    """The vector Tᵀ·v."""
+    """Return the vector Tᵀ·v."""
     return dot_vector(transpose(T), v)
 
 
 def ddot(S: Tensor, T: Tensor) -> Scalar:
-    """The double contraction S:T = S_ij T_ij."""
+    """Return the double contraction S:T = S_ij T_ij."""
     return (
         S[0] * T[0] + S[1] * T[1] + S[2] * T[2]
         + S[3] * T[3] + S[4] * T[4] + S[5] * T[5]
@@ -149,7 +177,7 @@ def ddot(S: Tensor, T: Tensor) -> Scalar:
 
 
 def cofactor(T: Tensor) -> Tensor:
-    """The cofactor tensor det(T) T⁻ᵀ."""
+    """Return the cofactor tensor det(T) T⁻ᵀ."""
     return (
         T[4] * T[8] - T[5] * T[7], T[5] * T[6] - T[3] * T[8], T[3] * T[7] - T[4] * T[6],
         T[2] * T[7] - T[1] * T[8], T[0] * T[8] - T[2] * T[6], T[1] * T[6] - T[0] * T[7],
@@ -158,7 +186,7 @@ def cofactor(T: Tensor) -> Tensor:
 
 
 def det(T: Tensor) -> Scalar:
-    """The determinant of T."""
+    """Return the determinant of T."""
     return (
         T[0] * (T[4] * T[8] - T[5] * T[7])
         + T[1] * (T[5] * T[6] - T[3] * T[8])
@@ -167,35 +195,35 @@ def det(T: Tensor) -> Scalar:
 
 
 def inverse(T: Tensor) -> Tensor:
-    """T⁻¹; the caller answers for det T ≠ 0."""
+    """Return T⁻¹; det T ≠ 0 is the caller's responsibility."""
     C = cofactor(T)
     return scale(1.0 / (T[0] * C[0] + T[1] * C[1] + T[2] * C[2]), transpose(C))
 
 
 def reciprocals(v: Vector) -> Vector:
-    """(1/x, 1/y, 1/z) by one division, of numbers whose product neither over- nor underflows."""
+    """Return (1/x, 1/y, 1/z) by one division; x y z must neither overflow nor underflow."""
     x, y, z = v
     d = 1.0 / (x * y * z)
     return d * (y * z), d * (x * z), d * (x * y)
 
 
 def axial(W: Tensor) -> Vector:
-    """The axial vector ω of a skew W, W·r = ω × r (A.3)."""
+    """Return the axial vector ω of a skew W, W·r = ω × r (A.3)."""
     return (W[7], W[2], W[3])
 
 
 def to_frame(Q: Tensor, T: Tensor) -> Tensor:
-    """Components T' = Q T Qᵀ in the frame whose axes are the rows of Q (2)."""
+    """Return the components T' = Q T Qᵀ in the frame whose axes are the rows of Q (2)."""
     return dot(dot(Q, T), transpose(Q))
 
 
 def from_frame(Q: Tensor, T: Tensor) -> Tensor:
-    """Components T = Qᵀ T' Q in the inertial frame, from those in the frame Q (2)."""
+    """Return the components T = Qᵀ T' Q in the inertial frame, from T' in the frame Q (2)."""
     return dot(dot(transpose(Q), T), Q)
 
 
 def exponential(K: Tensor) -> Tensor:
-    """Exp K to fourth order, for a small K, and a rotation for a skew one.
+    """Return exp K to fourth order for a small K; a rotation for a skew K.
 
     exp K = (1 − k)⁻¹·(1 + k) with k = tanh(K/2) = K/2 − K³/24 + O(K⁵), a Cayley transform.
     """
@@ -204,9 +232,9 @@ def exponential(K: Tensor) -> Tensor:
 
 
 def log_ratio(J: Scalar) -> Scalar:
-    """ln J without a branch or a library call, to 4 units in the last place of 1, for J in [1/8, 8].
+    """Return ln J for J in [1/8, 8], to 4 units in the last place of 1, without a branch or library call.
 
-    ln J = 8 artanh z with z = (r − 1)/(r + 1), r = J^¼; the odd series in z (|z| ≤ 0.255) ends where its next
+    ln J = 8 artanh z with z = (r − 1)/(r + 1), r = J^¼. The odd series in z (|z| ≤ 0.255) ends where its next
     term is below 1e-17.
     """
     r = np.sqrt(np.sqrt(J))
@@ -228,9 +256,9 @@ def log_ratio(J: Scalar) -> Scalar:
 
 
 def _rotation(p: Vector, q: Vector) -> tuple[Scalar, Scalar]:
-    """Cosine and sine of the smaller rotation that makes rows p and q orthogonal."""
-    gamma = p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-    delta = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) - (p[0] * p[0] + p[1] * p[1] + p[2] * p[2])
+    """Return cosine and sine of the smaller rotation that makes rows p and q orthogonal."""
+    gamma = inner(p, q)
+    delta = inner(q, q) - inner(p, p)
     size = abs(delta)
     t = 2.0 * gamma / (size + np.sqrt(size * size + 4.0 * gamma * gamma) + _TINY)
     t = select(delta < 0.0, -t, t)
@@ -239,7 +267,7 @@ def _rotation(p: Vector, q: Vector) -> tuple[Scalar, Scalar]:
 
 
 def _rotate(c: Scalar, s: Scalar, p: Vector, q: Vector) -> tuple[Vector, Vector]:
-    """The rows (c p − s q, s p + c q)."""
+    """Return the rows (c p − s q, s p + c q)."""
     return (
         (c * p[0] - s * q[0], c * p[1] - s * q[1], c * p[2] - s * q[2]),
         (s * p[0] + c * q[0], s * p[1] + c * q[1], s * p[2] + c * q[2]),
@@ -247,9 +275,9 @@ def _rotate(c: Scalar, s: Scalar, p: Vector, q: Vector) -> tuple[Vector, Vector]
 
 
 def _sweep(F: Tensor, Q: Tensor) -> tuple[Tensor, Tensor]:
-    """One rotation of each pair of rows of F, and the same of Q."""
-    f1, f2, f3 = (F[0], F[1], F[2]), (F[3], F[4], F[5]), (F[6], F[7], F[8])
-    q1, q2, q3 = (Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])
+    """Rotate each pair of rows of F once, and the rows of Q by the same rotations."""
+    f1, f2, f3 = rows(F)
+    q1, q2, q3 = rows(Q)
     c, s = _rotation(f1, f2)
     f1, f2 = _rotate(c, s, f1, f2)
     q1, q2 = _rotate(c, s, q1, q2)
@@ -259,10 +287,7 @@ def _sweep(F: Tensor, Q: Tensor) -> tuple[Tensor, Tensor]:
     c, s = _rotation(f2, f3)
     f2, f3 = _rotate(c, s, f2, f3)
     q2, q3 = _rotate(c, s, q2, q3)
-    return (
-        (f1[0], f1[1], f1[2], f2[0], f2[1], f2[2], f3[0], f3[1], f3[2]),
-        (q1[0], q1[1], q1[2], q2[0], q2[1], q2[2], q3[0], q3[1], q3[2]),
-    )
+    return from_rows(f1, f2, f3), from_rows(q1, q2, q3)
 
 
 def _turn(c: Scalar, s: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
@@ -270,16 +295,13 @@ def _turn(c: Scalar, s: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
 
 
 def _diagonalise(b: Vector, off: Vector, R: Tensor) -> tuple[Vector, Vector, Tensor]:
-    """One Jacobi rotation of each pair of a symmetric tensor, and the same of the rows of R.
+    """Apply one Jacobi rotation to each pair of a symmetric tensor, and to the rows of R.
 
-    Parameters
-    ----------
-    b, off
-        Its components 11, 22, 33, and 12, 13, 23.
+    ``b`` are the tensor's components 11, 22, 33, ``off`` those of 12, 13, 23.
     """
     b1, b2, b3 = b
     b12, b13, b23 = off
-    r1, r2, r3 = (R[0], R[1], R[2]), (R[3], R[4], R[5]), (R[6], R[7], R[8])
+    r1, r2, r3 = rows(R)
     t, c, s = _angle(b1, b2, b12)
     b1, b2 = b1 - t * b12, b2 + t * b12
     b12 = 0.0 * t
@@ -295,15 +317,11 @@ def _diagonalise(b: Vector, off: Vector, R: Tensor) -> tuple[Vector, Vector, Ten
     b23 = 0.0 * t
     b12, b13 = _turn(c, s, b12, b13)
     r2, r3 = _rotate(c, s, r2, r3)
-    return (
-        (b1, b2, b3),
-        (b12, b13, b23),
-        (r1[0], r1[1], r1[2], r2[0], r2[1], r2[2], r3[0], r3[1], r3[2]),
-    )
+    return (b1, b2, b3), (b12, b13, b23), from_rows(r1, r2, r3)
 
 
 def _angle(bp: Scalar, bq: Scalar, bpq: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-    """Tangent, cosine and sine of the smaller rotation that makes b_pq zero."""
+    """Return tangent, cosine and sine of the smaller rotation that makes b_pq zero."""
     delta = bq - bp
     size = abs(delta)
     twice = 2.0 * bpq
@@ -317,14 +335,15 @@ def _angle(bp: Scalar, bq: Scalar, bpq: Scalar) -> tuple[Scalar, Scalar, Scalar]
 
 
 def _turn_all(b: Vector, off: Vector, R: Tensor) -> Tensor:
-    """All pairs of rows of R at once, of a tensor of which the component 23 is zero and 12 and 13 are small.
+    """Rotate all pairs of rows of R at once, for a tensor with component 23 zero and 12, 13 small.
 
-    The angles b_pq/(b_q − b_p) are those of a skew W; the pair 23 is turned by what the others make of b₂₃ in
-    second order. R becomes (1 − W/2)⁻¹·(1 + W/2)·R, a rotation. Nearly equal pairs are turned by less.
+    The angles b_pq/(b_q − b_p) form a skew W. The angle of the pair 23 follows from b₂₃ as the other two
+    rotations change it in second order. R becomes (1 − W/2)⁻¹·(1 + W/2)·R, a rotation. Nearly equal pairs
+    turn by less.
     """
     b1, b2, b3 = b
     b12, b13, _ = off
-    # 1/δ where its square is large against those of what is off, and zero where it is zero.
+    # p f is 1/p where p² is large against b₁₂² + b₁₃², and 0 where p is 0.
     least = b12 * b12 + b13 * b13 + _LEAST
     p, q, r = b2 - b1, b3 - b1, b3 - b2
     f, g, h = reciprocals((p * p + least, q * q + least, r * r + least))
@@ -333,11 +352,11 @@ def _turn_all(b: Vector, off: Vector, R: Tensor) -> Tensor:
     k = 1.0 / (1.0 + 0.25 * (x * x + y * y + z * z))
     A = _skew_times(x, y, z, R)
     B = _skew_times(x, y, z, A)
-    return add(R, scale(k, add(A, scale(0.5, B))))
+    return add_scaled(R, k, add_scaled(A, 0.5, B))
 
 
 def _skew_times(x: Scalar, y: Scalar, z: Scalar, R: Tensor) -> Tensor:
-    """W·R, of a skew W with W₃₂ = x, W₃₁ = y and W₂₁ = z."""
+    """Return W·R for a skew W with W₃₂ = x, W₃₁ = y and W₂₁ = z."""
     return (
         -(z * R[3] + y * R[6]), -(z * R[4] + y * R[7]), -(z * R[5] + y * R[8]),
         z * R[0] - x * R[6], z * R[1] - x * R[7], z * R[2] - x * R[8],
@@ -346,7 +365,7 @@ def _skew_times(x: Scalar, y: Scalar, z: Scalar, R: Tensor) -> Tensor:
 
 
 def _orthonormal(Q: Tensor) -> Tensor:
-    """The rotation next to Q, which is one to round-off."""
+    """Return the rotation nearest to Q; Q is one to round-off."""
     a1, a2, a3 = Q[0], Q[1], Q[2]
     n = 1.5 - 0.5 * (a1 * a1 + a2 * a2 + a3 * a3)
     a1, a2, a3 = n * a1, n * a2, n * a3
@@ -354,11 +373,12 @@ def _orthonormal(Q: Tensor) -> Tensor:
     b1, b2, b3 = Q[3] - d * a1, Q[4] - d * a2, Q[5] - d * a3
     n = 1.5 - 0.5 * (b1 * b1 + b2 * b2 + b3 * b3)
     b1, b2, b3 = n * b1, n * b2, n * b3
-    return (a1, a2, a3, b1, b2, b3, a2 * b3 - a3 * b2, a3 * b1 - a1 * b3, a1 * b2 - a2 * b1)
+    a, b = (a1, a2, a3), (b1, b2, b3)
+    return from_rows(a, b, vector_product(a, b))
 
 
 def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
-    """Stretches along the rows of Q, and how far these are from principal directions of F.
+    """Return stretches along the rows of Q, and the distance of the rows from principal directions of F.
 
     Returns
     -------
@@ -373,9 +393,9 @@ def stretches_in_frame(F: Tensor, Q: Tensor) -> tuple[Vector, Scalar]:
 
 
 def longest_stretch(F: Tensor) -> Scalar:
-    """An upper bound of the stretches of F, equal to the largest of a sphere or a prolate spheroid.
+    """Return an upper bound of the stretches of F, exact for a sphere and a prolate spheroid.
 
-    With mean m and standard deviation s of the three eigenvalues of b = F Fᵀ none is larger than m + √2 s
+    No eigenvalue of b = F Fᵀ exceeds m + √2 s, with their mean m and standard deviation s
     (Wolkowicz and Styan, Linear Algebra and its Applications 29, 1980).
     """
     x, xy, xz, _, y, yz, _, _, z = dot(F, transpose(F))
@@ -386,11 +406,11 @@ def longest_stretch(F: Tensor) -> Scalar:
 
 
 def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
-    """Principal frame of F from a frame Q that is nearly principal.
+    """Return the principal frame of F from a frame Q that is nearly principal.
 
-    A sweep of Jacobi's method on b = F Fᵀ in the frame Q, and then a turn of all pairs at once. Both converge
-    quadratically at least: they reach round-off where the frame has turned by up to 0.003 since, and do so
-    twice up to 0.1. Where :func:`stretches_in_frame` says that they have not, the caller repeats them.
+    A sweep of Jacobi's method on b = F Fᵀ in the frame Q, then a rotation of all pairs at once. Both converge
+    at least quadratically: to round-off in one call if Q is within 0.003 rad of the principal frame, and in
+    two calls within 0.1 rad. :func:`stretches_in_frame` measures the distance; the caller repeats if needed.
     """
     G = dot(Q, F)
     x, xy, xz, _, y, yz, _, _, z = dot(G, transpose(G))
@@ -399,24 +419,25 @@ def refined_frame(F: Tensor, Q: Tensor) -> Tensor:
 
 
 def principal_frame(F: Tensor) -> tuple[Tensor, Vector]:
-    """Eulerian principal directions and principal stretches of F (7), (8).
+    """Return Eulerian principal directions and principal stretches of F (7), (8).
 
-    One-sided cyclic Jacobi: rotations of the rows of F until they are orthogonal. Stretches keep their
-    relative accuracy over any ratio, equal ones included, which forming F Fᵀ would not.
+    One-sided cyclic Jacobi: rotations of the rows of F until they are orthogonal. The stretches keep their
+    relative accuracy at any ratio; forming F Fᵀ would lose it.
 
     Returns
     -------
     Q, stretches
-        Q has the directions n_a as rows, is a proper rotation, and is close to the identity when F Fᵀ is
-        nearly diagonal; the stretches λ_a > 0 are in the order of the rows, not sorted.
+        Q is a proper rotation with the directions n_a as rows, close to the identity where F Fᵀ is nearly
+        diagonal. The stretches λ_a > 0 are in the order of the rows, not sorted.
     """
     one = 0.0 * F[0] + 1.0
     zero = 0.0 * F[0]
     Q: Tensor = (one, zero, zero, zero, one, zero, zero, zero, one)
-    # Five sweeps, written out: a loop here would keep the compiler from vectorising the one over lanes.
+    # Five sweeps, written out: a loop here would prevent vectorisation of the loop over lanes.
     G, Q = _sweep(F, Q)
     G, Q = _sweep(G, Q)
     G, Q = _sweep(G, Q)
     G, Q = _sweep(G, Q)
     G, Q = _sweep(G, Q)
-    return Q, (norm((G[0], G[1], G[2])), norm((G[3], G[4], G[5])), norm((G[6], G[7], G[8])))
+    p, q, r = rows(G)
+    return Q, (norm(p), norm(q), norm(r))
