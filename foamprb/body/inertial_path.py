@@ -1,11 +1,14 @@
-"""The barycentre of a body with inertia over a step, in the stages that its shape has.
+"""Path of the barycentre of a body with inertia over a step, in the stages of its shape.
 
     dx/dt = v,   dv/dt = a + k (u(x, t) − v),   k_a = μ_f K_a/m along the axes of the particle frame.
 
-The method is that of :mod:`foamprb.body.inertial_runge_kutta`, with J: (x, v) ↦ (v, −k v) and the drag at
-the start of the step. The fluid's velocity is known beforehand at both ends of the step, and how it
-begins to change: u₀ + s h a_u + s² (u₁ − u₀ − h a_u) with a_u = ∂u/∂t + ∇u·v. All vectors are components
-in the particle frame of the step's start.
+The method is that of :mod:`foamprb.body.inertial_runge_kutta`, with J: (x, v) ↦ (v, −k v) and the drag at the
+start of the step. The fluid's velocity is known in advance at both ends of the step, and its rate of change
+at the start: u₀ + s h a_u + s² (u₁ − u₀ − h a_u) with a_u = ∂u/∂t + ∇u·v.
+
+All vectors are components in the particle frame of the step's start. Common arguments: ``rate`` is k, 1/s;
+``h`` the step, s; ``start`` v, m/s, and dv/dt, m/s², at its start; ``change`` and ``bend`` those of
+:func:`fluid_changes`; ``slope`` and ``last`` :func:`slope` of the second and of the last evaluation.
 """
 
 from __future__ import annotations
@@ -13,15 +16,11 @@ from __future__ import annotations
 from foamprb.body.exponential_runge_kutta import NODE, OVERSHOOT
 from foamprb.body.inertial_runge_kutta import GAMMA, R1, R2, R3
 from foamprb.body.tensor import Scalar, Vector, reciprocals, scale_vector
+from foamprb.body.tensor import combine_vectors as combine
 
 Motion = tuple[Vector, Vector]
-"""A change of x and one of v, or rates of both."""
+"""Changes of x and of v, or rates of both."""
 NOTHING: Motion = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-
-
-def combine(a: Scalar, u: Vector, b: Scalar, v: Vector) -> Vector:
-    """A u + b v."""
-    return a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]
 
 
 def _both(a: Scalar, u: Motion, b: Scalar, v: Motion) -> Motion:
@@ -33,21 +32,14 @@ def _times(u: Vector, v: Vector) -> Vector:
 
 
 def _onto(k: int, u: Motion, v: Motion, w: Motion, s: Motion) -> Motion:
-    """What the powers P^(k + 1) in r₁, r₂ and r₃ take of u, v and w, and s."""
+    """Return s and the terms of the power P^(k + 1) of r₁ for u, r₂ for v and r₃ for w."""
     return _both(R1[k], u, 1.0, _both(R2[k], v, 1.0, _both(R3[k], w, 1.0, s)))
 
 
 def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
-    """H (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w), as :func:`foamprb.body.inertial_runge_kutta.respond`.
+    """Return h (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w); see :func:`foamprb.body.inertial_runge_kutta.respond`.
 
-    Parameters
-    ----------
-    rate
-        k, 1/s.
-    h
-        The step, or a part of it, s.
-    u, v, w
-        Rates of x, m/s, and of v, m/s².
+    ``u``, ``v`` and ``w`` are rates of x, m/s, and of v, m/s²; ``h`` is the step or a part of it.
     """
     gh = GAMMA * h
     d = reciprocals((1.0 + gh * rate[0], 1.0 + gh * rate[1], 1.0 + gh * rate[2]))
@@ -62,7 +54,7 @@ def respond(rate: Vector, h: Scalar, u: Motion, v: Motion, w: Motion) -> Motion:
 
 
 def fluid_changes(rate: Vector, h: Scalar, du: Vector, a_u: Vector) -> tuple[Vector, Vector]:
-    """What the fluid's velocity changes of dv/dt over the step, m/s², and the part of it quadratic in time.
+    """Return the change of dv/dt by the fluid's velocity over the step, m/s², and its part quadratic in time.
 
     Parameters
     ----------
@@ -75,13 +67,13 @@ def fluid_changes(rate: Vector, h: Scalar, du: Vector, a_u: Vector) -> tuple[Vec
 
 
 def first_motion(rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector) -> Motion:
-    """Change of x and v within a quarter of the step; ``start`` are v, m/s, and dv/dt, m/s², at its start."""
+    """Return the change of x and v within a quarter of the step."""
     linear = (NOTHING[0], combine(NODE, change, -NODE, bend))
     return respond(rate, NODE * h, start, linear, (NOTHING[0], scale_vector(2.0 * NODE * NODE, bend)))
 
 
 def slope(rate: Vector, dv: Vector, at: Vector, start: Vector, change: Vector, per_step: Scalar) -> Motion:
-    """What of the rates has changed beside J and the fluid, times ``per_step``; nothing of dx/dt = v has.
+    """Return the change of the rates less J and the fluid's part, times ``per_step``; that of dx/dt is 0.
 
     Parameters
     ----------
@@ -90,7 +82,7 @@ def slope(rate: Vector, dv: Vector, at: Vector, start: Vector, change: Vector, p
     start
         dv/dt at the start.
     change
-        What the fluid's velocity has changed of it by then.
+        The part of the fluid's velocity at that time.
     """
     forces = combine(1.0, combine(1.0, at, -1.0, start), 1.0, _times(rate, dv))
     return NOTHING[0], scale_vector(per_step, combine(1.0, forces, -1.0, change))
@@ -99,7 +91,7 @@ def slope(rate: Vector, dv: Vector, at: Vector, start: Vector, change: Vector, p
 def second_order(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
 ) -> Motion:
-    """Change of x and v over the step, of order 2."""
+    """Return the change of x and v over the step, of order 2."""
     linear = (slope[0], combine(1.0, slope[1], 1.0, combine(1.0, change, -1.0, bend)))
     return respond(rate, h, start, linear, (NOTHING[0], scale_vector(2.0, bend)))
 
@@ -107,7 +99,7 @@ def second_order(
 def last_motion(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion
 ) -> Motion:
-    """Change of x and v at the end of the step, for the last evaluation."""
+    """Return the change of x and v at the end of the step, for the last evaluation."""
     more = scale_vector(OVERSHOOT, slope[0]), scale_vector(OVERSHOOT, slope[1])
     return second_order(rate, h, start, change, bend, more)
 
@@ -115,7 +107,7 @@ def last_motion(
 def third_order(
     rate: Vector, h: Scalar, start: Motion, change: Vector, bend: Vector, slope: Motion, last: Motion
 ) -> Motion:
-    """Change of x and v over the step, of order 3."""
+    """Return the change of x and v over the step, of order 3."""
     f = 1.0 / (1.0 - NODE)
     curve = _both(f, last, -f, slope)
     fluid = NOTHING[0], combine(1.0, change, -1.0, bend)

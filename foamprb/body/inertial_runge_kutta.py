@@ -1,21 +1,34 @@
-"""A step of the body with inertia: the pair of order 3(2) of :mod:`foamprb.body.exponential_runge_kutta`.
+"""Step of a body with inertia: the pair of order 3(2) of :mod:`foamprb.body.exponential_runge_kutta`.
 
 The unknowns are Ω, with F = exp(Ω) F₀, and the body's velocity gradient l_s:
 
     dΩ/dt = l_s − ½[Ω, l_s] + …,   dl_s/dt = Ȧ F⁻¹ − l_s l_s.
 
 The linear part J, the stiffness of :mod:`foamprb.body.rosenbrock`, couples in the particle frame the
-components ij and ji of both, and the three ii of both. The φ_k of blocks so large have no short closed
-form. In their place are the rational
+components ij and ji of both, and the three ii of both. The φ_k of such large blocks have no short closed
+form. They are replaced by the rational
 
     r₁(z) = (R(z) − 1)/z,   r_{k+1}(z) = (r_k(z) − 1/k!)/z,   R(z) = eᶻ + O(z⁴) with the threefold pole 1/γ,
 
-of which γ = 0.4359 is A-stable and has R(∞) = 0 (Nørsett 1974; Hairer & Wanner, Solving Ordinary
-Differential Equations II, Table IV.6.4). This is a W-method (Steihaug & Wolfbrandt, Mathematics of
-Computation 33, 1979): it is of order 3 whatever J is. Since the r_k follow from R as the φ_k do from the
-exponential, rates that are linear or quadratic in time are met exactly, however stiff J is: the order is
-not reduced where the flow is unsteady. All tensors are components in the particle frame of the step's
-start.
+which are A-stable with R(∞) = 0 for γ = 0.4359 (Nørsett 1974; Hairer & Wanner, Solving Ordinary Differential
+Equations II, Table IV.6.4). This is a W-method (Steihaug & Wolfbrandt, Mathematics of Computation 33, 1979):
+its order is 3 for any J. The r_k follow from R as the φ_k from the exponential. Rates linear or quadratic in
+time are therefore integrated exactly for any stiffness: there is no order reduction in unsteady flow.
+
+All tensors are components in the particle frame of the step's start. The arguments of the stages:
+
+n; quarter, whole
+    Stiffness of the shape, and its :func:`resolvent` for a quarter and for the whole of the step.
+h
+    The step, s.
+rate
+    l_s, 1/s, and dl_s/dt, 1/s², at the start.
+change, bend
+    :func:`fluid_change` over the step, and its part quadratic in time, 1/s².
+turning
+    :func:`turning_acceleration`, 1/s³.
+slope, last
+    :func:`slope` of the second and of the last evaluation.
 """
 
 from __future__ import annotations
@@ -40,16 +53,19 @@ from foamprb.body.tensor import (
     inverse,
     reciprocals,
     scale,
+    scale_columns,
     skew,
+    subtract,
+    trace,
 )
 from foamprb.body.turning import shape_spin, turned
 
 GAMMA = 0.435866521508458999416
-"""The root of γ³ − 3γ² + 3/2 γ = 1/6 between 1/3 and 1.07."""
+"""Root of γ³ − 3γ² + 3/2 γ = 1/6 between 1/3 and 1.07."""
 
 
 def _partial_fractions(c0: float, c1: float, c2: float) -> tuple[float, float, float]:
-    """Weights of P, P² and P³ in (c₀ + c₁z + c₂z²) P³ with P = 1/(1 − γz)."""
+    """Return the weights of P, P² and P³ in (c₀ + c₁z + c₂z²) P³ with P = 1/(1 − γz)."""
     u, v = c1 / GAMMA, c2 / GAMMA**2
     return v, -u - 2.0 * v, c0 + u + v
 
@@ -57,10 +73,10 @@ def _partial_fractions(c0: float, c1: float, c2: float) -> tuple[float, float, f
 R1 = _partial_fractions(1.0, 0.5 - 3.0 * GAMMA, GAMMA**3)
 R2 = _partial_fractions(0.5, GAMMA**3 - 3.0 * GAMMA**2, GAMMA**3)
 R3 = _partial_fractions(1.0 / 6.0, GAMMA**3 - 1.5 * GAMMA**2, 0.5 * GAMMA**3)
-"""R₁, r₂ and r₃ as polynomials in P."""
+"""r₁, r₂ and r₃ as polynomials in P."""
 
 Pair = tuple[Tensor, Tensor]
-"""A change of Ω and one of l_s, or rates of both."""
+"""Changes of Ω and of l_s, or rates of both."""
 
 
 class Resolvent(NamedTuple):
@@ -71,7 +87,7 @@ class Resolvent(NamedTuple):
     normal: Tensor
     """Inverse matrix of the normal components of l_s."""
     pairs: tuple[Shear, Shear, Shear]
-    """Those of the pairs 23, 13 and 12."""
+    """Inverse matrices of the pairs 23, 13 and 12."""
 
 
 def _inverse_pairs(m: tuple[Shear, Shear, Shear]) -> tuple[Shear, Shear, Shear]:
@@ -85,15 +101,7 @@ def _inverse_pairs(m: tuple[Shear, Shear, Shear]) -> tuple[Shear, Shear, Shear]:
 
 
 def resolvent(n: Stiffness, h: Scalar) -> Resolvent:
-    """Factorise 1 − γh J.
-
-    Parameters
-    ----------
-    n
-        :func:`foamprb.body.rosenbrock.inertial_stiffness` at the start of the step.
-    h
-        The step, or a part of it, s.
-    """
+    """Factorise 1 − γh J for the step h, or a part of it."""
     gh = GAMMA * h
     gh2 = gh * gh
     (x, y, z), t, e = n.b, n.traction, n.elastic
@@ -121,57 +129,46 @@ def _sheared(first: Scalar, second: Scalar, gh: Scalar, T: Shear, gh2: Scalar, E
 
 
 def resolve(n: Stiffness, r: Resolvent, v: Pair) -> Pair:
-    """P v, in the units of v: changes of Ω and of l_s, 1/s, or rates of both, 1/s and 1/s².
+    """Return P v, in the units of v: changes of Ω and of l_s, 1/s, or rates of both, 1/s and 1/s².
 
-    Times ½ h it is 0.96 to 1.15 of h r₂(hJ) v, what a rate v t/h and J add up to, where J damps.
+    ½ h P v is 0.96 to 1.15 of h r₂(hJ) v, the response to a rate v t/h, if J damps.
     """
     X, Y = v
-    E, (x, y, z), gh = elastic_response(n, X), n.b, r.gh
-    s = (
-        Y[0] * x - gh * E[0], Y[1] * y - gh * E[1], Y[2] * z - gh * E[2],
-        Y[3] * x - gh * E[3], Y[4] * y - gh * E[4], Y[5] * z - gh * E[5],
-        Y[6] * x - gh * E[6], Y[7] * y - gh * E[7], Y[8] * z - gh * E[8],
-    )  # fmt: skip
+    s = subtract(scale_columns(Y, n.b), scale(r.gh, elastic_response(n, X)))
     L = paired(r.normal, r.pairs, s)
-    return add(X, scale(gh, L)), L
+    return add(X, scale(r.gh, L)), L
 
 
 def _traction_response(n: Stiffness, Y: Tensor) -> Tensor:
-    """Change of the traction's part of Ȧ Fᵀ by that of l_s, 1/s²."""
+    """Return the change of the traction's part of Ȧ Fᵀ by a change of l_s, 1/s²."""
     return paired(n.traction, n.traction_pairs, Y)
 
 
 def over_b(b: Vector, T: Tensor) -> Tensor:
-    """T b⁻¹ for the diagonal b."""
-    x, y, z = reciprocals(b)
-    return (T[0] * x, T[1] * y, T[2] * z, T[3] * x, T[4] * y, T[5] * z, T[6] * x, T[7] * y, T[8] * z)
+    """Return T b⁻¹ for the diagonal b."""
+    return scale_columns(T, reciprocals(b))
 
 
 def stiff_rate(n: Stiffness, v: Pair) -> Pair:
-    """J v."""
+    """Return J v."""
     X, Y = v
-    return Y, over_b(n.b, add(_traction_response(n, Y), scale(-1.0, elastic_response(n, X))))
+    return Y, over_b(n.b, subtract(_traction_response(n, Y), elastic_response(n, X)))
 
 
 def combine(a: Scalar, u: Pair, b: Scalar, v: Pair) -> Pair:
-    """A u + b v."""
+    """Return a u + b v."""
     return add(scale(a, u[0]), scale(b, v[0])), add(scale(a, u[1]), scale(b, v[1]))
 
 
 def _onto(k: int, u: Pair, v: Pair, s: Pair) -> Pair:
-    """What the powers P^(k + 1) in r₁ and r₂ take of u and v, and s."""
+    """Return s and the terms of the power P^(k + 1) of r₁ for u and of r₂ for v."""
     return combine(R1[k], u, 1.0, combine(R2[k], v, 1.0, s))
 
 
 def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) -> Pair:
-    """H (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w): what rates u + v t/h + ½ w (t/h)² and J add up to.
+    """Return h (r₁(hJ) u + r₂(hJ) v + r₃(hJ) w), the response to rates u + v t/h + ½ w (t/h)².
 
-    Parameters
-    ----------
-    n, r, h
-        Stiffness, and its :func:`resolvent` for the step h, s.
-    u, v, w
-        Rates of Ω, 1/s, and of l_s, 1/s².
+    ``u``, ``v`` and ``w`` are rates of Ω, 1/s, and of l_s, 1/s².
     """
     s = resolve(n, r, combine(R3[2], w, 1.0, combine(R1[2], u, R2[2], v)))
     s = resolve(n, r, _onto(1, u, v, combine(R3[1], w, 1.0, s)))
@@ -180,7 +177,7 @@ def respond(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair, w: Pair) ->
 
 
 def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> Pair:
-    """:func:`respond` to rates u + v t/h."""
+    """Return :func:`respond` for rates u + v t/h."""
     s = resolve(n, r, combine(R1[2], u, R2[2], v))
     s = resolve(n, r, _onto(1, u, v, s))
     s = resolve(n, r, _onto(0, u, v, s))
@@ -188,25 +185,18 @@ def respond_to_line(n: Stiffness, r: Resolvent, h: Scalar, u: Pair, v: Pair) -> 
 
 
 def fluid_change(n: Stiffness, dl_f: Tensor) -> Tensor:
-    """Change of dl_s/dt, 1/s², by a change of the fluid's velocity gradient: c J μ_f σ̃(0; δl_f) b⁻¹.
+    """Return the change of dl_s/dt, 1/s², by a change δl_f, 1/s: c J μ_f σ̃(0; δl_f) b⁻¹.
 
-    But for what depends on l_s alone, 2 dev d_s − 4/3 tr(d_s) I and the solid's viscosity, the traction is a
-    function of l_f − l_s (26), so that the response to l_s says what that to l_f is.
-
-    Parameters
-    ----------
-    n
-        Stiffness of the shape.
-    dl_f
-        Change of l_f, 1/s.
+    Apart from terms in l_s alone, 2 dev d_s − 4/3 tr(d_s) I and the solid's viscosity, the traction is a
+    function of l_f − l_s (26). The response to l_f therefore follows from that to l_s.
     """
     return over_b(n.b, _fluid_stress(n, dl_f))
 
 
 def _fluid_stress(n: Stiffness, dl_f: Tensor) -> Tensor:
-    """The same of Ȧ Fᵀ, 1/s²."""
+    """Return the change of Ȧ Fᵀ by a change of l_f, 1/s²."""
     T, k = _traction_response(n, dl_f), n.weight * n.own
-    third = (1.0 / 3.0) * (dl_f[0] + dl_f[4] + dl_f[8])
+    third = (1.0 / 3.0) * trace(dl_f)
     twice, dilation = 2.0 * k, (2.0 * k + 4.0 * n.weight) * third
     p, q, r = k * (dl_f[5] + dl_f[7]), k * (dl_f[2] + dl_f[6]), k * (dl_f[1] + dl_f[3])
     return (
@@ -219,11 +209,10 @@ def _fluid_stress(n: Stiffness, dl_f: Tensor) -> Tensor:
 def turning_acceleration(
     stretches: Vector, n: Stiffness, c: Scalar, l_s: Tensor, rate: Tensor, l_f: Tensor, tau: Tensor
 ) -> Tensor:
-    """Rate of change of dl_s/dt less its stiff part, 1/s³, along the solution, as far as the body turns.
+    """Return the rate of change of dl_s/dt by rotation, less its stiff part, along the solution, 1/s³.
 
-    The counterpart of :func:`foamprb.body.turning.turning_gradient`. The shape turns with the W of
-    :func:`foamprb.body.turning.shape_spin`, and l_s and the traction with it; the stress turns with the
-    body's own spin.
+    See :func:`foamprb.body.turning.turning_gradient`. Shape, l_s and traction rotate with the W of
+    :func:`foamprb.body.turning.shape_spin`, the stress with the body's own spin.
 
     Parameters
     ----------
@@ -239,47 +228,35 @@ def turning_acceleration(
         Kirchhoff stress, Pa.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
-    stress = scale(-c, turned(add(own, scale(-1.0, W)), tau))
-    seen = add(_traction_response(n, turned(W, l_s)), _fluid_stress(n, turned(W, l_f)))
-    stress = add(stress, add(elastic_response_to_spin(n, own), scale(-1.0, seen)))
+    stress = scale(-c, turned(subtract(own, W), tau))
+    traction = add(_traction_response(n, turned(W, l_s)), _fluid_stress(n, turned(W, l_f)))
+    stress = add(stress, subtract(elastic_response_to_spin(n, own), traction))
     return add(turned(W, rate), over_b(n.b, stress))
 
 
 def first_argument(
     n: Stiffness, quarter: Resolvent, h: Scalar, rate: Pair, change: Tensor, turning: Tensor
 ) -> Pair:
-    """Ω and the change of l_s at a quarter of the step.
-
-    Parameters
-    ----------
-    n, quarter
-        Stiffness and its resolvent for a quarter of the step h, s.
-    rate
-        l_s, 1/s, and dl_s/dt, 1/s², at the start.
-    change
-        :func:`fluid_change` over the step.
-    turning
-        :func:`turning_acceleration`.
-    """
+    """Return Ω and the change of l_s at a quarter of the step."""
     bent = (ZERO, scale(NODE, add(change, scale(h, turning))))
     return respond_to_line(n, quarter, NODE * h, rate, bent)
 
 
 def slope(n: Stiffness, v: Pair, at: Pair, rate: Pair, change: Tensor, per_step: Scalar) -> Pair:
-    """Change of what is not stiff since the start of the step, beside that by the fluid, times ``per_step``.
+    """Return the change of the non-stiff rates since the start, less the known one, times ``per_step``.
 
     Parameters
     ----------
     v, at
-        An argument; what the rate of Ω has there beside l_s, in which it is J v and the rate at the start
-        (:func:`foamprb.body.exponential_runge_kutta.algebra_excess`); and the rate of l_s.
+        An argument, and there :func:`foamprb.body.exponential_runge_kutta.algebra_excess` and the rate of
+        l_s. The rate of Ω is l_s, which J v and the rate at the start cover, plus this excess.
     change
-        What the fluid's gradient has changed by then.
+        The change by the fluid's gradient at that time.
     per_step
         4 for the second evaluation, 1 for the last.
     """
     _, stiff = stiff_rate(n, v)
-    Y = add(at[1], scale(-1.0, add(add(stiff, rate[1]), change)))
+    Y = subtract(at[1], add(add(stiff, rate[1]), change))
     return scale(per_step, at[0]), scale(per_step, Y)
 
 
@@ -292,18 +269,9 @@ def second_order(
     slope: Pair,
     shares: tuple[Scalar, Scalar],
 ) -> tuple[Pair, Pair]:
-    """Ω and change of l_s of order 2, and P of shares of the slope and of the fluid's change, 1/s and 1/s².
+    """Return Ω and change of l_s of order 2, and P of ``shares`` of slope and change, 1/s and 1/s².
 
-    Times ½ h the second is about what those shares have in the first (:func:`resolve`).
-
-    Parameters
-    ----------
-    n, whole, h, rate, change
-        As of :func:`last_argument`.
-    slope
-        :func:`slope` of the second evaluation.
-    shares
-        Of the slope, and of the change.
+    ½ h times the second result is about the contribution of these shares to the first (:func:`resolve`).
     """
     two = respond_to_line(n, whole, h, rate, (slope[0], add(slope[1], change)))
     p, q = shares
@@ -321,8 +289,8 @@ def last_argument(
     slope: Pair,
     turning: Tensor,
 ) -> Pair:
-    """Ω and change of l_s at the end of the step, for the last evaluation; ``bend`` is quadratic in time."""
-    known = add(add(change, scale(-1.0, bend)), scale((1.0 - OVERSHOOT) * h, turning))
+    """Return Ω and change of l_s at the end of the step, for the last evaluation."""
+    known = add(subtract(change, bend), scale((1.0 - OVERSHOOT) * h, turning))
     return respond(n, whole, h, rate, combine(OVERSHOOT, slope, 1.0, (ZERO, known)), (ZERO, scale(2.0, bend)))
 
 
@@ -336,8 +304,8 @@ def third_order(
     slope: Pair,
     last: Pair,
 ) -> Pair:
-    """Ω and change of l_s of order 3, from the slopes of the second and the last evaluation."""
+    """Return Ω and change of l_s of order 3 at the end of the step."""
     f = 1.0 / (1.0 - NODE)
     curve = combine(f, last, -f, slope)
-    linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (ZERO, add(change, scale(-1.0, bend))))
+    linear = combine(1.0, combine(1.0, last, -1.0, curve), 1.0, (ZERO, subtract(change, bend)))
     return respond(n, whole, h, rate, linear, combine(2.0, curve, 2.0, (ZERO, bend)))

@@ -1,15 +1,15 @@
-"""The exact relaxation of the elastic stress over a step, for the body without inertia.
+"""Exact relaxation of the elastic stress over a step, for a body without inertia.
 
-What is stiff in dF/dt = l_s F is the solid's elasticity. With the off-diagonal components of the elastic
-stretch left out, its linear part Y ↦ J Y, the change of l_s along H = Y F, couples in the particle frame only
-the components ij and ji, and the three ii (:mod:`foamprb.body.stokes`). The first are of rank one, the others
-of rank two, so that the functions
+The stiff term of dF/dt = l_s F is the solid's elasticity. Without the off-diagonal components of the elastic
+stretch, its linear part Y ↦ J Y, the change of l_s along H = Y F, couples in the particle frame only the
+components ij and ji, and the three ii (:mod:`foamprb.body.stokes`). The former blocks are of rank one, the
+latter of rank two. The functions
 
     φ₁(z) = (eᶻ − 1)/z,   φ_{k+1}(z) = (φ_k(z) − 1/k!)/z
 
-of h J, by which an exponential integrator advances (Hochbruck & Ostermann, Acta Numerica 19, 2010), have
-closed forms in five rates: φ_k(hJ) Y = Y/k! + h φ_{k+1}(hJ) J Y, where φ_{k+1} is needed on the range of
-J only. All tensors are components in the particle frame of the step's start.
+of h J, by which an exponential integrator advances (Hochbruck & Ostermann, Acta Numerica 19, 2010), therefore
+have closed forms in five rates: φ_k(hJ) Y = Y/k! + h φ_{k+1}(hJ) J Y, with φ_{k+1} on the range of J only.
+All tensors are components in the particle frame of the step's start.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Phi = tuple[Scalar, Scalar, Scalar, Scalar, Scalar]
 """eᶻ, φ₁(z), φ₂(z), φ₃(z) and φ₄(z)."""
 
 _TINY = 1e-300
-# Beyond, eᶻ is nothing beside 1, or the step has long been refused.
+# Beyond, eᶻ is negligible beside 1, or the step is rejected anyway.
 _LARGEST = 40.0
 
 
@@ -40,7 +40,7 @@ def _power_64(x: Scalar) -> Scalar:
 
 
 def phi_functions(z: Scalar) -> Phi:
-    """The functions to 1e-13, for z ≤ 40, without a branch or a library call.
+    """Return the functions to 1e-13 for z ≤ 40, without a branch or a library call.
 
     Below |z| = 1 they follow from the series of φ₄ by φ_k = 1/k! + z φ_{k+1}, beyond it from
     eᶻ = (e^(z/64))⁶⁴ by φ_{k+1} = (φ_k − 1/k!)/z.
@@ -94,7 +94,7 @@ def phi_functions(z: Scalar) -> Phi:
 
 
 def phi_of_twice(p: Phi) -> Phi:
-    """The functions of 2z from those of z: φ_k(2z) = 2⁻ᵏ (eᶻ φ_k(z) + Σ_{j=1}^{k} φ_j(z)/(k − j)!)."""
+    """Return the functions of 2z from those of z: φ_k(2z) = 2⁻ᵏ (eᶻ φ_k(z) + Σ_{j=1}^{k} φ_j(z)/(k − j)!)."""
     e, p1, p2, p3, p4 = p
     return (
         e * e,
@@ -106,20 +106,20 @@ def phi_of_twice(p: Phi) -> Phi:
 
 
 class Relaxation(NamedTuple):
-    """The linear part J of the elastic relaxation, 1/s."""
+    """Linear part J of the elastic relaxation, 1/s."""
 
     squares: Vector
     """e_a², the squared elastic stretches."""
     upper: Vector
     """Y_23, Y_13, Y_12 of J Y for unit Y_ij e_j² + Y_ji e_i²."""
     lower: Vector
-    """Y_32, Y_31, Y_21 of the same."""
+    """Y_32, Y_31, Y_21 likewise."""
     normal: Tensor
     """(J Y)_aa for unit Y_cc; its columns sum to zero."""
 
 
 def relaxation(m: Mobility, e: Elasticity, mu_f: Scalar) -> Relaxation:
-    """Assemble J.
+    """Return J.
 
     Parameters
     ----------
@@ -141,13 +141,13 @@ def relaxation(m: Mobility, e: Elasticity, mu_f: Scalar) -> Relaxation:
 
 
 def _stretchings(n: Relaxation, Y: Tensor) -> Vector:
-    """Y_ij e_j² + Y_ji e_i² of the pairs 23, 13 and 12."""
+    """Return Y_ij e_j² + Y_ji e_i² of the pairs 23, 13 and 12."""
     x, y, z = n.squares
     return Y[5] * z + Y[7] * y, Y[2] * z + Y[6] * x, Y[1] * y + Y[3] * x
 
 
 def _tensor(n: Relaxation, d: Vector, s: Vector) -> Tensor:
-    """The tensor with the diagonal d whose off-diagonal components follow the stretchings s."""
+    """Return the tensor with the diagonal d and the off-diagonal components by the stretchings s."""
     u, l = n.upper, n.lower
     return (
         d[0], u[2] * s[2], u[1] * s[1],
@@ -157,12 +157,12 @@ def _tensor(n: Relaxation, d: Vector, s: Vector) -> Tensor:
 
 
 def relaxing(n: Relaxation, Y: Tensor) -> Tensor:
-    """J Y, the change of l_s by the elastic stress along H = Y F."""
+    """Return J Y, the change of l_s by the elastic stress along H = Y F."""
     return _tensor(n, dot_vector(n.normal, (Y[0], Y[4], Y[8])), _stretchings(n, Y))
 
 
 def _rates(n: Relaxation) -> tuple[Vector, Scalar, Scalar]:
-    """Eigenvalues of J: of the three pairs, and the two of the normal components."""
+    """Return the eigenvalues of J: of the three pairs, and the two of the normal components."""
     x, y, z = n.squares
     u, l = n.upper, n.lower
     pairs = (u[0] * z + l[0] * y, u[1] * z + l[1] * x, u[2] * y + l[2] * x)
@@ -174,7 +174,7 @@ def _rates(n: Relaxation) -> tuple[Vector, Scalar, Scalar]:
 
 
 def fastest(n: Relaxation) -> Scalar:
-    """The fastest rate of J, 1/s, or up to twice as much: the two normal rates count with their sum."""
+    """Return the fastest rate of J, 1/s, or up to twice it: the two normal rates count with their sum."""
     x, y, z = n.squares
     u, l = n.upper, n.lower
     first, second = abs(u[0] * z + l[0] * y), abs(u[1] * z + l[1] * x)
@@ -186,15 +186,15 @@ class Response(NamedTuple):
     """h² φ₂, h² φ₃ and h² φ₄ of h J on its range, for one h, s²."""
 
     pairs: Tensor
-    """Of the pairs 23, 13, 12, in a row each."""
+    """Those of the pairs 23, 13, 12, one row each."""
     along: Vector
-    """Of the normal components: what J is multiplied by, s²,"""
+    """Factors of J for the normal components, s²."""
     bent: Vector
-    """and J², s³. On the range both together are those of the two normal rates."""
+    """Factors of J², s³. On the range, both together equal the functions of the two normal rates."""
 
 
 def _response(p: Phi, q: Phi, r: Phi, s: Phi, t: Phi, h: Scalar, a: Scalar, b: Scalar) -> Response:
-    """From the functions of the rates of the pairs, and of the two normal rates a and b."""
+    """Return the response from the functions of the pairs' rates and of the two normal rates a and b."""
     z1, z2 = h * a, h * b
     d, centre, h2 = 1.0 / (z2 - z1 + _TINY), 0.5 * (z1 + z2), h * h
     x, y, z = (t[2] - s[2]) * d, (t[3] - s[3]) * d, (t[4] - s[4]) * d
@@ -214,7 +214,7 @@ def _response(p: Phi, q: Phi, r: Phi, s: Phi, t: Phi, h: Scalar, a: Scalar, b: S
 
 
 def responses(n: Relaxation, h: Scalar) -> tuple[Response, Response]:
-    """The functions for a quarter of the step h, s, and for the whole of it."""
+    """Return the functions for a quarter of the step h, s, and for the whole step."""
     (a, b, c), d, e = _rates(n)
     f = 0.25 * h
     p, q, r = phi_functions(f * a), phi_functions(f * b), phi_functions(f * c)
@@ -226,14 +226,9 @@ def responses(n: Relaxation, h: Scalar) -> tuple[Response, Response]:
 
 
 def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: Tensor) -> Tensor:
-    """H (φ₁(hJ) Y₁ + φ₂(hJ) Y₂ + φ₃(hJ) Y₃): what rates Y₁ + Y₂ t/h + ½ Y₃ (t/h)² and relaxation add up to.
+    """Return h (φ₁(hJ) Y₁ + φ₂(hJ) Y₂ + φ₃(hJ) Y₃), the response to rates Y₁ + Y₂ t/h + ½ Y₃ (t/h)², 1/s.
 
-    Parameters
-    ----------
-    n, r, h
-        The relaxation, and its functions for the step h, s.
-    Y1, Y2, Y3
-        Rates, 1/s.
+    ``r`` are the functions for the step ``h``, s.
     """
     p1, p2, p3 = _stretchings(n, Y1), _stretchings(n, Y2), _stretchings(n, Y3)
     f = r.pairs
@@ -249,13 +244,13 @@ def respond(n: Relaxation, r: Response, h: Scalar, Y1: Tensor, Y2: Tensor, Y3: T
 
 
 def respond_to_constant(n: Relaxation, r: Response, h: Scalar, Y: Tensor) -> Tensor:
-    """H φ₁(hJ) Y: :func:`respond` to a rate Y."""
+    """Return h φ₁(hJ) Y, :func:`respond` for a rate Y."""
     f = r.pairs
     return _respond_to(n, (f[0], f[3], f[6]), r.along[0], r.bent[0], h, Y)
 
 
 def respond_to_slope(n: Relaxation, r: Response, h: Scalar, Y: Tensor) -> Tensor:
-    """H φ₂(hJ) Y: :func:`respond` to a rate Y t/h."""
+    """Return h φ₂(hJ) Y, :func:`respond` for a rate Y t/h."""
     f = r.pairs
     return _respond_to(n, (f[1], f[4], f[7]), r.along[1], r.bent[1], 0.5 * h, Y)
 
@@ -267,7 +262,7 @@ def _respond_to(n: Relaxation, f: Vector, along: Scalar, bent: Scalar, free: Sca
 
 
 def _along(n: Relaxation, a: Vector, b: Vector) -> Vector:
-    """J a + J² b of the normal components."""
+    """Return J a + J² b of the normal components."""
     c = dot_vector(n.normal, b)
     return dot_vector(n.normal, (a[0] + c[0], a[1] + c[1], a[2] + c[2]))
 

@@ -1,11 +1,25 @@
-"""What is stiff in a deforming body: its elasticity, and with inertia the traction by its own deformation.
+"""Stiff terms of a deforming body: its elasticity and, with inertia, the traction by its own deformation.
 
-Both are linear in a small change of the state, and make up the J of the integrators
+Both are linear in a small change of the state. They form the J of the integrators
 (:mod:`foamprb.body.exponential_runge_kutta`, :mod:`foamprb.body.inertial_runge_kutta`), which are of order 3
-whatever J is. In the particle frame, with the off-diagonal components of the elastic stretch left out, J
-couples only components ij and ji, and the three ii.
+for any J. Without the off-diagonal components of the elastic stretch, J couples in the particle frame only
+the components ij and ji, and the three ii.
 
-All tensors are components in the particle frame Q of the step's start, unless said otherwise.
+All tensors are components in the particle frame Q of the step's start, unless stated otherwise. Common
+arguments:
+
+b, squares
+    Elastic b_e (:func:`foamprb.body.material.finger`), and its diagonal e_a² in the particle frame.
+J
+    det F.
+mu, lame, k
+    Lamé parameters of the solid, Pa, and its third parameter.
+tension
+    γ/R, Pa.
+semi_axes, g
+    a, b, c and their integrals, in one unit of length.
+eta
+    Viscosity of the solid over that of the fluid.
 """
 
 from __future__ import annotations
@@ -18,15 +32,25 @@ from foamprb.body.ellipsoid import Integrals
 from foamprb.body.material import invariants
 from foamprb.body.material import neo_hooke_derivatives as derivatives
 from foamprb.body.material import neo_hooke_dilation as dilation
-from foamprb.body.tensor import Scalar, Tensor, Vector, add_identity, dot, dot_vector, reciprocals
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    add_identity,
+    dot,
+    dot_vector,
+    reciprocals,
+    scale,
+    subtract,
+)
 from foamprb.body.traction import shear_factors
 
 _DIFFERENCE, _PER_DIFFERENCE = 1e-6, 1e6
 
 Shear: TypeAlias = tuple[Scalar, Scalar, Scalar, Scalar]
-"""Of a matrix that takes the components ij and ji to such: its rows, one after the other."""
+"""Rows of a 2×2 matrix that acts on the components ij and ji, one after the other."""
 Pull: TypeAlias = tuple[Scalar, Scalar]
-"""Of one whose two rows are equal, as the elastic stress is symmetric: that row."""
+"""Row of such a matrix with two equal rows, as the elastic stress is symmetric."""
 
 
 class Elasticity(NamedTuple):
@@ -41,46 +65,26 @@ class Elasticity(NamedTuple):
 
 
 def extra_stress(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
-    """Kirchhoff stress but for a pressure, 2(w₁ + I₁w₂) b − 2w₂ b², Pa, in any frame.
-
-    Parameters
-    ----------
-    b, J, mu, lame, k
-        As :func:`kirchhoff`.
-    """
+    """Return the Kirchhoff stress up to a pressure, 2(w₁ + I₁w₂) b − 2w₂ b², Pa, in any frame."""
     I1, I2 = invariants(b)
-    square = dot(b, b)
     w1, w2, _ = derivatives(I1, I2, J, mu, lame, k)
-    p, q = 2.0 * (w1 + I1 * w2), 2.0 * w2
-    return (
-        p * b[0] - q * square[0], p * b[1] - q * square[1], p * b[2] - q * square[2],
-        p * b[3] - q * square[3], p * b[4] - q * square[4], p * b[5] - q * square[5],
-        p * b[6] - q * square[6], p * b[7] - q * square[7], p * b[8] - q * square[8],
-    )  # fmt: skip
+    return subtract(scale(2.0 * (w1 + I1 * w2), b), scale(2.0 * w2, dot(b, b)))
 
 
 def kirchhoff(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
-    """Kirchhoff stress τ = P Fᵀ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I, Pa, in any frame.
-
-    Parameters
-    ----------
-    b, J
-        Elastic b_e (:func:`foamprb.body.material.finger`) and det F.
-    mu, lame, k
-        Lamé parameters of the solid, Pa, and its third parameter.
-    """
+    """Return the Kirchhoff stress τ = P Fᵀ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I, Pa, in any frame."""
     I1, I2 = invariants(b)
     return add_identity(extra_stress(b, J, mu, lame, k), _pressure(I1, I2, J, mu, lame, k))
 
 
 def extra_stress_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
-    """:func:`extra_stress` for a diagonal b: of a body that is a sphere at rest, in its particle frame."""
+    """Return :func:`extra_stress` for a diagonal b: rest shape a sphere, in the particle frame."""
     x, y, z = _principal_extra_stress((b[0], b[4], b[8]), J, mu, lame, k)
     return (x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z)
 
 
 def kirchhoff_in_frame(b: Tensor, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Tensor:
-    """:func:`kirchhoff` for the same."""
+    """Return :func:`kirchhoff` for a diagonal b."""
     I1, I2 = _principal_invariants((b[0], b[4], b[8]))
     return add_identity(extra_stress_in_frame(b, J, mu, lame, k), _pressure(I1, I2, J, mu, lame, k))
 
@@ -102,7 +106,7 @@ def _principal_extra_stress(e: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: S
 
 
 def _strained(J: Scalar) -> tuple[Scalar, Scalar]:
-    """By how much a small extension multiplies e_a², and the J that it leads to."""
+    """Return the factor of e_a² and the new J for a small extension along one axis."""
     h = _DIFFERENCE
     return 1.0 + 2.0 * h + 2.0 * h * h, J * (1.0 + h + 0.5 * h * h)
 
@@ -110,7 +114,7 @@ def _strained(J: Scalar) -> tuple[Scalar, Scalar]:
 def extra_elasticity(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
-    """:func:`elasticity` of :func:`extra_stress`: the columns of the slopes are those but for a pressure."""
+    """Return :func:`elasticity` of :func:`extra_stress`; columns of the slopes are exact up to a pressure."""
     x, y, z = squares
     tau = _principal_extra_stress((x, y, z), J, mu, lame, k)
     per = _PER_DIFFERENCE
@@ -133,16 +137,9 @@ def extra_elasticity(
 def elasticity(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
-    """Derivatives of the stress, by one-sided differences; that of surface tension as for a sphere.
+    """Return the derivatives of the stress by one-sided differences; surface tension as for a sphere.
 
-    Parameters
-    ----------
-    squares, J
-        e_a², the diagonal of b_e in the particle frame, and det F.
-    mu, lame, k
-        Lamé parameters of the solid, Pa, and its third parameter.
-    tension
-        γ/R, Pa. What it adds is 4/5 γ/R to the shear modulus: where it is stiff the body is nearly a sphere.
+    Surface tension adds 4/5 γ/R to the shear modulus: where it is stiff, the body is nearly a sphere.
     """
     x, y, z = squares
     e = extra_elasticity(squares, J, mu, lame, k, tension)
@@ -155,7 +152,7 @@ def elasticity(
 
 
 def _with_pressure(e: Elasticity, px: Scalar, py: Scalar, pz: Scalar) -> Elasticity:
-    """The same of a solid whose pressure changes so, Pa, with each ln e_c."""
+    """Return ``e`` with the changes of pressure per ln e_c, Pa."""
     s = e.slopes
     slopes = (
         s[0] + px, s[1] + py, s[2] + pz,
@@ -168,9 +165,9 @@ def _with_pressure(e: Elasticity, px: Scalar, py: Scalar, pz: Scalar) -> Elastic
 def elasticity_by_dilation(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
-    """:func:`elasticity` of a solid with τ = φ b_e + ψ(J) I and a constant φ, in closed form.
+    """Return :func:`elasticity` of a solid with τ = φ b_e + ψ(J) I and a constant φ, in closed form.
 
-    The solid is one that has a :attr:`foamprb.body.material.Material.dilation`.
+    Such solids have a :attr:`foamprb.body.material.Material.dilation`.
     """
     bulk = dilation(J, mu, lame)
     return _with_pressure(extra_elasticity_by_dilation(squares, J, mu, lame, k, tension), bulk, bulk, bulk)
@@ -179,7 +176,7 @@ def elasticity_by_dilation(
 def extra_elasticity_by_dilation(
     squares: Vector, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar, tension: Scalar
 ) -> Elasticity:
-    """:func:`extra_elasticity` of such a solid."""
+    """Return :func:`extra_elasticity` of a solid with a constant φ; see :func:`elasticity_by_dilation`."""
     x, y, z = squares
     w1, _, _ = derivatives(x + y + z, x * y + y * z + z * x, J, mu, lame, k)
     phi = 2.0 * w1
@@ -193,16 +190,16 @@ def extra_elasticity_by_dilation(
 
 
 def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
-    """Change of the normal stresses (σ̃ − σ_v)_aa/μ_f with the body's own stretching d_s,cc (26).
+    """Return the change of the normal stresses (σ̃ − σ_v)_aa/μ_f with the body's own stretching d_s,cc (26).
 
-    Columns are the responses to unit d_s,cc, its dilation with −4/3 included; σ_v is the viscous stress of a
-    solid whose viscosity is ``eta`` times that of the fluid.
+    Columns are the responses to unit d_s,cc, including −4/3 of its dilation; σ_v is the viscous stress of the
+    solid.
     """
     x, y, z = g.star
     n = 1.0 / (6.0 * (x * y + y * z + z * x))
     f = n * (8.0 / (semi_axes[0] * semi_axes[1] * semi_axes[2]))
-    # By a unit d_cc, s̃_aa (B.5) falls by 2u, 2v or 2w for a = c and rises by as much as u, v or w else; the
-    # pressure 4(α₀A + β₀B + γ₀C) of (B.1) is the same for all a. Dilation is taken out: a row less its mean.
+    # A unit d_cc reduces s̃_aa (B.5) by 2u, 2v or 2w for a = c and increases it by u, v or w otherwise. The
+    # pressure 4(α₀A + β₀B + γ₀C) of (B.1) is the same for all a. Dilation is removed: a row less its mean.
     u, v, w = f * x, f * y, f * z
     total, k = g.alpha[0] + g.alpha[1] + g.alpha[2], 4.0 * n
     p = k * x * (3.0 * g.alpha[0] - total) + u
@@ -222,7 +219,7 @@ def traction_slopes(semi_axes: Vector, g: Integrals, eta: Scalar) -> Tensor:
 def shear_coefficients(
     a: Scalar, b: Scalar, alpha: Scalar, beta: Scalar, ring: Scalar, f: Scalar, eta: Scalar
 ) -> Shear:
-    """Change of (σ̃ − σ_v)_ab/μ_f by the body's l_s,ab and l_s,ba, then that of the component ba.
+    """Return the change of (σ̃ − σ_v)_ab/μ_f by the body's l_s,ab and l_s,ba, then that of component ba.
 
     Parameters
     ----------
@@ -230,8 +227,6 @@ def shear_coefficients(
         Two semi-axes, their α₀, and the third axis' α₀°.
     f
         4/(abc) times the third of :func:`foamprb.body.traction.shear_factors`.
-    eta
-        Viscosity of the solid over that of the fluid.
     """
     a2, b2 = a * a, b * b
     # d = (Y_ab + Y_ba)/2 and w_ba = (Y_ba − Y_ab)/2 in H and H° (B.8), with d and w of the fluid zero.
@@ -242,31 +237,15 @@ def shear_coefficients(
 
 
 def shears(semi_axes: Vector, g: Integrals, eta: Scalar) -> tuple[Shear, Shear, Shear]:
-    """:func:`shear_coefficients` of the pairs 23, 13 and 12, each without a unit.
-
-    Parameters
-    ----------
-    semi_axes, g
-        a, b, c and their integrals, in one unit of length.
-    eta
-        Viscosity of the solid over that of the fluid.
-    """
+    """Return :func:`shear_coefficients` of the pairs 23, 13 and 12, dimensionless."""
     a, b, c = semi_axes
-    # As the traction has it, for one division.
+    # The same division as in the traction, which shares it.
     k, (f, g_, h) = 0.5 * (8.0 / (a * b * c)), shear_factors(semi_axes, g)
     return (
         shear_coefficients(b, c, g.alpha[1], g.alpha[2], g.ring[0], k * f, eta),
         shear_coefficients(a, c, g.alpha[0], g.alpha[2], g.ring[1], k * g_, eta),
         shear_coefficients(a, b, g.alpha[0], g.alpha[1], g.ring[2], k * h, eta),
     )
-
-
-def solve_pair(
-    m11: Scalar, m12: Scalar, m21: Scalar, m22: Scalar, r1: Scalar, r2: Scalar
-) -> tuple[Scalar, Scalar]:
-    """Solution of the two equations."""
-    d = 1.0 / (m11 * m22 - m12 * m21)
-    return d * (m22 * r1 - m12 * r2), d * (m11 * r2 - m21 * r1)
 
 
 class Stiffness(NamedTuple):
@@ -277,11 +256,11 @@ class Stiffness(NamedTuple):
     traction: Tensor
     """c J μ_f times :func:`traction_slopes`, 1/s, with c = 5/(ρ_s R²)."""
     traction_pairs: tuple[Shear, Shear, Shear]
-    """The same of :func:`shear_coefficients`, of 23, 13 and 12."""
+    """c J μ_f times :func:`shear_coefficients` of 23, 13 and 12, 1/s."""
     elastic: Tensor
     """c ∂τ_a/∂ln e_c, 1/s²."""
     elastic_pairs: tuple[Pull, Pull, Pull]
-    """The same of the shear stresses 23, 13 and 12."""
+    """c times the change of the shear stresses 23, 13 and 12, 1/s²."""
     weight: Scalar
     """c J μ_f, 1/s."""
     own: Scalar
@@ -291,7 +270,7 @@ class Stiffness(NamedTuple):
 def inertial_stiffness(
     stretches: Vector, g: Integrals, e: Elasticity, c: Scalar, mu_f: Scalar, eta: Scalar
 ) -> Stiffness:
-    """Assemble the Jacobian.
+    """Return the Jacobian.
 
     Parameters
     ----------
@@ -308,15 +287,8 @@ def inertial_stiffness(
     b = (x * x, y * y, z * z)
     J = x * y * z
     ratio = eta * (1.0 / mu_f)
-    t = traction_slopes(stretches, g, ratio)
     f = c * J * mu_f
-    traction = (f * t[0], f * t[1], f * t[2], f * t[3], f * t[4], f * t[5], f * t[6], f * t[7], f * t[8])
-    s = e.slopes
-    elastic = (
-        c * s[0], c * s[1], c * s[2],
-        c * s[3], c * s[4], c * s[5],
-        c * s[6], c * s[7], c * s[8],
-    )  # fmt: skip
+    traction, elastic = scale(f, traction_slopes(stretches, g, ratio)), scale(c, e.slopes)
     p, q, r = shears(stretches, g, ratio)
     traction_pairs = (
         (f * p[0], f * p[1], f * p[2], f * p[3]),
@@ -333,26 +305,26 @@ def inertial_stiffness(
 
 
 def elastic_response(n: Stiffness, X: Tensor) -> Tensor:
-    """What the displacement H = X F takes from Ȧ Fᵀ through the elastic part of the Jacobian, 1/s²."""
+    """Return the reduction of Ȧ Fᵀ by the displacement H = X F, the elastic part of the Jacobian, 1/s²."""
     d = dot_vector(n.elastic, (X[0], X[4], X[8]))
     yz, xz, xy = _pulled(n, X)
     return (d[0], xy, xz, xy, d[1], yz, xz, yz, d[2])
 
 
 def elastic_response_to_spin(n: Stiffness, W: Tensor) -> Tensor:
-    """:func:`elastic_response` to a skew W."""
+    """Return :func:`elastic_response` to a skew W."""
     yz, xz, xy = _pulled(n, W)
     return (0.0, xy, xz, xy, 0.0, yz, xz, yz, 0.0)
 
 
 def _pulled(n: Stiffness, X: Tensor) -> Vector:
-    """The shear stresses 23, 13 and 12 of :func:`elastic_response`."""
+    """Return the shear stresses 23, 13 and 12 of :func:`elastic_response`."""
     p, q, r = n.elastic_pairs
     return p[0] * X[5] + p[1] * X[7], q[0] * X[2] + q[1] * X[6], r[0] * X[1] + r[1] * X[3]
 
 
 def paired(normal: Tensor, pairs: tuple[Shear, Shear, Shear], X: Tensor) -> Tensor:
-    """What one matrix makes of the X_ii, and those of the pairs 23, 13 and 12 of their X_ij and X_ji."""
+    """Return the products of ``normal`` with the X_ii and of the pairs with their X_ij and X_ji."""
     d, (p, q, r) = dot_vector(normal, (X[0], X[4], X[8])), pairs
     return (
         d[0], r[0] * X[1] + r[1] * X[3], q[0] * X[2] + q[1] * X[6],
@@ -362,15 +334,11 @@ def paired(normal: Tensor, pairs: tuple[Shear, Shear, Shear], X: Tensor) -> Tens
 
 
 def relaxation_rate(n: Stiffness) -> Scalar:
-    """The fastest rate at which drag lets shear stresses relax where it outweighs inertia, 1/s.
+    """Return the fastest rate at which shear stresses relax where drag outweighs inertia, 1/s.
 
-    Without inertia the shear components of dl_s/dt = T Y − E X vanish, Y = dX/dt, so that X decays by the
-    eigenvalues of −T⁻¹E, one for each of the pairs 23, 13 and 12 (the other is 0, a rotation).
-
-    Parameters
-    ----------
-    n
-        :func:`inertial_stiffness`, with T its ``traction_pairs`` and E its ``elastic_pairs``.
+    Without inertia the shear components of dl_s/dt = T Y − E X vanish, Y = dX/dt, with T the
+    ``traction_pairs`` and E the ``elastic_pairs``. X decays by the eigenvalues of −T⁻¹E, one for each of the
+    pairs 23, 13 and 12; the other eigenvalue is 0, a rotation.
     """
     (p, q, r), (e, f, g) = n.traction_pairs, n.elastic_pairs
     x, y, z = reciprocals((_determinant(p), _determinant(q), _determinant(r)))
@@ -382,5 +350,5 @@ def _determinant(T: Shear) -> Scalar:
 
 
 def _trace(T: Shear, E: Pull) -> Scalar:
-    """The one eigenvalue but zero of det(T) T⁻¹E for E = (e, f; e, f)."""
+    """Return the non-zero eigenvalue of det(T) T⁻¹E for E = (e, f; e, f)."""
     return E[0] * (T[3] - T[1]) + E[1] * (T[0] - T[2])

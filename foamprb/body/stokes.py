@@ -1,8 +1,8 @@
-"""The shape without inertia: the body deforms as the balance of traction and elastic stress demands.
+"""Shape without inertia: the balance of traction and elastic stress determines the rate of deformation.
 
 σ̃(l_s; l_f) − 2 η_s d_s = σ(F) is linear in the body's velocity gradient l_s. In the particle frame the
-components ij and ji decouple from the rest, and the diagonal ones form a 3×3 system with the pressure that
-keeps the volume exactly. All tensors are components in that frame.
+components ij and ji decouple from the rest. The diagonal ones form a 3×3 system with the pressure that keeps
+the volume exactly. All tensors are components in that frame.
 """
 
 from __future__ import annotations
@@ -10,22 +10,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from foamprb.body.ellipsoid import Integrals
-from foamprb.body.rosenbrock import Elasticity, solve_pair
-from foamprb.body.tensor import (
-    Scalar,
-    Tensor,
-    Vector,
-    add_identity,
-    dot,
-    dot_vector,
-    inverse,
-    reciprocals,
-    scale,
-)
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, inverse, reciprocals, scale
 
 
 class Mobility(NamedTuple):
-    """The response of l_s to the elastic stress, and of the traction to the fluid."""
+    """Response of l_s to the elastic stress, and of the traction to the fluid."""
 
     normal: Tensor
     """d_s,aa for unit changes of (σ_cc − traction of the fluid)/μ_f; traceless for any stress."""
@@ -38,7 +27,7 @@ class Mobility(NamedTuple):
 
 
 def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
-    """Assemble the response.
+    """Return the response.
 
     Parameters
     ----------
@@ -50,9 +39,9 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     a, b, c = semi_axes
     s = g.star
     f = 8.0 / (6.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) * (a * b * c))
-    # s̃_aa of unit d_cc; minus two of the first where a is c, as s̃ is traceless.
+    # s̃_aa of unit d_cc; −2 times the first for a = c, as s̃ is traceless.
     p, q, r = f * s[0], f * s[1], f * s[2]
-    # The sum of d_s,aa vanishes, so ones may be added everywhere; they keep the matrix regular.
+    # The sum of d_s,aa vanishes, so 1 may be added to every entry; this keeps the matrix regular.
     own = 1.0 - eta
     n = 1.0 + 2.0 * own
     T = (
@@ -79,17 +68,17 @@ def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
 
 
 def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
-    """Velocity gradient l_s of the body, 1/s.
+    """Return the velocity gradient l_s of the body, 1/s.
 
-    The normal components of the fluid's traction need no integrals of their own: with N the mobility of
-    those, whose rows and columns add up to nothing, −N·s̃(e) = e − 2 (1 − η_s/μ_f) N·e for a traceless e.
+    The normal components of the fluid's traction need no further integrals: −N·s̃(e) = e − 2 (1 − η_s/μ_f)
+    N·e for a traceless e, with N the ``normal`` mobility, whose rows and columns sum to zero.
 
     Parameters
     ----------
     m
         :func:`mobility`.
     sigma
-        Elastic Cauchy stress over μ_f, 1/s; symmetric, its mean does not matter.
+        Elastic Cauchy stress over μ_f, 1/s; symmetric, with any mean.
     l_f
         Velocity gradient of the fluid, 1/s.
     """
@@ -106,45 +95,15 @@ def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
 def _off_diagonal(
     compliance: Scalar, slip: Scalar, own: Scalar, sigma: Scalar, lf_ij: Scalar, lf_ji: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """l_s,ij and l_s,ji: free of torque, and σ̃_ij − 2 η_s d_s,ij = σ_ij."""
+    """Return l_s,ij and l_s,ji: free of torque, with σ̃_ij − 2 η_s d_s,ij = σ_ij."""
     d_f, w_ji = 0.5 * (lf_ij + lf_ji), 0.5 * (lf_ji - lf_ij)
     delta = (0.5 * sigma - own * d_f) * compliance
     d_s, ws_ji = d_f - delta, w_ji + slip * delta
     return d_s - ws_ji, d_s + ws_ji
 
 
-def solve_inertialess(m: Mobility, e: Elasticity, gh: Scalar, mu_f: Scalar, r: Tensor) -> Tensor:
-    """Y in Y − γh (∂l_s/∂τ)(δτ(Y)) = r, δτ the change of elastic stress along H = Y F.
-
-    Parameters
-    ----------
-    m, e
-        :func:`mobility` and the solid's elasticity at the start of the step.
-    gh, mu_f
-        γh, s, and the viscosity of the fluid, Pa s.
-    r
-        Right side, a rate of F times F⁻¹, 1/s.
-    """
-    h = gh / mu_f
-    # Columns of slopes belong to ln e_c, which Y_cc changes.
-    M = add_identity(scale(-h, dot(m.normal, e.slopes)), 1.0)
-    d = dot_vector(inverse(M), (r[0], r[4], r[8]))
-    x, y, z = e.squares
-    Y23, Y32 = _solve_pair(0.5 * h * e.shear[0] * m.compliance[0], m.slip[0], y, z, r[5], r[7])
-    Y13, Y31 = _solve_pair(0.5 * h * e.shear[1] * m.compliance[1], m.slip[1], x, z, r[2], r[6])
-    Y12, Y21 = _solve_pair(0.5 * h * e.shear[2] * m.compliance[2], m.slip[2], x, y, r[1], r[3])
-    return (d[0], Y12, Y13, Y21, d[1], Y23, Y31, Y32, d[2])
-
-
-def _solve_pair(
-    c: Scalar, slip: Scalar, bi: Scalar, bj: Scalar, rij: Scalar, rji: Scalar
-) -> tuple[Scalar, Scalar]:
-    p, q = c * (1.0 + slip), c * (1.0 - slip)
-    return solve_pair(1.0 + p * bj, p * bi, q * bj, 1.0 + q * bi, rij, rji)
-
-
 def isochoric(F: Tensor, J: Scalar) -> Tensor:
-    """F with its volume restored, F J^(−1/3), for J near 1 (Newton's iteration for the cube root)."""
+    """Return F J^(−1/3), F with its volume restored, for J near 1 (Newton's iteration for the cube root)."""
     s = 0.0 * J + 1.0
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)
     s = s * (4.0 - J * s * s * s) * (1.0 / 3.0)

@@ -51,6 +51,12 @@ def scale(s: Scalar, T: Tensor) -> Tensor:
     return (s * T[0], s * T[1], s * T[2], s * T[3], s * T[4], s * T[5], s * T[6], s * T[7], s * T[8])
 
 
+def scale_columns(T: Tensor, v: Vector) -> Tensor:
+    """Return T diag(v)."""
+    x, y, z = v
+    return (T[0] * x, T[1] * y, T[2] * z, T[3] * x, T[4] * y, T[5] * z, T[6] * x, T[7] * y, T[8] * z)
+
+
 def add_scaled(S: Tensor, s: Scalar, T: Tensor) -> Tensor:
     """Return S + s T."""
     return add(S, scale(s, T))
@@ -220,15 +226,6 @@ def to_frame(Q: Tensor, T: Tensor) -> Tensor:
 def from_frame(Q: Tensor, T: Tensor) -> Tensor:
     """Return the components T = Qᵀ T' Q in the inertial frame, from T' in the frame Q (2)."""
     return dot(dot(transpose(Q), T), Q)
-
-
-def exponential(K: Tensor) -> Tensor:
-    """Return exp K to fourth order for a small K; a rotation for a skew K.
-
-    exp K = (1 − k)⁻¹·(1 + k) with k = tanh(K/2) = K/2 − K³/24 + O(K⁵), a Cayley transform.
-    """
-    half = add(scale(0.5, K), scale(-1.0 / 24.0, dot(dot(K, K), K)))
-    return dot(inverse(add_identity(scale(-1.0, half), 1.0)), add_identity(half, 1.0))
 
 
 def log_ratio(J: Scalar) -> Scalar:

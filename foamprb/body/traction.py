@@ -61,9 +61,9 @@ def disturbance(semi_axes: Vector, g: Integrals, d: Tensor, w: Tensor) -> tuple[
 def roscoe(semi_axes: Vector, g: Integrals, l_f: Tensor, l_s: Tensor) -> Tensor:
     """Roscoe's traction on a deforming ellipsoid, σ̃/μ_f (26), (27), 1/s.
 
-    σ̃/μ_f = −p̃ I + s̃(d, w) + 2 dev d_s − 4/3 tr(d_s) I with d = dev(d_f − dev d_s), w = w_f − w_s. The paper
-    prints 2 d_s; the two agree where the body keeps its volume. With a dilation, the exact flow around an
-    expanding sphere asks for −4/3 tr(d_s) I, and Jeffery's far field for a traceless d.
+    σ̃/μ_f = −p̃ I + s̃(d, w) + 2 dev d_s − 4/3 tr(d_s) I with d = dev(d_f − dev d_s), w = w_f − w_s. The
+    paper prints 2 d_s; the two agree where the body keeps its volume. With a dilation, the exact flow around
+    an expanding sphere asks for −4/3 tr(d_s) I, and Jeffery's far field for a traceless d.
 
     Parameters
     ----------
