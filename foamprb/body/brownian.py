@@ -1,4 +1,4 @@
-"""Brownian motion: the random force and the random stress by which the fluid's molecules push a soft body.
+"""Brownian motion: random force and random stress of the fluid's molecules on a soft body.
 
 Both follow from the fluctuation–dissipation theorem. Over a step Δt a body without inertia moves with
 v = u + (μ_f K)⁻¹·(f + f_B) and deforms with l_s(σ − T_B; l_f), where f_B and T_B are constant in the inertial
@@ -6,12 +6,13 @@ frame over the step,
 
     ⟨f_B f_B⟩ = 2 k_B T μ_f K/Δt,        ⟨V T_B V T_B⟩ = 2 k_B T V μ_f 𝓡/Δt,
 
-with the resistances K and 𝓡 of the step's start, while the body answers with those of where and what it is.
-To first order in Δt this alone gives the drift k_B T ∇·(μ_f K)⁻¹ and that of the shape (the kinetic
-interpretation of noise, Hütter & Öttinger 1998): particles over a wall come to Boltzmann's distribution of
-heights, and soft bodies to their shapes with the weight exp(−w vol/k_B T), w their stored energy.
+with the resistances K and 𝓡 of the step's start. The body responds with the resistances of its present place
+and shape. To first order in Δt this gives the drift k_B T ∇·(μ_f K)⁻¹ and the drift of the shape (the kinetic
+interpretation of noise, Hütter & Öttinger 1998). Particles over a wall reach Boltzmann's distribution of
+heights, and soft bodies take shapes with the weight exp(−w vol/k_B T), w their stored energy.
 
-All tensors are components in the particle frame.
+All tensors are components in the particle frame. ``r`` is :func:`shape_resistance`, ``xi`` are normal
+deviates.
 """
 
 from __future__ import annotations
@@ -34,14 +35,14 @@ _PAIR = sqrt(0.5)
 
 
 def deviates(particle: Word, step: Word, key: tuple[Word, Word]) -> tuple[Vector, Tensor]:
-    """Three and nine independent normal deviates that belong to a particle and a step.
+    """Return three and nine independent normal deviates of a particle and a step.
 
     Parameters
     ----------
     particle, step
-        Their numbers, unsigned integers of 64 bits, the step's below 2⁶².
+        Their indices, unsigned integers of 64 bits, the step's below 2⁶².
     key
-        Two numbers below 2³²: the seed, and what the numbers are drawn for.
+        Two numbers below 2³²: the seed and the purpose of the deviates.
     """
     low, high = particle & _LOW, particle >> _HALF
     n, rest = step & _LOW, (step >> _HALF) << _TWO
@@ -52,16 +53,10 @@ def deviates(particle: Word, step: Word, key: tuple[Word, Word]) -> tuple[Vector
 
 
 def random_force(K: Tensor, size: Scalar, xi: Vector) -> Vector:
-    """f_B, N, for the resistance K, m, of a body, near walls or not.
+    """Return f_B, N, for the resistance K, m, of a body, near walls or not.
 
-    Parameters
-    ----------
-    K
-        Symmetric and positive definite (:func:`foamprb.body.wall.hindered_resistance`).
-    size
-        √(2 k_B T μ_f/Δt), N/√m.
-    xi
-        Normal deviates.
+    K is symmetric and positive definite (:func:`foamprb.body.wall.hindered_resistance`), ``size`` is
+    √(2 k_B T μ_f/Δt), N/√m.
     """
     # Cholesky's factor of K.
     a = np.sqrt(K[0])
@@ -75,19 +70,19 @@ def random_force(K: Tensor, size: Scalar, xi: Vector) -> Vector:
 class ShapeResistance(NamedTuple):
     """𝓡: the stress T over μ_f that deforms and turns a body with l_s in a fluid at rest.
 
-    It holds the viscous stress of the solid. With s = ½(T_ij + T_ji), t = ½(T_ji − T_ij), i < j, and d and w
-    those of l_s: s = shear d + cross w, t = cross d + spin w; T_aa = normal_a d_aa − p, d without trace.
+    It includes the viscous stress of the solid. With s = ½(T_ij + T_ji), t = ½(T_ji − T_ij), i < j, and d and
+    w the same combinations of l_s: s = shear d + cross w, t = cross d + spin w; T_aa = normal_a d_aa − p, tr
+    d = 0. Shear, cross and spin are those of 23, 13 and 12.
     """
 
     normal: Vector
     shear: Vector
-    """Of 23, 13 and 12, as those that follow."""
     cross: Vector
     spin: Vector
 
 
 def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResistance:
-    """Assemble the resistance; symmetric as Lorentz's theorem says, and positive definite.
+    """Return the resistance: symmetric by Lorentz's theorem, and positive definite.
 
     Parameters
     ----------
@@ -118,16 +113,9 @@ def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResis
 
 
 def random_stress(r: ShapeResistance, size: Scalar, xi: Tensor) -> Tensor:
-    """T_B, Pa; not symmetric: its skew part is the random torque, over the volume.
+    """Return T_B, Pa; its skew part is the random torque over the volume.
 
-    Parameters
-    ----------
-    r
-        :func:`shape_resistance`.
-    size
-        √(2 k_B T μ_f/(V Δt)), √(Pa Pa s), V the volume of the body.
-    xi
-        Normal deviates.
+    ``size`` is √(2 k_B T μ_f/(V Δt)), √(Pa Pa s), with the volume V of the body.
     """
     half = _PAIR * size
     T23, T32 = _random_pair(r.shear[0], r.cross[0], r.spin[0], half, xi[5], xi[7])
@@ -150,16 +138,9 @@ def _random_pair(
 
 
 def response(r: ShapeResistance, T: Tensor) -> Tensor:
-    """Velocity gradient l_s, 1/s, that a stress T gives to the body, to be added to its others.
+    """Return the velocity gradient l_s, 1/s, of a body by a stress T over μ_f, 1/s, symmetric or not.
 
-    For a symmetric T it is what :func:`foamprb.body.stokes.velocity_gradient` gives for σ = −T and l_f = 0.
-
-    Parameters
-    ----------
-    r
-        :func:`shape_resistance`.
-    T
-        Over μ_f, 1/s, symmetric or not.
+    For a symmetric T it equals :func:`foamprb.body.stokes.velocity_gradient` for σ = −T and l_f = 0.
     """
     m = reciprocals(r.normal)
     pressure = (m[0] * T[0] + m[1] * T[4] + m[2] * T[8]) / (m[0] + m[1] + m[2])

@@ -1,4 +1,4 @@
-"""Drag of Stokes flow on an ellipsoid, and the barycentre's step.
+"""Drag of Stokes flow on an ellipsoid, and the step of the barycentre.
 
 A drag law gives the principal resistances K_a, a length each: f_D = μ_f K·(u − v), K = Qᵀ diag(K_a) Q (30).
 """
@@ -11,17 +11,24 @@ from math import pi
 import numpy as np
 
 from foamprb.body.ellipsoid import Integrals, integrals
-from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, reciprocals, select, vector_dot
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    dot_vector,
+    plus,
+    reciprocals,
+    scale_vector,
+    select,
+    vector_dot,
+)
 
 
 def oberbeck(semi_axes: Vector, g: Integrals) -> Vector:
-    """Exact resistances of an ellipsoid, K_a = 16π/(χ + α_a r_a²) (Oberbeck 1876; Kim & Karrila 1991).
+    """Return the exact resistances of an ellipsoid, K_a = 16π/(χ + α_a r_a²).
 
-    Parameters
-    ----------
-    semi_axes, g
-        a, b, c and their integrals, in one unit of length, which is also that of the result. A sphere of
-        radius R has 6πR.
+    Oberbeck (1876), Kim & Karrila (1991). ``semi_axes`` and ``g`` are a, b, c and their integrals, in the
+    unit of length of the result. A sphere of radius R has 6πR.
     """
     a, b, c = semi_axes
     alpha, beta, gamma = g.alpha
@@ -31,10 +38,10 @@ def oberbeck(semi_axes: Vector, g: Integrals) -> Vector:
 
 
 def brenner_prolate(semi_axes: Vector, _g: Integrals) -> Vector:
-    """Resistances of the prolate spheroid with the longest and the shortest axis, K = π r_min k (D.1), (D.2).
+    """Return the resistances of the prolate spheroid of longest and shortest axis, K = π r_min k (D.1, D.2).
 
-    It takes both short axes as the shortest, as the paper's Appendix D does; a sheared soft particle is
-    triaxial, so it is taken for smaller than it is. (D.1) and (D.2) are :func:`oberbeck` for two equal axes.
+    Both short axes are replaced by the shortest, as in the paper's Appendix D. A sheared soft particle is
+    triaxial; its size is therefore underestimated. (D.1) and (D.2) are :func:`oberbeck` for two equal axes.
     """
     a, b, c = semi_axes
     longest = np.maximum(a, np.maximum(b, c))
@@ -48,7 +55,7 @@ def brenner_prolate(semi_axes: Vector, _g: Integrals) -> Vector:
 
 
 def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) -> Vector:
-    """Acceleration by gravity less buoyancy, a_G = (1 − J ρ_f/ρ_s) g (28), (35), m/s².
+    """Return the acceleration by gravity less buoyancy, a_G = (1 − J ρ_f/ρ_s) g (28), (35), m/s².
 
     ``rho_s`` is the density of the undeformed solid; that of the deformed one is ρ_s/J.
     """
@@ -57,7 +64,7 @@ def reduced_gravity(J: Scalar, rho_s: Scalar, rho_f: Scalar, gravity: Vector) ->
 
 
 def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: Vector, dt: Scalar) -> Vector:
-    """Barycentre velocity after an implicit Euler step, in closed form (43).
+    """Return the barycentre velocity after an implicit Euler step, in closed form (43).
 
     (1 + Δt rate_a) v'_a = v_a + Δt (a_G,a + rate_a u_a) along each principal axis.
 
@@ -68,16 +75,11 @@ def implicit_euler(v: Vector, u: Vector, Q: Tensor, rate: Vector, acceleration: 
     Q, rate
         Particle frame (rows) and μ_f K_a/m, 1/s, along its axes.
     acceleration
-        Of every force but drag, m/s².
+        By all forces except drag, m/s².
     dt
         Time step, s. The new position is x + Δt v' (36).
     """
-    load = (
-        v[0] + dt * acceleration[0],
-        v[1] + dt * acceleration[1],
-        v[2] + dt * acceleration[2],
-    )
-    load_p, u_p = dot_vector(Q, load), dot_vector(Q, u)
+    load_p, u_p = dot_vector(Q, plus(v, scale_vector(dt, acceleration))), dot_vector(Q, u)
     r = reciprocals((1.0 + dt * rate[0], 1.0 + dt * rate[1], 1.0 + dt * rate[2]))
     new = (
         (load_p[0] + dt * rate[0] * u_p[0]) * r[0],

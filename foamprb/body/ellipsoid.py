@@ -1,8 +1,8 @@
 """Integrals over the exterior of an ellipsoid, and its shape measures.
 
-The integrals are Jeffery's (B.2), (B.4), (B.9). Each is a Carlson R-function of the squared semi-axes; one
-duplication sum serves all of them, with only positive terms, so that no digit is lost between a sphere and
-axis ratios of 1000.
+The integrals are Jeffery's (B.2), (B.4), (B.9). Each is a Carlson R-function of the squared semi-axes. One
+duplication sum with positive terms serves all of them, without loss of digits from a sphere to axis ratios of
+1000.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, reciprocals, select, transpose
+from foamprb.body.tensor import Scalar, Tensor, Vector, from_rows, norm, reciprocals, rows, select, vector_dot
 
 _DUPLICATIONS, _FEW_DUPLICATIONS = 5, 3
 COMPACT = 4.0
-"""Axis ratio up to which :func:`integrals_of_compact` holds."""
+"""Largest axis ratio for :func:`integrals_of_compact`."""
 
 
 class Integrals(NamedTuple):
@@ -32,16 +32,12 @@ class Integrals(NamedTuple):
 
 
 def _ring_tail(x: Scalar, y: Scalar, z: Scalar, inverse: Scalar) -> Scalar:
-    """m^{5/2} ∫dλ/((y+λ)(z+λ)Δ) for nearly equal x, y, z (squared semi-axes), by its series about their mean.
+    """Return m^{5/2} ∫dλ/((y+λ)(z+λ)Δ) for nearly equal x, y, z (squared semi-axes) by its series about m.
 
-    The integral is (2/5) R_{-5/2}(1/2, 3/2, 3/2; x, y, z). Its series in the power sums of the relative
-    deviations 1 − x/m, 1 − y/m and 1 − z/m (Carlson 1979) is arranged here by x/m − 1 and the square of
-    (y − z)/m, from which all three follow; it ends before the eighth order.
-
-    Parameters
-    ----------
-    inverse
-        1/m of the mean m = (x + 3y + 3z)/7.
+    ``inverse`` is 1/m of the mean m = (x + 3y + 3z)/7. The integral is (2/5) R_{-5/2}(1/2, 3/2, 3/2; x, y,
+    z). Its series in the power sums of the relative deviations 1 − x/m, 1 − y/m and 1 − z/m (Carlson 1979) is
+    arranged by x/m − 1 and the square of (y − z)/m, which determine all three. It is truncated before the
+    eighth order.
     """
     s, d = x * inverse - 1.0, (y - z) * inverse
     t = d * d
@@ -56,10 +52,10 @@ def _ring_tail(x: Scalar, y: Scalar, z: Scalar, inverse: Scalar) -> Scalar:
 
 
 def _tails(x: Scalar, y: Scalar, z: Scalar) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-    """The integral of :func:`_ring_tail` for x, y and z in turn, and 2/√(xyz), of nearly equal x, y, z.
+    """Return :func:`_ring_tail`'s integral for x, y and z in turn, and 2/√(xyz), for nearly equal x, y, z.
 
-    Divisions and roots cost most here. One division gives all reciprocals; one root that of the common mean,
-    and a series in what differs from it, by less than 0.013, gives the others.
+    Divisions and roots dominate the cost. One division gives all reciprocals. One root is that of the common
+    mean; a series in the deviation from it, below 0.013, gives the others.
     """
     p, q, r = (
         (x + 3.0 * (y + z)) * (1.0 / 7.0),
@@ -79,7 +75,7 @@ def _tails(x: Scalar, y: Scalar, z: Scalar) -> tuple[Scalar, Scalar, Scalar, Sca
 
 
 def _reciprocal_root(e: Scalar) -> Scalar:
-    """1/√(1 + e) for |e| below 0.013, to round-off."""
+    """Return 1/√(1 + e) for |e| below 0.013, to round-off."""
     s = 231.0 / 1024.0 - e * (429.0 / 2048.0)
     s = 35.0 / 128.0 - e * (63.0 / 256.0 - e * s)
     s = 3.0 / 8.0 - e * (5.0 / 16.0 - e * s)
@@ -87,22 +83,17 @@ def _reciprocal_root(e: Scalar) -> Scalar:
 
 
 def integrals_of_compact(semi_axes: Vector) -> Integrals:
-    """The same as :func:`integrals` with two duplications fewer; 3e-15 off for axis ratios up to 4."""
+    """Return :func:`integrals` by two duplications fewer, to 3e-15 for axis ratios up to :data:`COMPACT`."""
     return _duplicated(semi_axes, _FEW_DUPLICATIONS)
 
 
 def integrals(semi_axes: Vector) -> Integrals:
-    """Jeffery's integrals for an ellipsoid with the given semi-axes, in any order.
+    """Return Jeffery's integrals for an ellipsoid with the semi-axes a, b, c > 0, in any order and unit.
 
-    Duplication: with s = √x and so on, Λ = s_x s_y + s_y s_z + s_z s_x, the squares x, y, z give way to
-    (x+Λ)/4 = (s_x+s_y)(s_x+s_z)/4, …; what is left of α₀ at step n is 2·4⁻ⁿ/(s_x(s_x+s_y)(s_x+s_z)), and its
-    divided differences, taken analytically, give α₀° (B.10). α₀* = β₀ − c²α₀° with the smaller of b and c.
-    Relative error below 1e-13 for axis ratios up to 1000.
-
-    Parameters
-    ----------
-    semi_axes
-        a, b, c > 0, in any unit of length.
+    Duplication: with s_x = √x etc. and Λ = s_x s_y + s_y s_z + s_z s_x, the squares x, y, z are replaced by
+    (x+Λ)/4 = (s_x+s_y)(s_x+s_z)/4, …. Step n contributes 2·4⁻ⁿ/(s_x(s_x+s_y)(s_x+s_z)) to α₀, and the
+    analytical divided differences of these terms give α₀° (B.10). α₀* = β₀ − c²α₀° with the smaller of b and
+    c. Relative error below 1e-13 for axis ratios up to 1000.
     """
     return _duplicated(semi_axes, _DUPLICATIONS)
 
@@ -155,29 +146,22 @@ def _duplicated(semi_axes: Vector, times: int) -> Integrals:
 
 
 def reach(R: Scalar, F: Tensor, n: Vector) -> Scalar:
-    """Support function R |Fᵀ·n|: how far the ellipsoid reaches from its centre along the unit vector n, m."""
-    h = dot_vector(transpose(F), n)
-    return R * np.sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2])
+    """Return the support function R |Fᵀ·n|, the reach of the ellipsoid along the unit vector n, m."""
+    return R * norm(vector_dot(n, F))
 
 
 def sorted_frame(Q: Tensor, stretches: Vector) -> tuple[Tensor, Vector]:
-    """The principal frame with its axes in falling order of stretch, still a proper rotation.
-
-    Parameters
-    ----------
-    Q, stretches
-        As :func:`foamprb.body.tensor.principal_frame` returns them.
-    """
-    p, q, r = (Q[0], Q[1], Q[2]), (Q[3], Q[4], Q[5]), (Q[6], Q[7], Q[8])
+    """Return a principal frame with axes in descending order of stretch, still a proper rotation."""
+    p, q, r = rows(Q)
     a, b, c = stretches
     a, b, p, q = _in_order(a, b, p, q)
     b, c, q, r = _in_order(b, c, q, r)
     a, b, p, q = _in_order(a, b, p, q)
-    return (p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2]), (a, b, c)
+    return from_rows(p, q, r), (a, b, c)
 
 
 def _in_order(a: Scalar, b: Scalar, p: Vector, q: Vector) -> tuple[Scalar, Scalar, Vector, Vector]:
-    """Two axes with the longer one first; a swap mirrors the frame, the sign makes it a rotation again."""
+    """Return two axes with the longer one first; a swap changes a sign to keep the frame a rotation."""
     swap = a < b
     return (
         select(swap, b, a),
@@ -188,5 +172,5 @@ def _in_order(a: Scalar, b: Scalar, p: Vector, q: Vector) -> tuple[Scalar, Scala
 
 
 def taylor_deformation(a: Scalar, b: Scalar) -> Scalar:
-    """Taylor's deformation parameter D = (a − b)/(a + b) (54)."""
+    """Return Taylor's deformation parameter D = (a − b)/(a + b) (54)."""
     return (a - b) / (a + b)

@@ -1,4 +1,4 @@
-"""Orders of magnitude: which effects matter to a soft sphere in a shear flow, near a wall or not."""
+"""Orders of magnitude of all effects on a soft sphere in a shear flow, near a wall or not."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Sphere(NamedTuple):
 
 
 class Surroundings(NamedTuple):
-    """The fluid and its flow where the sphere is."""
+    """Fluid and flow at the sphere."""
 
     mu: float
     """Viscosity, Pa s."""
@@ -29,7 +29,7 @@ class Surroundings(NamedTuple):
     shear_rate: float
     """1/s."""
     wall_distance: float = inf
-    """Of the sphere's centre from the nearest wall, m."""
+    """Distance of the sphere's centre from the nearest wall, m."""
     temperature: float = 293.15
     """K."""
     gravity: float = 9.81
@@ -37,41 +37,41 @@ class Surroundings(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """What :func:`estimate` finds."""
+    """Result of :func:`estimate`."""
 
     capillary_number: float
     """Ca = μ_f γ̇/μ_s: strain of the shape, Taylor's D = 5/4 Ca where small."""
     reynolds_number: float
-    """Re_p = ρ_f γ̇ d²/μ_f. Creeping flow wants it far below 1."""
+    """Re_p = ρ_f γ̇ d²/μ_f, far below 1 in creeping flow."""
     stokes_number: float
-    """γ̇ τ_p with τ_p = ρ_s d²/(18 μ_f): how long the sphere remembers its velocity."""
+    """γ̇ τ_p with the relaxation time of the velocity τ_p = ρ_s d²/(18 μ_f)."""
     peclet_number: float
-    """γ̇ R²/D: shear over diffusion. Below 1 molecules set the orientation."""
+    """γ̇ R²/D, shear over diffusion. Below 1 Brownian motion determines the orientation."""
     settling_speed: float
     """(ρ_s − ρ_f) g d²/(18 μ_f), m/s, negative upwards."""
     lift_speed: float
-    """By the wall, k γ̇ R³/h², m/s; 0 without a wall."""
+    """Lift by the wall, k γ̇ R³/h², m/s; 0 without a wall."""
     diffusion_coefficient: float
     """D = k_B T/(3π μ_f d), m²/s."""
     thermal_strain: float
-    """√⟨ε:ε⟩ = √(5 k_B T/(2 μ_s V)) of the shape at rest."""
+    """√⟨ε:ε⟩ = √(5 k_B T/(2 μ_s V)) of the rest shape."""
     settling_length: float
-    """In the residence time, m, as those that follow."""
+    """Distance in the residence time, m, like the next two."""
     lift_length: float
     """(h³ + 3 k γ̇ R³ t)^{1/3} − h."""
     diffusion_length: float
     """√(2 D t)."""
     lift_height: float
-    """h where the lift balances weight, √(k γ̇ R³/v_settling), m; infinite for a sphere without weight."""
+    """Height h at which lift balances weight, √(k γ̇ R³/v_settling), m; infinite without weight."""
 
 
 def shear_modulus(capillary_number: float, mu_f: float, shear_rate: float) -> float:
-    """μ_s = μ_f γ̇/Ca, Pa."""
+    """Return μ_s = μ_f γ̇/Ca, Pa."""
     return mu_f * shear_rate / capillary_number
 
 
 def lift_coefficient(capillary_number: float) -> float:
-    """k = v h²/(γ̇ R³) of the lift on a soft sphere far above a wall in shear.
+    """Return k = v h²/(γ̇ R³) of the lift on a soft sphere far above a wall in shear.
 
     A fit to the steady stresslet of a neo-Hooke body (:func:`foamprb.body.wall.stresslet_velocity`), with
     225/224 Ca for small Ca; within 0.3 % for Ca ≤ 1 and within 7 % up to 2.
@@ -81,15 +81,10 @@ def lift_coefficient(capillary_number: float) -> float:
 
 
 def estimate(sphere: Sphere, around: Surroundings, residence_time: float) -> Estimate:
-    """Dimensionless numbers, speeds and distances of a soft sphere.
+    """Return dimensionless numbers, speeds and distances of a soft sphere for a residence time, s.
 
-    All are those of a round body, alone, and the lift is a point stresslet's, too large by some 5/3 (R/h)² of
-    itself: they tell which models to use, not what comes out.
-
-    Parameters
-    ----------
-    residence_time
-        For which it is in the flow, s.
+    They hold for a single round body. The lift is that of a point stresslet, too large by a relative 5/3
+    (R/h)². The numbers show which models are relevant; they do not replace a run.
     """
     R, rate = 0.5 * sphere.d, around.shear_rate
     tau = sphere.rho * sphere.d**2 / (18.0 * around.mu)
@@ -115,7 +110,7 @@ def estimate(sphere: Sphere, around: Surroundings, residence_time: float) -> Est
 
 
 def _rise(h: float, cubes: float) -> float:
-    """(h³ + cubes)^{1/3} − h, without cancellation."""
+    """Return (h³ + cubes)^{1/3} − h, without cancellation."""
     if h == inf:
         return 0.0
     top = cbrt(h**3 + cubes)

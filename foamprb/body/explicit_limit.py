@@ -1,22 +1,19 @@
-"""For how long a step the paper's scheme is stable, whatever shape the body has.
+"""Stability limit of the paper's scheme, for any shape.
 
-The scheme takes the traction σ̃ at the old deformation gradient and its old rate A (46), and the elastic
-stress at the new one. A disturbance Y = δA F⁻¹ of the rate that changes its sign with every step neither
-grows nor decays where
+The scheme evaluates the traction σ̃ at the old deformation gradient and its old rate A (46), and the elastic
+stress at the new one. A disturbance Y = δA F⁻¹ of the rate that alternates in sign is neutrally stable where
 
     2 Y b + ½ Δt² c E(Y) − Δt c J μ_f D(Y) = 0,   b = F Fᵀ,   c = 5/(ρ_s R²).
 
-Here −μ_f D is the change of the traction, and of the stress of the solid's own viscosity, by the body's
-velocity gradient (`traction_slopes` and `shears` of :mod:`foamprb.body.rosenbrock`). E(Y) =
-δτ − tr(Y) τ is the tangent of the elastic stress less that of the traction's Piola stress, the two in
-balance. In the particle frame the components ij and ji decouple from the rest, and so do the three ii.
-There remain three 2×2 matrices and one of 3×3; the step is stable as long as all their eigenvalues have
-positive real parts.
+Here −μ_f D is the change of the traction, and of the viscous stress of the solid, by the body's velocity
+gradient (`traction_slopes` and `shears` of :mod:`foamprb.body.rosenbrock`). E(Y) = δτ − tr(Y) τ is the
+tangent of the elastic stress less that of the traction's Piola stress, with both in balance. In the particle
+frame the components ij and ji decouple from the rest, and so do the three ii: three 2×2 matrices and one 3×3
+matrix. The step is stable if all their eigenvalues have positive real parts.
 
-A sphere without elasticity has D = 3, and 4 in dilation: Δt < 2 τ_s and 3/2 τ_s with τ_s = ρ_s R²/(15
-μ_f). A thin axis has little inertia, so that the limit shrinks as the square of the shortest axis;
-elasticity moves it up. Beyond the limit the scheme does not blow up: the oscillation saturates, and the
-body stays shorter than it should be.
+A sphere without elasticity has D = 3, and 4 in dilation: Δt < 2 τ_s and 3/2 τ_s with τ_s = ρ_s R²/(15 μ_f). A
+thin axis has little inertia: the limit is proportional to the square of the shortest axis. Elasticity raises
+it. Beyond the limit the scheme does not blow up: the oscillation saturates, and the deformation is too small.
 """
 
 from __future__ import annotations
@@ -27,14 +24,25 @@ import numpy as np
 
 from foamprb.body.ellipsoid import Integrals
 from foamprb.body.rosenbrock import Elasticity, shears, traction_slopes
-from foamprb.body.tensor import Scalar, Tensor, Vector, det
+from foamprb.body.tensor import (
+    Scalar,
+    Tensor,
+    Vector,
+    add,
+    add_identity,
+    det,
+    scale,
+    scale_columns,
+    subtract,
+    trace,
+)
 
 _TRACTION = 4.0
-"""No eigenvalue of D b⁻¹ exceeds this times 1/λ², λ the smallest stretch."""
+"""Bound of the eigenvalues of D b⁻¹ times λ², λ the smallest stretch."""
 
 
 def safe_step(stretches: Vector, c: Scalar, mu_f: Scalar, eta: Scalar) -> Scalar:
-    """A step, s, that is stable whatever the elasticity: 3/2 τ_s λ²/J for η_s = 0, λ the smallest stretch.
+    """Return a step, s, stable for any elasticity: 3/2 τ_s λ²/J for η_s = 0, λ the smallest stretch.
 
     Parameters
     ----------
@@ -55,8 +63,8 @@ def _pair_is_stable(a: Scalar, b: Scalar, c: Scalar, d: Scalar) -> Any:
 
 
 def _is_stable(M: Tensor) -> Any:
-    """Whether the eigenvalues of M have positive real parts (Routh and Hurwitz)."""
-    t = M[0] + M[4] + M[8]
+    """Return whether the eigenvalues of M have positive real parts (Routh and Hurwitz)."""
+    t = trace(M)
     minors = M[0] * M[4] - M[1] * M[3] + M[0] * M[8] - M[2] * M[6] + M[4] * M[8] - M[5] * M[7]
     d = det(M)
     return (t > 0.0) & (d > 0.0) & (t * minors > d)
@@ -72,14 +80,14 @@ def is_stable(
     mu_f: Scalar,
     eta: Scalar,
 ) -> Any:
-    """Whether the paper's step dt is stable for a shape.
+    """Return whether the paper's step dt is stable for a shape.
 
     Parameters
     ----------
     dt
         The step, s.
     stretches, g
-        λ_a and the integrals of them.
+        λ_a and their integrals.
     e, tau
         Elasticity, with the resistance to dilation, and normal Kirchhoff stresses there, Pa.
     c
@@ -93,20 +101,10 @@ def is_stable(
     J = x * y * z
     ratio = eta / mu_f
     f, h = dt * c * J * mu_f, 0.5 * dt * dt * c
-    t, s = traction_slopes(stretches, g, ratio), e.slopes
-    normal = _is_stable(
-        (
-            2.0 + (f * t[0] + h * (s[0] - tau[0])) * rx,
-            (f * t[1] + h * (s[1] - tau[0])) * ry,
-            (f * t[2] + h * (s[2] - tau[0])) * rz,
-            (f * t[3] + h * (s[3] - tau[1])) * rx,
-            2.0 + (f * t[4] + h * (s[4] - tau[1])) * ry,
-            (f * t[5] + h * (s[5] - tau[1])) * rz,
-            (f * t[6] + h * (s[6] - tau[2])) * rx,
-            (f * t[7] + h * (s[7] - tau[2])) * ry,
-            2.0 + (f * t[8] + h * (s[8] - tau[2])) * rz,
-        )
-    )
+    own = scale(f, traction_slopes(stretches, g, ratio))
+    u, v, w = tau
+    elastic = scale(h, subtract(e.slopes, (u, u, u, v, v, v, w, w, w)))
+    normal = _is_stable(add_identity(scale_columns(add(own, elastic), (rx, ry, rz)), 2.0))
     (e1, e2, e3), (s23, s13, s12) = e.squares, e.shear
     p, q, r = shears(stretches, g, ratio)
     return (

@@ -1,4 +1,4 @@
-"""Faxén's correction: what a flow that is curved over a body gives to its velocity."""
+"""Faxén's correction: change of a body's velocity by the curvature of the flow."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ Curvature: TypeAlias = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
 
 
 def curvature_of(l_x: Tensor, l_y: Tensor, l_z: Tensor) -> Curvature:
-    """Second derivatives of the velocity, 1/(m s), from the derivatives of its gradient along x, y and z.
+    """Return the second derivatives of the velocity, 1/(m s), from those of its gradient along x, y and z.
 
-    Where a mixed one comes out in two ways it is the mean of both.
+    A mixed derivative is the mean of its two values.
     """
     return (
         (l_x[0], l_x[3], l_x[6]),
@@ -26,19 +26,13 @@ def curvature_of(l_x: Tensor, l_y: Tensor, l_z: Tensor) -> Curvature:
 
 
 def faxen_velocity(C: Tensor, curvature: Curvature) -> Vector:
-    """⅙ C:∇∇u = ⅙ Σ a_i² (e_i·∇)² u, m/s: a body without load moves with u + ⅙ C:∇∇u.
+    """Return ⅙ C:∇∇u = ⅙ Σ a_i² (e_i·∇)² u, m/s: a body without load moves with u + ⅙ C:∇∇u.
 
-    The first term of (sinh D/D − 1) u with D² = C:∇∇ (Brenner 1964; Kim & Karrila 1991), and all of it where
-    the velocity is a polynomial of third degree at most. A sphere has ⅙ R² ∇²u. The drag is then
-    μ_f K·(u + ⅙ C:∇∇u − v). In a unidirectional flow the correction is along the flow: the body lags, and
-    does not migrate.
-
-    Parameters
-    ----------
-    C
-        Shape tensor Σ a_i² e_i e_i = R² F Fᵀ, m².
-    curvature
-        Of the undisturbed flow at the centre.
+    C = Σ a_i² e_i e_i = R² F Fᵀ is the shape tensor, m²; ``curvature`` is that of the undisturbed flow at the
+    centre. The result is the first term of (sinh D/D − 1) u with D² = C:∇∇ (Brenner 1964; Kim & Karrila
+    1991), and exact for a velocity polynomial of degree 3 or less. For a sphere it is ⅙ R² ∇²u. The drag is
+    then μ_f K·(u + ⅙ C:∇∇u − v). In a unidirectional flow the correction is along the flow: the body lags,
+    and does not migrate.
     """
     xx, yy, zz, xy, yz, xz = curvature
     a, b, c, d, e, f = C[0] / 6.0, C[4] / 6.0, C[8] / 6.0, C[1] / 3.0, C[5] / 3.0, C[2] / 3.0

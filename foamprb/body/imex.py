@@ -1,6 +1,6 @@
 """The paper's implicit–explicit Euler step of the shape (Sect. 4.2, Appendix E).
 
-The traction's stress σ̃* is taken at the old shape; the new deformation gradient solves
+The stress σ̃* of the traction is that of the old shape. The new deformation gradient solves
 
     R(F) = F − Fⁿ − Δt Aⁿ − κ [J σ̃* F⁻ᵀ − P(F)] = 0,   κ = Δt² vol₀/Θ = 5 Δt²/(ρ_s R²)
 
@@ -10,7 +10,18 @@ With H = X G and P = φ F M + ψ F⁻ᵀ, Newton's equation times Gᵀ is
     X B + κ S Xᵀ − κ tr(X) D = r,   r = B − G* Gᵀ − κ S,
 
 where B = G Gᵀ + κφ b_e with the elastic b_e = G M Gᵀ, G* = Q·(Fⁿ + Δt Aⁿ), S = Jσ̃* − ψ I and
-D = Jσ̃* − (J dψ/dJ) I: this is (50), in which M = I and b_e = G Gᵀ.
+D = Jσ̃* − (J dψ/dJ) I. This is (50) for M = I, b_e = G Gᵀ. Arguments of the iteration:
+
+G, predictor
+    The iterate Q·F, and G*.
+stress
+    σ̃*, Pa, particle frame.
+kappa
+    :func:`inertia_factor`, 1/Pa.
+mu, lame
+    Lamé parameters of the solid, Pa.
+M
+    Rest shape; see :func:`foamprb.body.material.finger`.
 """
 
 from __future__ import annotations
@@ -33,6 +44,7 @@ from foamprb.body.tensor import (
     reciprocals,
     scale,
     select,
+    subtract,
     trace,
     transpose,
 )
@@ -40,7 +52,7 @@ from foamprb.body.tensor import (
 _TINY = 1e-300
 
 RELATIVE_TOLERANCE = 1e-12
-"""Largest estimated relative error of F that a step may leave."""
+"""Largest estimated relative error of F after a step."""
 
 
 class Newton(NamedTuple):
@@ -54,12 +66,12 @@ class Newton(NamedTuple):
 
 
 def inertia_factor(dt: Scalar, rho: Scalar, R: Scalar) -> Scalar:
-    """κ = 5 Δt²/(ρ_s R²), 1/Pa, of a sphere at rest with Θ = m R²/5 I."""
+    """Return κ = 5 Δt²/(ρ_s R²), 1/Pa, for a sphere at rest with Θ = m R²/5 I."""
     return 5.0 * dt * dt / (rho * R * R)
 
 
 def relaxation_time(rho: Scalar, R: Scalar, mu_f: Scalar, eta: Scalar = 0.0) -> Scalar:
-    """Inertial relaxation time of a sphere's shape, τ_s = ρ_s R²/(5 (3 μ_f + 2 η_s)), s.
+    """Return the inertial relaxation time of a sphere's shape, τ_s = ρ_s R²/(5 (3 μ_f + 2 η_s)), s.
 
     ``eta`` is the viscosity of the solid, Pa s.
     """
@@ -69,36 +81,22 @@ def relaxation_time(rho: Scalar, R: Scalar, mu_f: Scalar, eta: Scalar = 0.0) -> 
 def equation(
     G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
 ) -> Newton:
-    """Newton's equation (49), (50) at the iterate G.
-
-    Parameters
-    ----------
-    G, predictor
-        The iterate Q·F and Q·(Fⁿ + Δt Aⁿ).
-    stress
-        σ̃*, Pa, particle frame.
-    kappa
-        :func:`inertia_factor`, 1/Pa.
-    mu, lame
-        Lamé parameters of the solid, Pa.
-    M
-        Shape at rest, as :func:`foamprb.body.material.finger` takes it.
-    """
+    """Return Newton's equation (49), (50) at the iterate G."""
     J = det(G)
     b = dot(G, transpose(G))
-    # φ = 2 w₁ is a constant of the solids that this scheme takes, ψ = J w_J a function of J.
+    # φ = 2 w₁ is constant for the solids of this scheme, ψ = J w_J a function of J.
     w1, _, wJ = derivatives(3.0, 3.0, J, mu, lame, 0.0)
     phi, psi, bulk = 2.0 * w1, J * wJ, dilation(J, mu, lame)
     traction = scale(J, stress)
     S = add_identity(traction, -psi)
     D = add_identity(traction, -bulk)
     B = add(b, scale(kappa * phi, finger(G, M)))
-    r = add(add(B, scale(-kappa, S)), scale(-1.0, dot(predictor, transpose(G))))
+    r = subtract(add(B, scale(-kappa, S)), dot(predictor, transpose(G)))
     return Newton(kappa, B, S, D, r)
 
 
 def tangent(n: Newton, X: Tensor) -> Tensor:
-    """The left side X B + κ S Xᵀ − κ tr(X) D for the increment H = X G (50)."""
+    """Return the left side X B + κ S Xᵀ − κ tr(X) D for the increment H = X G (50)."""
     T = add(dot(X, n.B), scale(n.kappa, dot(n.S, transpose(X))))
     return add(T, scale(-n.kappa * trace(X), n.D))
 
@@ -106,12 +104,12 @@ def tangent(n: Newton, X: Tensor) -> Tensor:
 def _pair(
     d: Scalar, Bi: Scalar, Bj: Scalar, q: Scalar, s: Scalar, rij: Scalar, rji: Scalar
 ) -> tuple[Scalar, Scalar]:
-    """X_ij and X_ji from B_j X_ij + q X_ji = r_ij and B_i X_ji + s X_ij = r_ji, d the inverse determinant."""
+    """Solve B_j X_ij + q X_ji = r_ij and B_i X_ji + s X_ij = r_ji; d is the inverse determinant."""
     return d * (Bi * rij - q * rji), d * (Bj * rji - s * rij)
 
 
 def solve_diagonal(n: Newton, r: Tensor) -> Tensor:
-    """X for the right side r with the off-diagonal components of B, S and D left out, in closed form."""
+    """Return X for the right side r without the off-diagonal components of B, S and D, in closed form."""
     B1, B2, B3 = n.B[0], n.B[4], n.B[8]
     s1, s2, s3 = n.kappa * n.S[0], n.kappa * n.S[4], n.kappa * n.S[8]
     e1, e2, e3 = reciprocals((B1 + s1, B2 + s2, B3 + s3))
@@ -127,42 +125,28 @@ def solve_diagonal(n: Newton, r: Tensor) -> Tensor:
 
 
 def solve(n: Newton) -> Tensor:
-    """X of Newton's equation, to second order in its off-diagonal components."""
+    """Return X of Newton's equation, to second order in its off-diagonal components."""
     X = solve_diagonal(n, n.r)
-    return add(X, solve_diagonal(n, add(n.r, scale(-1.0, tangent(n, X)))))
+    return add(X, solve_diagonal(n, subtract(n.r, tangent(n, X))))
 
 
 def improve(
     G: Tensor, predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
 ) -> tuple[Tensor, Scalar]:
-    """One iteration from G: the next iterate, and the size |X| of the relative correction.
-
-    Parameters
-    ----------
-    As :func:`equation`.
-    """
+    """Return the next iterate after G, and the size |X| of the relative correction."""
     X = solve(equation(G, predictor, stress, kappa, mu, lame, M))
-    return add(G, scale(-1.0, dot(X, G))), np.sqrt(ddot(X, X))
+    return subtract(G, dot(X, G)), np.sqrt(ddot(X, X))
 
 
 def advance(
     predictor: Tensor, stress: Tensor, kappa: Scalar, mu: Scalar, lame: Scalar, M: Tensor
 ) -> tuple[Tensor, Scalar]:
-    """New deformation gradient in the old particle frame, and the estimated error of the iteration.
+    """Return the new deformation gradient in the old particle frame, G = Q·Fⁿ⁺¹, and the error |δG G⁻¹|.
 
-    Three iterations from the predictor. The error is that of a sequence which goes on contracting as it did
-    last; where it exceeds :data:`RELATIVE_TOLERANCE` the caller solves the equation densely.
-
-    Parameters
-    ----------
-    As :func:`equation`.
-
-    Returns
-    -------
-    G, error
-        G = Q·Fⁿ⁺¹ and the estimate of |δG G⁻¹|; a non-finite error is one above any tolerance.
+    Three iterations from the predictor. The error estimate assumes that the last contraction continues. Where
+    it exceeds :data:`RELATIVE_TOLERANCE`, or is not finite, the caller solves the equation densely.
     """
-    # Three iterations, written out: a loop here would keep the compiler from vectorising the one over lanes.
+    # Three iterations, written out: a loop here would prevent vectorisation of the loop over lanes.
     G, _ = improve(predictor, predictor, stress, kappa, mu, lame, M)
     G, before = improve(G, predictor, stress, kappa, mu, lame, M)
     G, last = improve(G, predictor, stress, kappa, mu, lame, M)

@@ -1,12 +1,12 @@
-"""Solids, each a stored energy of the invariants I₁, I₂ of the elastic b and J = det F; and what they share.
+"""Solids, each a stored energy of the invariants I₁, I₂ of the elastic b and J = det F.
 
-A solid has a shear modulus μ, Lamé's λ and, if it needs one, a third parameter k. The Kirchhoff stress
-follows from the energy's derivatives, τ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I; it and its tangent are formed
-elsewhere, so that a new solid is its energy, its derivatives and a line in :data:`MATERIALS`;
-:func:`add_material` adds one from outside, for which the energy is enough.
+A solid has a shear modulus μ, Lamé's λ and, optionally, a third parameter k. The Kirchhoff stress follows
+from the derivatives of the energy, τ = 2(w₁ + I₁w₂) b − 2w₂ b² + J w_J I. It and its tangent are formed in
+:mod:`foamprb.body.rosenbrock`. A new solid consists of its energy, its derivatives and a line in
+:data:`MATERIALS`; :func:`add_material` adds a user's solid, for which the energy is sufficient.
 
-A body at rest is an ellipsoid that a symmetric F₀, det F₀ = 1, makes of the sphere of the same volume. The
-deformation gradient F refers to that sphere throughout; only the elastic stress knows of F₀, through
+The rest shape is an ellipsoid, the image of the sphere of equal volume under a symmetric F₀, det F₀ = 1. The
+deformation gradient F refers to that sphere throughout. Only the elastic stress depends on F₀, through
 b_e = F M Fᵀ with M = F₀⁻² (:func:`finger`).
 """
 
@@ -39,7 +39,7 @@ Derivatives = Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], tuple[S
 
 
 class Parameter(NamedTuple):
-    """A solid's third parameter k: its entry in the settings, and its range, ``lower`` < k ≤ ``upper``."""
+    """Third parameter k of a solid: its settings entry and its range, ``lower`` < k ≤ ``upper``."""
 
     entry: str
     lower: float
@@ -47,21 +47,21 @@ class Parameter(NamedTuple):
 
 
 class Material(NamedTuple):
-    """An isotropic hyperelastic solid."""
+    """Isotropic hyperelastic solid."""
 
     energy: Callable[[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar], Scalar]
     """Stored energy per undeformed volume w₀(I₁, I₂, J, μ, λ, k), J/m³."""
     derivatives: Derivatives
-    """∂w₀/∂I₁, ∂w₀/∂I₂ and ∂w₀/∂J of the same, Pa."""
+    """∂w₀/∂I₁, ∂w₀/∂I₂ and ∂w₀/∂J, Pa."""
     parameter: Parameter | None = None
     dilation: Callable[[Scalar, Scalar, Scalar], Scalar] | None = None
-    """J d(J w_J)/dJ of (J, μ, λ), Pa, where P = φ F + ψ(J) F⁻ᵀ with φ constant: for the paper's scheme."""
+    """J d(J w_J)/dJ of (J, μ, λ), Pa, if P = φ F + ψ(J) F⁻ᵀ with φ constant: for the paper's scheme."""
     isochoric: bool = True
-    """Whether a pressure may stand for λ, as the integrator without inertia has it."""
+    """Whether a pressure may replace λ, as in the integrator without inertia."""
 
 
 def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
-    """w₀ = ½ μ (I₁ − 3 − 2 ln J) + ½ λ ln² J, J/m³."""
+    """Return w₀ = ½ μ (I₁ − 3 − 2 ln J) + ½ λ ln² J, J/m³."""
     log_J = log_ratio(J)
     return 0.5 * mu * (I1 - 3.0 - 2.0 * log_J) + 0.5 * lame * log_J * log_J
 
@@ -69,22 +69,22 @@ def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scala
 def neo_hooke_derivatives(
     _I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """½ μ, 0 and (λ ln J − μ)/J, Pa: P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ (24), where the paper prints F⁻¹ once."""
+    """Return ½ μ, 0 and (λ ln J − μ)/J, Pa: P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ (24); the paper prints F⁻¹ once."""
     return 0.5 * mu, 0.0 * mu, (lame * log_ratio(J) - mu) / J
 
 
 def neo_hooke_dilation(_J: Scalar, _mu: Scalar, lame: Scalar) -> Scalar:
-    """J dψ/dJ = λ for ψ = λ ln J − μ, Pa."""
+    """Return J dψ/dJ = λ for ψ = λ ln J − μ, Pa."""
     return lame
 
 
 def _mooney_rivlin_moduli(mu: Scalar, lame: Scalar, k: Scalar) -> tuple[Scalar, Scalar, Scalar]:
-    """c₁ = ½ μ(1 − k), c₂ = ½ μ k and λ' = λ − 4c₂, Pa, with which λ is that of small strains."""
+    """Return c₁ = ½ μ(1 − k), c₂ = ½ μ k and λ' = λ − 4c₂, Pa, so that λ is that of small strains."""
     return 0.5 * mu * (1.0 - k), 0.5 * mu * k, lame - 2.0 * mu * k
 
 
 def mooney_rivlin_energy(I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Scalar:
-    """w₀ = c₁(I₁ − 3) + c₂(I₂ − 3) − (2c₁ + 4c₂) ln J + ½ λ' ln² J, J/m³; k is the share c₂/(c₁ + c₂)."""
+    """Return w₀ = c₁(I₁ − 3) + c₂(I₂ − 3) − (2c₁ + 4c₂) ln J + ½ λ' ln² J, J/m³; k = c₂/(c₁ + c₂)."""
     log_J = log_ratio(J)
     c1, c2, bulk = _mooney_rivlin_moduli(mu, lame, k)
     shear = c1 * (I1 - 3.0) + c2 * (I2 - 3.0) - (2.0 * c1 + 4.0 * c2) * log_J
@@ -94,7 +94,7 @@ def mooney_rivlin_energy(I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Sc
 def mooney_rivlin_derivatives(
     _I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """c₁, c₂ and (λ' ln J − 2c₁ − 4c₂)/J, Pa."""
+    """Return c₁, c₂ and (λ' ln J − 2c₁ − 4c₂)/J, Pa."""
     c1, c2, bulk = _mooney_rivlin_moduli(mu, lame, k)
     return c1, c2, (bulk * log_ratio(J) - 2.0 * c1 - 4.0 * c2) / J
 
@@ -102,7 +102,7 @@ def mooney_rivlin_derivatives(
 def saint_venant_kirchhoff_energy(
     I1: Scalar, I2: Scalar, _J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar
 ) -> Scalar:
-    """w₀ = ½ λ tr² E + μ E:E with E = ½(Fᵀ F − I), J/m³."""
+    """Return w₀ = ½ λ tr² E + μ E:E with E = ½(Fᵀ F − I), J/m³."""
     trace = 0.5 * (I1 - 3.0)
     return 0.5 * lame * trace * trace + 0.25 * mu * (I1 * I1 - 2.0 * I2 - 2.0 * I1 + 3.0)
 
@@ -110,12 +110,12 @@ def saint_venant_kirchhoff_energy(
 def saint_venant_kirchhoff_derivatives(
     I1: Scalar, _I2: Scalar, _J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """¼ λ(I₁ − 3) + ½ μ(I₁ − 1), −½ μ and 0, Pa."""
+    """Return ¼ λ(I₁ − 3) + ½ μ(I₁ − 1), −½ μ and 0, Pa."""
     return 0.25 * lame * (I1 - 3.0) + 0.5 * mu * (I1 - 1.0), -0.5 * mu, 0.0 * mu
 
 
 def gent_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar) -> Scalar:
-    """w₀ = −½ μ k ln(1 − (I₁ − 3)/k) − μ ln J + ½ (λ − 2μ/k) ln² J (after Gent 1996), J/m³; I₁ < 3 + k."""
+    """Return w₀ = −½ μ k ln(1 − (I₁ − 3)/k) − μ ln J + ½ (λ − 2μ/k) ln² J (after Gent 1996), J/m³."""
     log_J = log_ratio(J)
     bulk = lame - 2.0 * mu / k
     return -0.5 * mu * k * np.log(1.0 - (I1 - 3.0) / k) - mu * log_J + 0.5 * bulk * log_J * log_J
@@ -124,7 +124,7 @@ def gent_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k:
 def gent_derivatives(
     I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """½ μ k/(k − I₁ + 3), 0 and ((λ − 2μ/k) ln J − μ)/J, Pa; infinite from the limit of stretch on."""
+    """Return ½ μ k/(k − I₁ + 3), 0 and ((λ − 2μ/k) ln J − μ)/J, Pa; infinite for I₁ ≥ 3 + k."""
     room = np.maximum(k - I1 + 3.0, 0.0)
     return 0.5 * mu * k / room, 0.0 * mu, ((lame - 2.0 * mu / k) * log_ratio(J) - mu) / J
 
@@ -139,7 +139,7 @@ MATERIALS: dict[str, Material] = {
     ),
     "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
 }
-"""The solids by the names under which the settings select them."""
+"""Solids by their names in the settings."""
 
 
 _STEP = 1e-30
@@ -148,7 +148,7 @@ _STEP = 1e-30
 def _complex_step(
     I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, k: Scalar
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """Derivatives of ``energy``, exact to round-off: Im w(x + ih)/h (Squire & Trapp 1998)."""
+    """Return the derivatives of ``energy``, exact to round-off: Im w(x + ih)/h (Squire & Trapp 1998)."""
     ih = _STEP * 1j
     return (
         energy(I1 + ih, I2, J, mu, lame, k).imag / _STEP,
@@ -169,17 +169,16 @@ def add_material(
     dilation: Callable[[Scalar, Scalar, Scalar], Scalar] | None = None,
     isochoric: bool = True,
 ) -> Material:
-    """Add a solid to :data:`MATERIALS`, under the name by which settings and :class:`Models` select it.
+    """Add a solid to :data:`MATERIALS`, for selection by name in settings and :class:`Models`.
 
     Parameters
     ----------
     name
         A word.
     energy, derivatives, parameter, dilation, isochoric
-        See :class:`Material`. The functions are plain ones of module level, made of arithmetic, numpy
-        functions and :func:`foamprb.body.tensor.log_ratio`, so that they can be compiled. Without
-        ``derivatives`` those of the energy are taken by complex steps, for which it must be analytic (no
-        ``abs``, ``max``, ``where``).
+        See :class:`Material`. The functions are compiled. They must be plain ones of module level, of
+        arithmetic, numpy functions and :func:`foamprb.body.tensor.log_ratio`. Without ``derivatives`` the
+        energy is differentiated by complex steps; it must then be analytic (no ``abs``, ``max``, ``where``).
 
     Raises
     ------
@@ -228,68 +227,60 @@ def _check_material(name: str, material: Material) -> None:
 
 
 def finger_of_sphere(F: Tensor, _M: Tensor) -> Tensor:
-    """b_e = F Fᵀ of a body that is a sphere at rest: :func:`finger` for M = I."""
+    """Return b_e = F Fᵀ for a sphere as rest shape: :func:`finger` for M = I."""
     return dot(F, transpose(F))
 
 
 def finger(F: Tensor, M: Tensor) -> Tensor:
-    """Elastic left Cauchy–Green (Finger) tensor b_e = F M Fᵀ, in any frame to which F carries.
+    """Return the elastic left Cauchy–Green (Finger) tensor b_e = F M Fᵀ, in the frame of F's first index.
 
-    Parameters
-    ----------
-    F
-        Deformation gradient from the sphere of the same volume.
-    M
-        (F₀ F₀)⁻¹ of the symmetric F₀ that makes the shape at rest of that sphere.
+    F is the deformation gradient from the sphere of equal volume, M = (F₀ F₀)⁻¹ with the symmetric F₀ of the
+    rest shape.
     """
     return dot(dot(F, M), transpose(F))
 
 
 def finger_of_sphere_in_frame(stretches: Vector, _G: Tensor, _M: Tensor) -> Tensor:
-    """b_e of a body that is a sphere at rest, in its particle frame: :func:`finger_in_frame` for M = I."""
+    """Return b_e for a sphere as rest shape, in the particle frame: :func:`finger_in_frame` for M = I."""
     x, y, z = stretches
     return (x * x, 0.0, 0.0, 0.0, y * y, 0.0, 0.0, 0.0, z * z)
 
 
 def finger_in_frame(_stretches: Vector, G: Tensor, M: Tensor) -> Tensor:
-    """:func:`finger` of a body in its particle frame, where its stretches are known; G = Q·F."""
+    """Return :func:`finger` in the particle frame, where the stretches are known; G = Q·F."""
     return finger(G, M)
 
 
 def metric_at_rest(F0: Tensor) -> Tensor:
-    """M = F₀⁻¹ F₀⁻ᵀ of :func:`finger`."""
+    """Return M = F₀⁻¹ F₀⁻ᵀ of :func:`finger`."""
     inverted = inverse(F0)
     return dot(inverted, transpose(inverted))
 
 
 def viscous_stress(l_s: Tensor, eta: Scalar) -> Tensor:
-    """Cauchy stress 2 η_s dev d_s of the viscous part of a Kelvin–Voigt solid, Pa, in any frame.
+    """Return the viscous Cauchy stress 2 η_s dev d_s of a Kelvin–Voigt solid, Pa, in any frame.
 
-    Parameters
-    ----------
-    l_s
-        Velocity gradient of the body, 1/s.
-    eta
-        Viscosity of the solid, Pa s; Roscoe's (1967) η₁.
+    ``l_s`` is the velocity gradient of the body, 1/s, ``eta`` the viscosity of the solid, Pa s: Roscoe's
+    (1967) η₁.
     """
     return scale(2.0 * eta, dev(sym(l_s)))
 
 
 def invariants(b: Tensor) -> tuple[Scalar, Scalar]:
-    """I₁ = tr b and I₂ = ½(I₁² − b:b) of b = F Fᵀ."""
+    """Return I₁ = tr b and I₂ = ½(I₁² − b:b) of b = F Fᵀ."""
     I1 = b[0] + b[4] + b[8]
     off = b[1] * b[1] + b[2] * b[2] + b[5] * b[5]
     return I1, b[0] * b[4] + b[4] * b[8] + b[8] * b[0] - off
 
 
 def stored_energy(material: Material, F: Tensor, mu: Scalar, lame: Scalar, k: Scalar = 0.0) -> Scalar:
-    """Stored energy per undeformed volume of a deformation gradient, J/m³."""
+    """Return the stored energy per undeformed volume of a deformation gradient, J/m³."""
     I1, I2 = invariants(dot(F, transpose(F)))
     return material.energy(I1, I2, det(F), mu, lame, k)
 
 
 def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar, k: Scalar = 0.0) -> Tensor:
-    """Piola stress P = ∂w₀/∂F = 2(w₁ + I₁w₂) F − 2w₂ b F + w_J cof F (20), Pa."""
+    """Return the Piola stress P = ∂w₀/∂F = 2(w₁ + I₁w₂) F − 2w₂ b F + w_J cof F (20), Pa."""
     b, J = dot(F, transpose(F)), det(F)
     I1, I2 = invariants(b)
     w1, w2, wJ = material.derivatives(I1, I2, J, mu, lame, k)
@@ -297,5 +288,5 @@ def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar, k: Scalar = 0
 
 
 def lame_parameter(mu: Scalar, poissons_ratio: Scalar) -> Scalar:
-    """λ_s = 2 μ ν/(1 − 2ν), Pa, of a solid with shear modulus μ and Poisson's ratio ν < ½."""
+    """Return λ_s = 2 μ ν/(1 − 2ν), Pa, of a solid with shear modulus μ and Poisson's ratio ν < ½."""
     return 2.0 * mu * poissons_ratio / (1.0 - 2.0 * poissons_ratio)

@@ -1,7 +1,8 @@
-"""Random numbers that depend on nothing but their number: Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011).
+"""Counter-based random numbers: Philox4x32-10 (Salmon, Moraes, Dror & Shaw 2011).
 
-What a particle draws at a step follows from its number, the step's, and a seed. It is the same for any order
-of the particles, any number of threads and processes, and after a restart; there is no state to save.
+The random numbers of a particle at a step depend on its index, the step's index and a seed only. They are the
+same for any order of the particles, any number of threads and processes, and after a restart. There is no
+state to save.
 
 Words are unsigned integers of 64 bits with a value below 2³², or arrays of them.
 """
@@ -27,7 +28,7 @@ _PER_WORD = 2.0**-32
 
 
 def philox(counter: Words, key: tuple[Word, Word]) -> Words:
-    """Four random words for a counter and a key: ten rounds of products whose halves change places."""
+    """Return four random words for a counter and a key: ten rounds of products with exchanged halves."""
     c0, c1, c2, c3 = counter
     k0, k1 = key
     for _ in range(_ROUNDS):
@@ -38,12 +39,12 @@ def philox(counter: Words, key: tuple[Word, Word]) -> Words:
 
 
 def uniform(word: Word) -> Scalar:
-    """A number of (0, 1), one of 2³² evenly spaced ones whose mean is ½."""
+    """Return a number of (0, 1): one of 2³² evenly spaced ones with the mean ½."""
     return _PER_WORD * word + 0.5 * _PER_WORD
 
 
 def _log(u: Scalar) -> Scalar:
-    """ln u for u between 2⁻³³ and 1, from the sixteenth root, to 1e-14."""
+    """Return ln u for u between 2⁻³³ and 1, from the sixteenth root, to 1e-14."""
     root = np.sqrt(np.sqrt(np.sqrt(np.sqrt(u))))
     return 16.0 * log_ratio(root)
 
@@ -53,7 +54,7 @@ _C2, _C4, _C6, _C8, _C10, _C12, _C14 = [(-1.0) ** (n // 2) / factorial(n) for n 
 
 
 def _direction(u: Scalar) -> tuple[Scalar, Scalar]:
-    """Cosine and sine of π(2u − 1), to 1e-14, from the Taylor series at a quarter of the angle."""
+    """Return cosine and sine of π(2u − 1), to 1e-14, from the Taylor series at a quarter of the angle."""
     x = (0.5 * pi) * u - 0.25 * pi
     y = x * x
     s = y * (_S7 + y * (_S9 + y * (_S11 + y * (_S13 + y * _S15))))
@@ -65,7 +66,7 @@ def _direction(u: Scalar) -> tuple[Scalar, Scalar]:
 
 
 def normals(words: Words) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-    """Four independent normal deviates, of mean 0 and variance 1 (Box & Muller 1958), at most 6.8 in size."""
+    """Return four independent standard normal deviates (Box & Muller 1958), at most 6.8 in magnitude."""
     p, q = np.sqrt(-2.0 * _log(uniform(words[0]))), np.sqrt(-2.0 * _log(uniform(words[2])))
     (a, b), (c, d) = _direction(uniform(words[1])), _direction(uniform(words[3]))
     return p * a, p * b, q * c, q * d

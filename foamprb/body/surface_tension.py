@@ -1,7 +1,7 @@
-"""Surface tension of an affinely deforming body: the stress that is the derivative of γ S with respect to F.
+"""Surface tension of an affinely deforming body: the stress as derivative of γ S with respect to F.
 
 The surface of an ellipsoid with semi-axes a, b, c is S = 4π R_G(b²c², c²a², a²b²) with Carlson's R_G. Its
-derivatives need only the integrals of :mod:`foamprb.body.ellipsoid` for semi-axes bc, ca, ab:
+derivatives need the integrals of :mod:`foamprb.body.ellipsoid` for semi-axes bc, ca, ab:
 ∂R_G/∂x = (χ − x α₀)/8.
 """
 
@@ -14,7 +14,7 @@ from foamprb.body.tensor import Scalar, Vector
 
 
 def _pulls(stretches: Vector) -> Vector:
-    """x(χ − xα₀), y(χ − yβ₀), z(χ − zγ₀) with x = b²c² and so on."""
+    """Return x(χ − xα₀), y(χ − yβ₀), z(χ − zγ₀) with x = b²c² etc."""
     a, b, c = stretches
     products = (b * c, c * a, a * b)
     g = integrals(products)
@@ -23,24 +23,18 @@ def _pulls(stretches: Vector) -> Vector:
 
 
 def surface_area(semi_axes: Vector) -> Scalar:
-    """Surface S of an ellipsoid, in the square of the unit of its semi-axes."""
+    """Return the surface S of an ellipsoid, in the square of the unit of its semi-axes."""
     x, y, z = _pulls(semi_axes)
-    # S is of second degree in the axes, so half the sum of its logarithmic derivatives (Euler).
+    # S is homogeneous of degree 2 in the axes: half the sum of its logarithmic derivatives (Euler).
     return pi * (x + y + z)
 
 
 def laplace_stress(stretches: Vector, tension: Scalar) -> Vector:
-    """Principal Kirchhoff stresses (1/vol₀) ∂(γ S)/∂ln λ_a − 2γ/R, Pa.
+    """Return the principal Kirchhoff stresses (1/vol₀) ∂(γ S)/∂ln λ_a − 2γ/R, Pa.
 
-    A sphere has none: the pressure 2γ/R that its interior holds at rest is taken as part of the rest, since
-    no incompressible body feels it and a nearly incompressible one should not start by shrinking.
-
-    Parameters
-    ----------
-    stretches
-        λ_a, with semi-axes R λ_a.
-    tension
-        γ/R, Pa, with R the radius of the sphere of the same volume at rest.
+    They vanish for a sphere: its inner pressure 2γ/R belongs to the reference state. An incompressible body
+    is not affected by it, and a nearly incompressible one does not shrink at the start. ``stretches`` are
+    λ_a, with semi-axes R λ_a; ``tension`` is γ/R, Pa, with the radius R of the sphere of equal volume.
     """
     x, y, z = _pulls(stretches)
     k = 0.75 * tension
@@ -49,6 +43,6 @@ def laplace_stress(stretches: Vector, tension: Scalar) -> Vector:
 
 
 def no_stress(_stretches: Vector, tension: Scalar) -> Vector:
-    """The same without surface tension."""
+    """Return zero stresses, without surface tension."""
     zero = 0.0 * tension
     return zero, zero, zero

@@ -1,23 +1,23 @@
-"""How fast the velocity gradient of a body changes because the body turns.
+"""Change of a body's velocity gradient by its rotation.
 
-A body that is turned responds to a turned flow as before: l_s(R F; l_f) = R l_s(F; Rᵀ l_f R) Rᵀ. So the
-change of l_s by a turning is known in closed form, with the mobility of the present shape. In a nearly
-rigid body nothing else changes l_s beside the flow, and a step that knows this change has the body's
-strain to the order that it has its attitude. All tensors are components in the particle frame.
+A rotated body in a rotated flow responds likewise: l_s(R F; l_f) = R l_s(F; Rᵀ l_f R) Rᵀ. The change of l_s
+by a rotation is therefore known in closed form, with the mobility of the present shape. In a nearly rigid
+body only rotation and flow change l_s. A step that includes this change computes strain and attitude to the
+same order. All tensors are components in the particle frame.
 """
 
 from __future__ import annotations
 
 from foamprb.body.rosenbrock import Elasticity
 from foamprb.body.stokes import Mobility, velocity_gradient
-from foamprb.body.tensor import Scalar, Tensor, Vector, add, reciprocals, scale, skew
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, reciprocals, scale, skew, subtract
 
 _ROUND = 0.01
-"""Square of the relative difference of two λ_a² below which a section counts as round."""
+"""Square of the relative difference of two λ_a² below which a section is treated as round."""
 
 
 def commutator(S: Tensor, T: Tensor) -> Tensor:
-    """S T − T S, without the products of two diagonal components, which cancel."""
+    """Return S T − T S, without the products of two diagonal components, which cancel."""
     xy, xz, yz = S[0] - S[4], S[0] - S[8], S[4] - S[8]
     uv, uw, vw = T[0] - T[4], T[0] - T[8], T[4] - T[8]
     p, q, r = S[1] * T[3] - S[3] * T[1], S[2] * T[6] - S[6] * T[2], S[5] * T[7] - S[7] * T[5]
@@ -35,7 +35,7 @@ def commutator(S: Tensor, T: Tensor) -> Tensor:
 
 
 def turned(W: Tensor, T: Tensor) -> Tensor:
-    """W T − T W for a skew W: the rate at which T changes if it turns with the spin W."""
+    """Return W T − T W for a skew W, the rate of change of T rotating with the spin W."""
     p, q, r = W[1], W[2], W[5]
     return (
         p * (T[3] + T[1]) + q * (T[6] + T[2]),
@@ -51,18 +51,11 @@ def turned(W: Tensor, T: Tensor) -> Tensor:
 
 
 def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
-    """The spin W, 1/s, that accounts best for the change of b = F Fᵀ, in a section that is not round.
+    """Return the spin W, 1/s, that best explains the change of b = F Fᵀ, for the stretches λ_a.
 
-    W minimises |l_s b + b l_sᵀ − (W b − b W)|² + ε² |W|² for each component, with ε = 0.1 (b_i + b_j). It
-    is the spin of a rigid ellipsoid across its axes; a body that tank-treads, or is nearly a sphere, has
-    none.
-
-    Parameters
-    ----------
-    stretches
-        λ_a.
-    l_s
-        Velocity gradient of the body, 1/s.
+    W minimises |l_s b + b l_sᵀ − (W b − b W)|² + ε² |W|² for each component, with ε = 0.1 (b_i + b_j) and the
+    body's velocity gradient l_s, 1/s. It is the spin of a rigid ellipsoid across its axes, and 0 for a body
+    that tank-treads or is nearly a sphere.
     """
     x, y, z = stretches[0] * stretches[0], stretches[1] * stretches[1], stretches[2] * stretches[2]
     xy, xz, yz = y - x, z - x, z - y
@@ -75,7 +68,7 @@ def shape_spin(stretches: Vector, l_s: Tensor) -> Tensor:
 
 
 def _stress_of_spin(e: Elasticity, W: Tensor) -> Tensor:
-    """Change of τ by a spin, Pa/s, as the Jacobian has it, the off-diagonal elastic stretch left out."""
+    """Return the Jacobian's change of τ by a spin, Pa/s, without the off-diagonal elastic stretch."""
     x, y, z = e.squares
     p, q, r = e.shear[0] * W[5] * (z - y), e.shear[1] * W[2] * (z - x), e.shear[2] * W[1] * (y - x)
     return (0.0, r, q, r, 0.0, p, q, p, 0.0)
@@ -90,9 +83,9 @@ def turning_gradient(
     l_f: Tensor,
     sigma: Tensor,
 ) -> Tensor:
-    """Rate of change of l_s − J Ω, 1/s², along Ω = l_s t, as far as it is due to turning.
+    """Return the rate of change of l_s − J Ω by rotation, 1/s², along Ω = l_s t.
 
-    W of :func:`shape_spin` turns the shape, the body's own spin the stress. J is that of
+    W of :func:`shape_spin` rotates the shape, the body's own spin the stress. J is that of
     :func:`foamprb.body.relaxation.relaxing`.
 
     Parameters
@@ -107,7 +100,6 @@ def turning_gradient(
         Elastic stress over μ_f, 1/s.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
-    stress = turned(add(W, scale(-1.0, own)), sigma)
+    stress = turned(subtract(W, own), sigma)
     stress = add(stress, scale(1.0 / mu_f, _stress_of_spin(e, own)))
-    seen = velocity_gradient(m, stress, turned(W, l_f))
-    return add(turned(W, l_s), scale(-1.0, seen))
+    return subtract(turned(W, l_s), velocity_gradient(m, stress, turned(W, l_f)))

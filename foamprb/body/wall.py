@@ -1,17 +1,28 @@
-"""What a plane no-slip wall sends back to a particle near it, and how it hinders the particle's motion.
+"""Image flow of a plane no-slip wall near a particle, and the hindrance of its motion.
 
-A wall answers the flow that a particle makes with that of an image behind it (Blake 1971). At the particle's
-centre, at the distance h, the image of its stresslet S is a velocity, the lift, and a velocity gradient, by
-which the wall deforms and turns it:
+A wall reflects the disturbance flow of a particle as the flow of an image behind it (Blake 1971). At the
+particle's centre, at the distance h, the image of its stresslet S gives a velocity, the lift, and a velocity
+gradient that deforms and rotates the particle:
 
     v = −3/(64π μ h²) [2 S·n + S_nn n],                        n the unit normal into the fluid, S_nn = n·S·n,
     l = 3/(128π μ h³) [2 S + 6 n S·n + 2 S·n n + S_nn (n n − 3 I)].
 
-Both are added to those of the undisturbed flow. What several walls send back is added up.
+Both are added to those of the undisturbed flow. The images of several walls are summed.
 
-S is Batchelor's (1970) stresslet, without trace, S₁₂ > 0 in shear. A body of semi-axes a_i has the shape
-tensor C = Σ a_i² e_i e_i = R² F Fᵀ. Its extent comes in with the next order in 1/h: the stresslet is spread
-over the body, S_jk (1 + ⅒ C:∇∇) ∂_k G_ij, and the body moves with (1 + ⅙ C:∇∇) u (Kim & Karrila 1991).
+S is Batchelor's (1970) stresslet, without trace, S₁₂ > 0 in shear. The size of the body enters at the next
+order in 1/h: the stresslet is distributed over the body, S_jk (1 + ⅒ C:∇∇) ∂_k G_ij, and the body moves with
+(1 + ⅙ C:∇∇) u (Kim & Karrila 1991). Common arguments:
+
+S
+    Stresslet, N m, symmetric.
+C
+    Shape tensor Σ a_i² e_i e_i = R² F Fᵀ of the semi-axes a_i, m²; 0 leaves the point stresslet.
+n, h
+    Unit normal of the wall into the fluid, and the distance of the centre from the wall, m.
+mu
+    Viscosity of the fluid, Pa s.
+k
+    Principal resistances of the body without walls (:mod:`foamprb.body.drag`), m; 6πR for a sphere.
 """
 
 from __future__ import annotations
@@ -24,28 +35,17 @@ from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dot_vector, inner,
 
 
 def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Vector:
-    """Velocity at the particle's centre of the image of its stresslet, m/s.
+    """Return the velocity of the image of the stresslet at the particle's centre, m/s.
 
-    With a² = ⅓ tr C, v = v₁/(h² + a²) + v₂/(h² + a²)² has the expansion v₁/h² + (v₂ − a² v₁)/h⁴ in 1/h that
-    Blake's image has, and stays bounded where the body comes near:
+    With a² = ⅓ tr C, v = v₁/(h² + a²) + v₂/(h² + a²)² has the expansion v₁/h² + (v₂ − a² v₁)/h⁴ of Blake's
+    image in 1/h, and stays bounded near the wall:
 
         π μ v₁ = −3/64 [2 S·n + S_nn n],
         640 π μ (v₂ − a² v₁) = P·[24 C·S·n − 6 S·C·n + (20 tr C − 30 C_nn) S·n − 15 S_nn C·n]
                                + [(50 tr C − 60 C_nn) S_nn − 20 C:S] n,       P = I − n n.
 
-    Of bodies in shear it is within 1 % of the Stokes flow around the body for h ≥ 3R, within 4 % at 2R and
-    within 15 % at 1.15R, if S is that of the flow with the wall's gradient.
-
-    Parameters
-    ----------
-    S
-        Stresslet, N m, symmetric.
-    C
-        Shape tensor R² F Fᵀ, m²; 0 leaves the point stresslet.
-    n, h
-        Unit normal of the wall into the fluid, and the distance of the centre from the wall, m.
-    mu
-        Viscosity of the fluid, Pa s.
+    For bodies in shear it is within 1 % of the Stokes flow around the body for h ≥ 3R, within 4 % at 2R and
+    within 15 % at 1.15R, if S is that of the flow including the wall's gradient.
     """
     s, c = dot_vector(S, n), dot_vector(C, n)
     S_nn, C_nn, tr = inner(s, n), inner(c, n), trace(C)
@@ -60,7 +60,7 @@ def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
     a2 = tr * (1.0 / 3.0)
     d = 1.0 / (h * h + a2)
     k = d * d / (640.0 * pi * mu)
-    # −3/64 [2 s + S_nn n] (h² + a²) + a² (…) of v₂, over (h² + a²)².
+    # −3/64 [2 s + S_nn n] (h² + a²), and the same times a² from v₂, over (h² + a²)².
     first = -30.0 * (h * h + 2.0 * a2)
     x, y = 2.0 * first, first * S_nn + across
     return (
@@ -71,14 +71,10 @@ def stresslet_velocity(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
 
 
 def stresslet_gradient(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Tensor:
-    """Velocity gradient ∂u_i/∂x_j at the particle's centre of the image of its stresslet, 1/s.
+    """Return the velocity gradient ∂u_i/∂x_j of the image of the stresslet at the particle's centre, 1/s.
 
-    The point stresslet's, with (h² + ⅔ a²)^{3/2} in the place of h³, a² = ⅓ tr C: of a sphere the next order
-    in 1/h has −(0.8 … 1.2) a²/h² of the first, by component.
-
-    Parameters
-    ----------
-    As :func:`stresslet_velocity`.
+    That of the point stresslet, with (h² + ⅔ a²)^{3/2} instead of h³, a² = ⅓ tr C: for a sphere the next
+    order in 1/h is −(0.8 … 1.2) a²/h² of the first, by component.
     """
     s = dot_vector(S, n)
     S_nn = inner(s, n)
@@ -101,18 +97,12 @@ def stresslet_gradient(S: Tensor, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -
 
 
 def force_gradient(f: Vector, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Tensor:
-    """Velocity gradient ∂u_i/∂x_j at the particle's centre of the image of a force, 1/s.
+    """Return the velocity gradient ∂u_i/∂x_j of the image of a force f at the particle's centre, 1/s.
 
     3/(64π μ h²) [f n + n f + f_n (n n − I)], without spin: the adjoint of the far :func:`stresslet_velocity`.
-    The body's size comes in by h² + a² in the place of h²: the next order in 1/h is, for a sphere, −0.8 a²/h²
-    of the first along the wall, and −a²/h² across. The image's velocity is in :func:`hindrance`.
-
-    Parameters
-    ----------
-    f
-        Force that the particle exerts on the fluid, N: what acts on it less its inertia.
-    C, n, h, mu
-        As of :func:`stresslet_velocity`.
+    The body's size enters by h² + a² instead of h²: for a sphere the next order in 1/h is −0.8 a²/h² of the
+    first along the wall, and −a²/h² across. The image's velocity is in :func:`hindrance`. The particle exerts
+    f on the fluid, N: the sum of the forces on it less its inertia.
     """
     k = 3.0 / (64.0 * pi * mu * (h * h + trace(C) * (1.0 / 3.0)))
     f_n = inner(f, n)
@@ -128,19 +118,20 @@ def force_gradient(f: Vector, C: Tensor, n: Vector, h: Scalar, mu: Scalar) -> Te
 
 
 def parallel_mobility(e: Scalar) -> Scalar:
-    """Mobility of a sphere along a wall over that without, 1 − 9e/16 + e³/8 − 45e⁴/256 − e⁵/16 (Faxén 1923).
+    """Return the relative mobility of a sphere along a wall (Faxén 1923).
 
-    ``e`` is R/h, h the distance of the centre. Within 1 % of the exact one (Goldman, Cox & Brenner 1967) for
-    e ≤ 0.65 and within 5 % for e ≤ 0.95; at e = 1, where the exact one vanishes, it is 0.324.
+    1 − 9e/16 + e³/8 − 45e⁴/256 − e⁵/16 for e = R/h, h the distance of the centre. It is within 1 % of the
+    exact value (Goldman, Cox & Brenner 1967) for e ≤ 0.65 and within 5 % for e ≤ 0.95. At e = 1, where the
+    exact value vanishes, it is 0.324.
     """
     return 1.0 - e * (0.5625 - e * e * (0.125 - e * (0.17578125 + 0.0625 * e)))
 
 
 def normal_mobility(e: Scalar) -> Scalar:
-    """Mobility of a sphere across a wall over that without, for e = R/h.
+    """Return the relative mobility of a sphere across a wall, for e = R/h.
 
-    1 − 9e/8 + e³/2 − 57e⁴/100 + e⁵/5 + 7e¹¹/200 − e¹²/25 (Schäffer, Nørrelykke & Howard 2007): within 0.4 %
-    of Brenner's (1961) series; far from the wall it is Lorentz's, and in touch with it the gap over R.
+    1 − 9e/8 + e³/2 − 57e⁴/100 + e⁵/5 + 7e¹¹/200 − e¹²/25 (Schäffer, Nørrelykke & Howard 2007), within 0.4 %
+    of Brenner's (1961) series. Far from the wall it is Lorentz's, in contact the gap over R.
     """
     cube = e * e * e
     tail = cube * cube * cube * e * e * (0.035 - 0.04 * e)
@@ -148,25 +139,18 @@ def normal_mobility(e: Scalar) -> Scalar:
 
 
 def hindrance(k: Vector, n: Vector, h: Scalar, gap: Scalar) -> Tensor:
-    """Resistance that a wall adds, in units of that without walls: (1/m_∥ − 1)(I − n n) + (1/m_⊥ − 1) n n.
+    """Return the resistance added by a wall over that without walls, (1/m_∥ − 1)(I − n n) + (1/m_⊥ − 1) n n.
 
-    The mobilities m_∥, m_⊥ are those of spheres at the gap g h/(g + R_K), with radii R_K that give them the
-    body's mean resistances along and across the wall. For a sphere this gap is g; the nearer an ellipsoid is,
-    the more it is held back if flat towards it, and the less if pointed. The tensors of several walls are
-    added up (Oseen), for :func:`hindered_resistance`.
+    The mobilities m_∥, m_⊥ are those of spheres at the gap g h/(g + R_K). Their radii R_K correspond to the
+    body's mean resistances along and across the wall. For a sphere this gap is g. Close to the wall, an
+    ellipsoid with a flat side towards it is hindered more, one with a pointed end less. The tensors of
+    several walls are summed (Oseen), for :func:`hindered_resistance`.
 
-    Of ellipsoids with axes in the ratios 1.3 : 1 : 0.77, 2 : 1 : 1 and 1.7 : 1.7 : 1, however they lie, it is
-    within 2 % of the Stokes flow around the body at gaps of 2R, 5 % at R and 25 % at 0.3R.
+    For ellipsoids with axes in the ratios 1.3 : 1 : 0.77, 2 : 1 : 1 and 1.7 : 1.7 : 1, in any orientation, it
+    is within 2 % of the Stokes flow around the body at gaps of 2R, 5 % at R and 25 % at 0.3R.
 
-    Parameters
-    ----------
-    k
-        Principal resistances of the body without walls (:mod:`foamprb.body.drag`), m; 6πR for a sphere.
-    n
-        Unit normal of the wall, in the frame of the body.
-    h, gap
-        Distance of the centre from the wall and clearance g between body and wall, m, both above 0. Because
-        there is no motion across at g = 0, a particle would never touch the wall; the caller sets a least g.
+    ``n`` is in the frame of the body. ``gap`` is the clearance g between body and wall, m, above 0: at g = 0
+    the motion across the wall vanishes and a particle would never touch it. The caller sets a minimum.
     """
     across = k[0] * n[0] * n[0] + k[1] * n[1] * n[1] + k[2] * n[2] * n[2]
     along = 0.5 * (k[0] + k[1] + k[2] - across)
@@ -177,23 +161,17 @@ def hindrance(k: Vector, n: Vector, h: Scalar, gap: Scalar) -> Tensor:
 
 
 def _nearness(k: Scalar, h: Scalar, gap: Scalar) -> Scalar:
-    """R_K/(R_K + g h/(g + R_K)) for R_K = k/6π."""
+    """Return R_K/(R_K + g h/(g + R_K)) for R_K = k/6π."""
     R = k * (1.0 / (6.0 * pi))
     x = R * (gap + R)
     return x / (x + gap * h)
 
 
 def hindered_resistance(k: Vector, W: Tensor) -> Tensor:
-    """Resistance K_ab = √k_a (δ_ab + W_ab) √k_b of a body near walls, m, in its frame; f_D = μ_f K·(u − v).
+    """Return the resistance K_ab = √k_a (δ_ab + W_ab) √k_b of a body near walls, m, in its frame.
 
-    Exact in the order 1/h for a sphere; positive definite for any body and any walls.
-
-    Parameters
-    ----------
-    k
-        Principal resistances without walls, m.
-    W
-        Sum of :func:`hindrance` over the walls, in the frame of the body.
+    W is the sum of :func:`hindrance` over the walls; f_D = μ_f K·(u − v). The result is exact to the order
+    1/h for a sphere, and positive definite for any body and any walls.
     """
     p, q, r = np.sqrt(k[0]), np.sqrt(k[1]), np.sqrt(k[2])
     xy, xz, yz = p * q * W[1], p * r * W[2], q * r * W[5]

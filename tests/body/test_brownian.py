@@ -17,6 +17,7 @@ from foamprb.body.brownian import (
 )
 from foamprb.body.drag import oberbeck
 from foamprb.body.ellipsoid import integrals
+from foamprb.body.exponential_runge_kutta import group_exponential
 from foamprb.body.stokes import mobility, velocity_gradient
 from foamprb.body.tensor import (
     add,
@@ -24,7 +25,6 @@ from foamprb.body.tensor import (
     dev,
     dot,
     dot_vector,
-    exponential,
     from_frame,
     inverse,
     principal_frame,
@@ -230,8 +230,8 @@ def fluctuate(n, steps, dt, kT):
         Q0, stretches = principal_frame(F)
         _, nine = draw(n, step)
         T = random_stress(shape_resistance(stretches, integrals(stretches), 0.0), size, nine)
-        middle = dot(exponential(scale(0.5 * dt, rates(F, T, Q0))), F)
-        F = dot(exponential(scale(dt, rates(middle, T, Q0))), F)
+        middle = dot(group_exponential(scale(0.5 * dt, rates(F, T, Q0))), F)
+        F = dot(group_exponential(scale(dt, rates(middle, T, Q0))), F)
         F = scale(np.cbrt(1.0 / det(F)), F)
         b = dot(F, transpose(F))
         energies[step] = (0.5 * VOLUME * (b[0] + b[4] + b[8] - 3.0)).mean() / kT

@@ -21,7 +21,6 @@ from foamprb.body.turning import commutator
 def test_its_nodes_are_those_of_a_method_of_order_three():
     c, b3 = Fraction(1, 4), Fraction(5, 18)
     b = (Fraction(-1, 6), Fraction(8, 9), b3)
-    np.testing.assert_allclose(pair.WEIGHTS, [float(w) for w in b], rtol=1e-15)
     assert Fraction(pair.NODE) == c
     # The last argument has the slope (N(c) − N(0))/c of weight ½ · OVERSHOOT.
     a32 = Fraction(pair.OVERSHOOT).limit_denominator(100) / (2 * c)

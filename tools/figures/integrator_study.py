@@ -28,14 +28,14 @@ from foamprb.body import relaxation, stokes, turning
 from foamprb.body.drag import oberbeck, reduced_gravity
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.material import finger, metric_at_rest
-from foamprb.body.rosenbrock import elasticity, kirchhoff
-from foamprb.body.slip import first_order_slip
+from foamprb.body.rosenbrock import Elasticity, elasticity, kirchhoff
+from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import (
     add,
+    add_identity,
     det,
     dot,
     dot_vector,
-    exponential,
     from_frame,
     inverse,
     principal_frame,
@@ -223,8 +223,8 @@ def pair_step(
     def slip(s: SimpleNamespace, u: tuple, L: tuple, u_t: tuple) -> tuple:
         Du = _to(u_t, (1.0, dot_vector(L, u)))
         rate = drag_rate(bodies, fluid, s)
-        one = np.ones_like(h)
-        return first_order_slip(s.Q, rate, one, bodies.rho, fluid.rho, fluid.gravity, 0.0, 0.0, Du, L)
+        steady = reduced_gravity(np.ones_like(h), bodies.rho, fluid.rho, fluid.gravity)
+        return balanced_slip(s.Q, rate, steady, steady, 1.0, Du, L)
 
     u0, L0, dudt0 = flow(t, x)
     s = evaluate(bodies, fluid, F, L0)
@@ -347,6 +347,36 @@ TABLEAUS = {
 }
 
 
+def fourth_order_exponential(K: tuple) -> tuple:
+    """Return exp K to fourth order: (1 − k)⁻¹·(1 + k) with k = K/2 − K³/24, a Cayley transform."""
+    half = add(scale(0.5, K), scale(-1.0 / 24.0, dot(dot(K, K), K)))
+    return dot(inverse(add_identity(scale(-1.0, half), 1.0)), add_identity(half, 1.0))
+
+
+def solve_inertialess(m: stokes.Mobility, e: Elasticity, gh: Array, mu_f: float, r: tuple) -> tuple:
+    """Return Y of Y − γh (∂l_s/∂τ)(δτ(Y)) = r, δτ the change of elastic stress along H = Y F.
+
+    ``m`` and ``e`` are mobility and elasticity at the start of the step, ``gh`` is γh, s, ``mu_f`` the
+    viscosity of the fluid, Pa s, and ``r`` a rate of F times F⁻¹, 1/s.
+    """
+    h = gh / mu_f
+    # Columns of slopes belong to ln e_c, which Y_cc changes.
+    M = add_identity(scale(-h, dot(m.normal, e.slopes)), 1.0)
+    d = dot_vector(inverse(M), (r[0], r[4], r[8]))
+    x, y, z = e.squares
+    Y23, Y32 = _solve_pair(0.5 * h * e.shear[0] * m.compliance[0], m.slip[0], y, z, r[5], r[7])
+    Y13, Y31 = _solve_pair(0.5 * h * e.shear[1] * m.compliance[1], m.slip[1], x, z, r[2], r[6])
+    Y12, Y21 = _solve_pair(0.5 * h * e.shear[2] * m.compliance[2], m.slip[2], x, y, r[1], r[3])
+    return (d[0], Y12, Y13, Y21, d[1], Y23, Y31, Y32, d[2])
+
+
+def _solve_pair(c: Array, slip: Array, bi: Array, bj: Array, rij: Array, rji: Array) -> tuple[Array, Array]:
+    p, q = c * (1.0 + slip), c * (1.0 - slip)
+    m11, m12, m21, m22 = 1.0 + p * bj, p * bi, q * bj, 1.0 + q * bi
+    d = 1.0 / (m11 * m22 - m12 * m21)
+    return d * (m22 * rij - m12 * rji), d * (m11 * rji - m21 * rij)
+
+
 def w_increment(
     table: Tableau, bodies: Bodies, fluid: Fluid, flow: Flow, t: Array, x: tuple, F: tuple, h: Array
 ) -> tuple[tuple, tuple, tuple]:
@@ -381,7 +411,7 @@ def w_increment(
         for j in range(i):
             coupled = add(coupled, scale(table.G[i, j], k[j]))
         r = add(add(g, scale(h, relaxation.relaxing(n, coupled))), scale(h * table.G[i].sum(), by_time))
-        k.append(stokes.solve_inertialess(s.m, e, table.G[i, i] * h, fluid.mu, r))
+        k.append(solve_inertialess(s.m, e, table.G[i, i] * h, fluid.mu, r))
     Omega = nothing
     for j, weight in enumerate(table.b):
         Omega = add(Omega, scale(weight * h, k[j]))
@@ -417,14 +447,14 @@ def present_step(
     u0, L0, _ = flow(t, x)
     s = evaluate(bodies, fluid, F, L0)
     e = solid(bodies, s)
-    k1 = from_frame(s.Q, stokes.solve_inertialess(s.m, e, gh, fluid.mu, s.l))
+    k1 = from_frame(s.Q, solve_inertialess(s.m, e, gh, fluid.mu, s.l))
     v0 = velocity(s, u0)
     u1, L1, _ = flow(t + h, _to(x, (h, v0)))
-    c = evaluate(bodies, fluid, dot(exponential(scale(h, k1)), F), L1, s.Q)
+    c = evaluate(bodies, fluid, dot(fourth_order_exponential(scale(h, k1)), F), L1, s.Q)
     v1 = velocity(c, u1)
     r = to_frame(s.Q, add(from_frame(c.Q, c.l), scale(-2.0, k1)))
-    k2 = from_frame(s.Q, stokes.solve_inertialess(s.m, e, gh, fluid.mu, r))
-    new = dot(exponential(add(scale(1.5 * h, k1), scale(0.5 * h, k2))), F)
+    k2 = from_frame(s.Q, solve_inertialess(s.m, e, gh, fluid.mu, r))
+    new = dot(fourth_order_exponential(add(scale(1.5 * h, k1), scale(0.5 * h, k2))), F)
     bend = sum(abs(v1[i] - v0[i]) for i in range(3))
     way = sum(abs(v0[i]) for i in range(3)) + bodies.R / h
     error = np.maximum(0.5 * h * control.largest(add(k1, k2)), 0.5 * bend / way)
