@@ -56,7 +56,7 @@ MEANING = {
     "cores": "cores per node",
     "memory": "memory per node, bytes",
     "link": "network per node, bytes/s",
-    "latency": "asking for a chunk of particles, s",
+    "latency": "latency of a chunk of particles, s",
     "disk": "parallel file system, all nodes together, bytes/s",
     "per_node_disk": "the same for one node, bytes/s",
     "metadata": "its metadata server, operations/s",
@@ -77,7 +77,7 @@ class Measured(NamedTuple):
     cell: float
     """Kept per cell."""
     cell_peak: float
-    """Per cell, while the mesh is prepared."""
+    """Per cell, during preparation of the mesh."""
     ready: float
     """CPU per cell until particles can move."""
     snapshot: float
@@ -267,7 +267,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
     by_place = life[np.argsort(angle)]
     balances = {
         "static, in the order of the inlet's faces": shared_statically(by_place, c.nodes, 1.0),
-        "static, dealt out at random": shared_statically(life, c.nodes, scatter),
+        "static, random distribution": shared_statically(life, c.nodes, scatter),
     }
     chunked = {
         k: shared_dynamically(by_place, c.nodes, k, c.latency, scale) for k in (1, 2, 4, 8, 16, 32, 64)
@@ -306,7 +306,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
         "mesh, once a core": mesh * c.cores,
         "particles": particles / c.nodes * m.state,
         "particles in a run with output": particles / c.nodes * m.peak,
-        "while the mesh is prepared": CELLS * m.cell_peak,
+        "during preparation of the mesh": CELLS * m.cell_peak,
     }
     traffic = {
         "mesh, to every node": mesh * (c.nodes - 1),
@@ -327,7 +327,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
                 ("state, bytes/particle", number(m.state)),
                 ("peak in a run with output, bytes/particle", number(m.peak)),
                 ("mesh and flow, bytes/cell", number(m.cell)),
-                ("the same while it is prepared, bytes/cell", number(m.cell_peak)),
+                ("the same during preparation, bytes/cell", number(m.cell_peak)),
                 ("mesh and flow, µs of CPU/cell", number(1e6 * m.ready)),
                 ("snapshot: measures and file, µs/particle", number(1e6 * m.snapshot)),
                 ("snapshot, bytes/particle", number(m.file)),
@@ -381,7 +381,7 @@ def _order(whole: dict[str, float], compute: float) -> str:
         ((v, k) for k, v in whole.items() if v > compute and "particle-steps" not in k), reverse=True
     )
     if not worst:
-        return "Nothing of the above takes longer than the particle-steps."
+        return "No operation above takes longer than the particle-steps."
     return "\n".join(
         f"{place}. {what}: {seconds / compute:.1f} times the particle-steps."
         for place, (seconds, what) in enumerate(worst, start=1)
