@@ -1,4 +1,4 @@
-"""Deformability cytometry: the stiffness of bodies in a narrow channel from their outlines in a camera."""
+"""Deformability cytometry: stiffness of bodies in a narrow channel from the outlines in a camera image."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from matplotlib import pyplot as plt
 import foamprb
 from foamprb.cloudfunctions.deformability_cytometry import outline
 
-HEIGHT, SPEED, MU = 3e-5, 0.05, 15e-3  # of the channel, m; mean velocity, m/s; viscosity, Pa s
+HEIGHT, SPEED, MU = 3e-5, 0.05, 15e-3  # height of the channel, m; mean velocity, m/s; viscosity, Pa s
 RADIUS = 5e-6
 
 stiffness = np.geomspace(200.0, 5000.0, 9)  # shear moduli, Pa
-heights = np.full(9, 0.25 * HEIGHT)  # half way between middle and wall
+heights = np.full(9, 0.25 * HEIGHT)  # midway between centre and wall
 flow = foamprb.analytic.slit(HEIGHT, SPEED)
 x = np.stack([np.zeros(9), np.zeros(9), heights], axis=1)
 bodies = foamprb.spheres(x, d=2.0 * RADIUS, rho=1000.0, mu=stiffness)
@@ -26,7 +26,7 @@ cloud.advance(1000)
 F = bodies.F.reshape(-1, 3, 3)
 seen = outline(RADIUS**2 * F @ F.transpose(0, 2, 1), np.array([0.0, 1.0, 0.0]))
 rate = np.abs(flow.sample(bodies.x, bodies.host, cloud.time)[1][:, 0, 2])
-# D = 5/4 Ca of small deformations, and 1 − 2 √(πA)/P = 3/4 D² of an ellipse that is almost a circle.
+# D = 5/4 Ca for small deformations, and 1 − 2 √(πA)/P = 3/4 D² for a nearly circular ellipse.
 expected = 0.75 * (1.25 * MU * rate / stiffness) ** 2
 measured = 1.25 * MU * rate / np.sqrt(seen.deformation / 0.75)
 print("shear modulus from the outline over the true one:", (measured / stiffness).round(3))

@@ -1,4 +1,4 @@
-"""A flow from a plain function: soft spheres at the stagnation point of a cross-slot."""
+"""User-defined flow: soft spheres at the stagnation point of a cross-slot."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ RATE, MU = 50.0, 1e-3  # rate of extension, 1/s; viscosity of water, Pa s
 
 
 def cross_slot(x, y, z):
-    """Fluid comes in along y and leaves along x, m/s."""
+    """Return the velocity, m/s: inflow along y, outflow along x."""
     return 50.0 * x, -50.0 * y, 0.0 * z
 
 
 def gradient(x, y, z):
-    """∂u_i/∂x_j, 1/s."""
+    """Return ∂u_i/∂x_j, 1/s."""
     return (50.0, 0.0, 0.0), (0.0, -50.0, 0.0), (0.0, 0.0, 0.0)
 
 

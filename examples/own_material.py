@@ -1,4 +1,4 @@
-"""A solid of one's own: one that stiffens stretches less, and how much less."""
+"""User-defined material: deformation of a stiffening solid against a neo-Hooke solid."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RATE, MU = 100.0, 1e-3  # shear rate, 1/s; viscosity of water, Pa s
 
 
 def energy(I1, I2, J, mu, lame, k):
-    """Yeoh's solid of second order: stiffer by the share k of I₁ − 3."""
+    """Return the energy of Yeoh's solid of second order, J/m³; its stiffness grows with k (I₁ − 3)."""
     log_J = log_ratio(J)
     strain = I1 - 3.0
     return 0.5 * mu * (strain + 0.5 * k * strain * strain - 2.0 * log_J) + 0.5 * lame * log_J * log_J

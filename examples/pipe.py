@@ -1,4 +1,4 @@
-"""The case of the tree, run from Python: how far particles of different stiffness come before they settle."""
+"""The pipe case, run from Python: settling distance of particles of different stiffness."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ with tempfile.TemporaryDirectory() as folder:
     shutil.copytree(HERE.parent / "cases/pipe", case, ignore=shutil.ignore_patterns("postProcessing"))
     foamprb.execute(foamprb.prepare(case, threads=1))
     fates = foamprb.open_run(case).table("fates")
-# The first five are released at one point, with Ca from 1e-4 to 1; the others enter all over the inlet.
+# The first five are released at one point, with Ca from 1e-4 to 1; the others enter over the whole inlet.
 Ca, distance = fates["Ca"][:5], fates["x1"][:5]
 print("Ca:", Ca, " distance in diameters:", (0.5 * distance / RADIUS).round())
 assert (fates["fate"][:5] == "stuck").all()
-# In the exact flow the stiff one lands after 8989 diameters; the mesh of the tree is a coarse one.
+# In the exact flow the stiff one lands after 8989 diameters; this mesh is coarse.
 assert abs(distance[0] / (2.0 * RADIUS) / 8988.7 - 1.0) < 0.005
-assert (np.diff(distance) > 0.0).all()  # a longer body falls more slowly
+assert (np.diff(distance) > 0.0).all()  # an elongated body falls more slowly
 
 figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
 for fate, colour in (("escaped", "#0072b2"), ("stuck", "#d55e00")):

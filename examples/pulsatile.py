@@ -1,4 +1,4 @@
-"""A pulsating pipe flow: the deformation of a stiff body follows the shear, that of a soft one lags."""
+"""Pulsating pipe flow: the deformation of a stiff body follows the shear, that of a soft one lags."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from matplotlib import pyplot as plt
 
 import foamprb
 
-RADIUS, NU, PERIOD, RHO = 1e-3, 1e-6, 1.0, 1000.0  # of the pipe, m; water, m²/s; s; kg/m³
+RADIUS, NU, PERIOD, RHO = 1e-3, 1e-6, 1.0, 1000.0  # pipe, m; water, m²/s; period, s; density, kg/m³
 MU = NU * RHO
 
 flow = foamprb.analytic.womersley(RADIUS, NU, PERIOD, amplitude=0.05, mean_velocity=0.0)
@@ -28,7 +28,7 @@ for _ in range(200):
     D.append((stretch[:, 0] - stretch[:, 2]) / (stretch[:, 0] + stretch[:, 2]))
     rate.append(flow.sample(bodies.x, bodies.host, cloud.time)[1][0, 0, 1])
 times, D, rate = np.array(times), np.array(D), np.abs(rate)
-follows = 1.25 * MU * rate / stiffness[0]  # for small deformations, in a shear that does not change
+follows = 1.25 * MU * rate / stiffness[0]  # for small deformations in steady shear
 second = times > PERIOD
 error = np.abs(D[:, 0] - follows)[second].max() / follows.max()
 print(f"stiff body: D is 5/4 of the capillary number to {100 * error:.2f} %")

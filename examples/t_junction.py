@@ -1,4 +1,4 @@
-"""The end wall of a T-junction: soft spheres come down on it and part to the left and to the right."""
+"""End wall of a T-junction: soft spheres approach it and turn to the left or to the right."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from matplotlib import pyplot as plt
 
 import foamprb
 
-K, MU = 5e4, 1e-3  # of the flow, 1/(m s); viscosity of water, Pa s
+K, MU = 5e4, 1e-3  # flow constant, 1/(m s); viscosity of water, Pa s
 
 
 def parting(x, y, z):
-    """Stokes' flow against the wall y = 0, with the stream function K x y², m/s."""
+    """Return the Stokes flow against the wall y = 0, with the stream function K x y², m/s."""
     return 2.0 * 5e4 * x * y, -5e4 * y * y, 0.0 * z
 
 
@@ -31,11 +31,11 @@ for _ in range(250):
     D.append((stretch[:, 0] - stretch[:, 2]) / (stretch[:, 0] + stretch[:, 2]))
 x, y = np.array(paths)[:, :, 0], np.array(paths)[:, :, 1]
 
-assert (np.sign(x[-1]) == np.sign(starts)).all()  # the flow's dividing line is that of the bodies
+assert (np.sign(x[-1]) == np.sign(starts)).all()  # flow and bodies have the same dividing line
 drift = np.abs(x * y * y / (x[0] * y[0] ** 2) - 1.0).max()
 print(f"away from the streamline: {100 * drift:.3f} %; largest D {np.max(D):.3f}")
-assert drift < 3e-3  # what inertia does
-assert np.max(np.abs(np.array(D) - np.array(D)[:, ::-1])) < 1e-9  # left is as right
+assert drift < 3e-3  # effect of inertia
+assert np.max(np.abs(np.array(D) - np.array(D)[:, ::-1])) < 1e-9  # symmetric
 
 figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
 shown = axes.scatter(1e3 * x, 1e3 * y, c=np.array(D), s=4, cmap="viridis")

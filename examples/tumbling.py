@@ -1,4 +1,4 @@
-"""A stiff ellipsoid tumbles in a shear flow, with Jeffery's period."""
+"""Tumbling of a stiff ellipsoid in a shear flow, with Jeffery's period."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ for _ in range(250):
     long_axis = np.linalg.svd(body.F[0].reshape(3, 3))[0][:, 0]
     angles.append(np.arctan2(long_axis[1], long_axis[0]))
 times = STEP * np.arange(1, 251)
-turned = -np.unwrap(2.0 * np.array(angles)) / 2.0  # an axis has no head and no tail
+turned = -np.unwrap(2.0 * np.array(angles)) / 2.0  # the axis has no sign
 half = np.interp(np.pi, turned - turned[0], times - times[0])
 
 period = 2.0 * np.pi * (RATIO + 1.0 / RATIO) / RATE

@@ -1,4 +1,4 @@
-"""Soft bodies over a wall in shear rise, as the cube root of time; a stiff one stays."""
+"""Wall lift: soft bodies in shear rise with the cube root of time; a stiff one keeps its height."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ for _ in range(60):
     heights.append(bodies.x[:, 2] / RADIUS)
 times, heights = np.array(times), np.array(heights)
 
-# The lift falls with the square of the height: h³ grows evenly.
+# The lift is proportional to 1/h², so h³ grows linearly.
 late = heights[20:] ** 3
 slope = [np.polyfit(times[20:], h, 1) for h in late.T[1:]]
 bend = [np.abs(np.polyval(s, times[20:]) - h).max() / h.max() for s, h in zip(slope, late.T[1:], strict=True)]
 print("after 6 s at", heights[-1].round(2), "radii; h³ departs from a line by", np.round(bend, 5))
 assert max(bend) < 5e-3
 print("twice as soft, so much faster:", (slope[1][0] / slope[0][0]).round(3))
-assert abs(slope[1][0] / slope[0][0] - 2.0) < 0.05  # the lift of a body that is little deformed is as its Ca
+assert abs(slope[1][0] / slope[0][0] - 2.0) < 0.05  # for small deformations the lift is proportional to Ca
 assert heights[-1, 0] < 4.05
 
 figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")

@@ -1,6 +1,6 @@
-"""The flow on the axis of the device, as a table: what `tools/validate -case extensionDevice` reads.
+"""Table of the flow on the axis of the device, input of `tools/validate -case extensionDevice`.
 
-Samples the flows that ``Allrun`` computed, one folder per mesh, where the beads go.
+Samples the flows of ``Allrun``, one folder per mesh, on the path of the beads.
 
     ./Allrun coarse; ./Allrun medium; ./Allrun fine
     python axis.py coarse medium fine > ../../tools/validation/extension_axis.csv
@@ -20,7 +20,7 @@ START, END, SPACING = 1000, 1676, 2
 
 
 def table(cases: list[Path]) -> str:
-    """x, m, and on each mesh the velocity, m/s, and its gradient ∂u/∂x, 1/s, as comma-separated values."""
+    """Return x, m, and on each mesh u, m/s, and ∂u/∂x, 1/s, as comma-separated values."""
     x = 1e-6 * np.arange(START, END + 1, SPACING)
     places = np.zeros((len(x), 3))
     places[:, 0] = x

@@ -1,8 +1,8 @@
-"""The bead's deformation along the axis against theory, and on meshes that refine.
+"""Deformation of the beads along the axis against theory, and mesh convergence.
 
-Tracks the beads of ``constant/softCloudProperties`` through the flow that ``Allrun`` computed, one folder per
-mesh. Prints, on the finest of the meshes, the deformation D = (a − c)/(a + c) beside that of an elastic
-sphere at small deformation, and then D at the same stations on every mesh.
+Tracks the beads of ``constant/softCloudProperties`` through the flows of ``Allrun``, one folder per mesh.
+Prints the deformation D = (a − c)/(a + c) on the finest mesh, with that of an elastic sphere at small
+deformation, and D at the same stations on every mesh.
 
     ./Allrun coarse; ./Allrun medium; ./Allrun fine
     python check.py coarse medium fine
@@ -24,13 +24,13 @@ import foamprb
 Floats = NDArray[np.float64]
 
 STATIONS = 1e-6 * np.array([1300.0, 1400.0, 1450.0, 1500.0, 1525.0, 1550.0, 1600.0, 1650.0])
-"""x, m. The cone reaches from 1500 to 1560 µm."""
+"""x, m. The cone extends from 1500 to 1560 µm."""
 INTERVAL = 2e-5
 """Time between two points of a track, s: the beads move by no more than 7 µm."""
 
 
 class Axis(NamedTuple):
-    """The flow on the axis."""
+    """Flow on the axis."""
 
     x: Floats
     """m, from the release of the beads to the outlet."""
@@ -41,7 +41,7 @@ class Axis(NamedTuple):
 
 
 class Track(NamedTuple):
-    """What became of one bead."""
+    """Path and deformation of one bead."""
 
     name: str
     """Its injection model."""
@@ -54,7 +54,7 @@ class Track(NamedTuple):
 
 
 def axis(job: foamprb.Job, points: int = 2000) -> Axis:
-    """Sample the flow on the axis, as the beads see it."""
+    """Sample the flow on the path of the beads."""
     flow, start = job.cloud.flow, job.cloud.particles.x0[0, 0]
     outlet = flow.patch_faces("outlet", 0.0).vertices[..., 0].min()
     x = np.linspace(start, outlet - 1e-3 * (outlet - start), points)
@@ -65,7 +65,7 @@ def axis(job: foamprb.Job, points: int = 2000) -> Axis:
 
 
 def track(job: foamprb.Job) -> list[Track]:
-    """Advance the beads to the outlet and keep where they were and how deformed, a track for each."""
+    """Advance the beads to the outlet; return places and deformations, one track per bead."""
     cloud, solution = job.cloud, job.settings.solution
     x, D = [], []
     while cloud.time < solution.endTime and (cloud.particles.status <= foamprb.Status.ACTIVE).all():
@@ -83,11 +83,11 @@ def track(job: foamprb.Job) -> list[Track]:
 
 
 def small_deformation(flow: Axis, viscosity: float, mu: float, x: Floats) -> Floats:
-    """D at x of an elastic sphere without inertia, to first order in its strain.
+    """Return D at x of an elastic sphere without inertia, to first order in its strain.
 
-    Its rate of strain is 5/3 d_f − σ′/(3 μ_f) with σ′ = 2 μ ε. So the strain ε along the axis relaxes towards
-    (5/2) (μ_f/μ) ∂u/∂x with the time constant (3/2) μ_f/μ while the sphere moves with the liquid; −ε/2 across
-    the axis keeps the volume, and D = 3/4 ε.
+    Its rate of strain is 5/3 d_f − σ′/(3 μ_f) with σ′ = 2 μ ε. The strain ε along the axis therefore relaxes
+    towards (5/2) (μ_f/μ) ∂u/∂x with the time constant (3/2) μ_f/μ as the sphere moves with the liquid. The
+    strain across the axis is −ε/2, which keeps the volume, and D = 3/4 ε.
     """
     time = 1.5 * viscosity / mu
 
@@ -103,13 +103,13 @@ def small_deformation(flow: Axis, viscosity: float, mu: float, x: Floats) -> Flo
 
 
 def at(bead: Track, x: Floats) -> Floats:
-    """D of a bead where it passes x."""
+    """Return D of a bead at x."""
     D: Floats = CubicSpline(bead.x, bead.D)(x)
     return D
 
 
 def report(cases: list[Path]) -> str:
-    """Both tables, in Markdown."""
+    """Return both tables, in Markdown."""
     jobs = [foamprb.prepare(case) for case in cases]
     tracks = [track(job) for job in jobs]
     flow, viscosity, beads = axis(jobs[-1]), jobs[-1].cloud.medium.mu, tracks[-1]

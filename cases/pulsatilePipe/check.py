@@ -1,9 +1,9 @@
-"""The pulsating flow against Womersley's solution, and the particles in it against those in the exact flow.
+"""Errors of the pulsating flow against Womersley's solution, and of particles against the exact flow.
 
-Reads the flow that ``Allrun`` computed, one folder per mesh. The first table compares velocity and shear rate
-at random points and at all written times with the exact ones. The second tracks the particles of
-``constant/softCloudProperties`` through the files, with all written times and with fewer of them, and through
-the exact flow: errors of position and shape after one period and after four.
+Reads the flows of ``Allrun``, one folder per mesh. The first table compares velocity and shear rate with the
+exact ones, at random points and all written times. The second tracks the particles of
+``constant/softCloudProperties`` through the files, with all written times or fewer, and through the exact
+flow: errors of position and shape after one period and after four.
 
     ./Allrun coarse; ./Allrun medium; ./Allrun fine
     python check.py coarse medium fine
@@ -25,21 +25,21 @@ Floats = NDArray[np.float64]
 
 RADIUS, LENGTH, NU, PERIOD = 2e-3, 0.06, 2e-6, 1.0
 STEADY, OSCILLATING = 0.02, 0.06
-"""Pressure gradient over density, m/s²: mean, and the amplitude of the part that goes as sin(2π t/T)."""
+"""Pressure gradient over density, m/s²: mean, and amplitude of sin(2π t/T)."""
 OMEGA = 2.0 * np.pi / PERIOD
 MEAN_VELOCITY = STEADY * RADIUS**2 / (8.0 * NU)
 STRIDES = (1, 2, 4, 8)
 
 
 def exact_flow() -> foamprb.analytic.AnalyticFlow:
-    """The flow in closed form."""
+    """Return the flow in closed form."""
     return foamprb.analytic.womersley(
         RADIUS, NU, PERIOD, OSCILLATING, MEAN_VELOCITY, phase=-0.5 * np.pi, length=LENGTH
     )
 
 
 def womersley(r: Floats, t: float) -> tuple[Floats, Floats]:
-    """u, m/s, and ∂u/∂r, 1/s, at the radii r, m, and at time t, s."""
+    """Return u, m/s, and ∂u/∂r, 1/s, at the radii r, m, and at time t, s."""
     k = 1j**1.5 * np.sqrt(OMEGA / NU)
     swing = OSCILLATING / (1j * OMEGA) * np.exp(1j * (OMEGA * t - 0.5 * np.pi))
     u = 2.0 * MEAN_VELOCITY * (1.0 - (r / RADIUS) ** 2)
@@ -49,12 +49,12 @@ def womersley(r: Floats, t: float) -> tuple[Floats, Floats]:
 
 
 class FlowErrors(NamedTuple):
-    """Errors in the core (r < 0.9 R) and near the wall, and what they are relative to."""
+    """Relative errors in the core (r < 0.9 R) and near the wall."""
 
     u: tuple[float, float]
     """rms, relative to the largest velocity of the period."""
     slope: tuple[float, float]
-    """rms of ∂u/∂r, relative to the largest of the period at the wall."""
+    """rms of ∂u/∂r, relative to the largest value at the wall in the period."""
 
 
 def flow_errors(case: Path, n: int = 2000) -> FlowErrors:
@@ -82,16 +82,16 @@ def flow_errors(case: Path, n: int = 2000) -> FlowErrors:
 
 
 class Track(NamedTuple):
-    """What became of the particles."""
+    """Places and shapes of the particles."""
 
     x: Floats
     """Positions after one period and at the end, (2, n, 3), m."""
     F: Floats
-    """Deformation gradients then, (2, n, 9)."""
+    """Deformation gradients at the same times, (2, n, 9)."""
 
 
 def track(cloud: foamprb.Cloud, periods: int = 4) -> Track:
-    """Advance the particles by some periods."""
+    """Advance the particles by ``periods``."""
     places, shapes = [], []
     for step in (1, periods - 1):
         cloud.advance(round(step * PERIOD / cloud.dt))
@@ -103,12 +103,12 @@ def track(cloud: foamprb.Cloud, periods: int = 4) -> Track:
 
 
 def in_files(case: Path, stride: int = 1) -> foamprb.Cloud:
-    """The particles of the case in its flow, with every ``stride``-th written time of the last period."""
+    """Return the particles in the case's flow, with every ``stride``-th written time of the last period."""
     return foamprb.prepare(case, " ".join(foamprb.select_times(case, "3:4")[::stride])).cloud
 
 
 def in_exact_flow(cloud: foamprb.Cloud) -> foamprb.Cloud:
-    """The same particles at their start, in the flow in closed form."""
+    """Return the same particles at their start, in the flow in closed form."""
     p, flow = cloud.particles.take(np.arange(cloud.particles.size)), exact_flow()
     p.host[:] = -1
     rules = dict(zip([patch.name for patch in cloud.flow.patches], cloud.interactions, strict=True))
@@ -119,7 +119,7 @@ def in_exact_flow(cloud: foamprb.Cloud) -> foamprb.Cloud:
 
 
 def distances(a: Track, b: Track) -> Floats:
-    """Largest distance of positions, m, and of deformation gradients, then and at the end: (2, 2)."""
+    """Return the largest distance of positions, m, and of deformation gradients, at both times: (2, 2)."""
     return np.array([np.linalg.norm(p - q, axis=-1).max(axis=1) for p, q in zip(a, b, strict=True)])
 
 
