@@ -36,24 +36,28 @@ def test_paths_and_shapes_are_the_same_in_both_frames_after_turning(rho):
 
 
 def test_velocities_settle_with_coriolis_force():
-    """In a fluid that turns as a solid: v = w − τ' (2 Ω × w + Ω × (Ω × r)), to first order in τ."""
+    """In a fluid that turns as a solid: v = w − τ (2 Ω × w + Ω × (Ω × r)), to first order in τ.
+
+    Weight and axis are oblique, so that each of the six terms of Ω × w counts.
+    """
     kernels = {**analytic.linear(np.zeros((3, 3))).kernels, "rotation_at": solid_frame}
-    g = 9.81
+    g, spin, x = np.array([-4.0, -9.0, 6.0]), np.array(SPIN), np.array([0.2, 0.1, -0.3])
     rho, d, mu = 3000.0, 1e-4, 1e-3
     tau = rho * d**2 / (18.0 * mu)
-    p = spheres([[0.2, 0.0, 0.0]], d=d, rho=rho, mu=1e5, poissons_ratio=0.4999)
+    p = spheres([x], d=d, rho=rho, mu=1e5, poissons_ratio=0.4999)
     flow = analytic.AnalyticFlow(analytic.LinearArrays(np.zeros(3), np.zeros(9)), kernels)
-    medium = Medium(mu, 1000.0, (0.0, -g, 0.0))
     models = Models(integrator="stokes", surroundings=(RotatingFrames(),))
-    Cloud(p, flow, medium, (), 1e-6, models, threads=1).advance(1)
-    w = -g * tau * (1.0 - 1000.0 / rho)
-    spin = 2.0
-    expected = [tau * (spin**2 * 0.2 + 2.0 * spin * w), w, 0.0]
-    np.testing.assert_allclose(p.v[0], expected, rtol=1e-4, atol=1e-9)
+    Cloud(p, flow, Medium(mu, 1000.0, tuple(g)), (), 1e-6, models, threads=1).advance(1)
+    w = g * tau * (1.0 - 1000.0 / rho)
+    turning = 2.0 * np.cross(spin, w) + np.cross(spin, np.cross(spin, x))
+    np.testing.assert_allclose(p.v[0], w - tau * turning, rtol=1e-4, atol=1e-9)
+
+
+SPIN = (1.0, -3.0, 2.0)
 
 
 def solid_frame(flow: Any, host: int) -> Any:
-    return (0.0, 0.0, 2.0), (0.0, 0.0, 0.0)
+    return SPIN, (0.0, 0.0, 0.0)
 
 
 def half_rotating(u):

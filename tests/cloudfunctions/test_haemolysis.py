@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from observing import MEAN, RADIUS, WATER, column, observe, pipe_cloud, table
+from observing import MEAN, RADIUS, WATER, column, observe, observed, pipe_cloud, table
 from scipy.integrate import quad, solve_ivp
 
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.state import spheres
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.cloudfunctions.haemolysis import (
     POWER_LAWS,
@@ -176,3 +176,28 @@ def test_no_more_is_set_free_than_there_is(tmp_path):
     found = column(table(tmp_path / "f/haemolysis.csv"), "haemolysis")
     assert found.max() == 100.0
     assert column(table(tmp_path / "f/means.csv"), "haemolysis").max() <= 100.0
+
+
+def test_failed_particles_are_not_in_the_means(tmp_path):
+    """Their shapes, and so their stresses, may be anything; in the table of particles they stay."""
+    cloud, law = observed(pipe_cloud(n=8)), Haemolysis(constants="Song")
+    memory = law.begin(cloud)
+    cloud.particles.status[:] = Status.ACTIVE
+    cloud.particles.status[:4] = Status.FAILED
+    memory["dose"][:] = np.where(np.arange(8) < 4, 1e9, 1.0)
+    law.write(memory, cloud, tmp_path)
+    expected = float(index_of_haemolysis(law.law, np.array(1.0)))
+    for row in table(tmp_path / "means.csv"):
+        assert (int(row["parcels"]), float(row["haemolysis"])) == (2, pytest.approx(expected, rel=1e-6))
+    assert len(table(tmp_path / "haemolysis.csv")) == 8
+
+
+def test_where_the_flow_is_unknown_the_last_stress_goes_on():
+    """As of a particle that has left the mesh: its place gives no number."""
+    cloud, law = observed(pipe_cloud(n=4, medium=WATER)), Haemolysis(constants="Song")
+    p, memory = cloud.particles, law.begin(cloud)
+    rate = memory["rate"].copy()
+    p.status[:], p.t[:], p.x[0] = Status.ACTIVE, p.t + 0.5, np.nan
+    law.sample(memory, cloud)
+    np.testing.assert_array_equal(memory["rate"], rate)
+    np.testing.assert_allclose(memory["dose"], 0.5 * rate, rtol=1e-12)

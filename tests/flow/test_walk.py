@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import product
+from itertools import permutations, product
 
 import numpy as np
 import pytest
@@ -610,3 +610,24 @@ def test_a_way_that_no_face_lets_out_begins_anew_nearer_to_the_middle(axis, monk
     # From so far beyond no nudge helps.
     with pytest.raises(AssertionError, match="nudged"):
         walk(arrays, 0, tuple(np.roll((1e-3, 0.3, 0.3), axis)), tuple(np.roll((5e-4, 0.3, 0.31), axis)))
+
+
+def test_a_way_through_the_rim_of_a_wall_goes_on_inside():
+    """Two tetrahedra whose walls make an edge that stands inwards; the way touches it and misses both walls.
+
+    At the edge the way leaves by a wall and by the side between the tetrahedra at once, in whatever order.
+    """
+    nodes = np.zeros((5, 16))
+    nodes[:, :3] = [[0, 0, -1], [0, 0, 1], [0, 1, 0], [-1, -1, 0], [1, -1, 0]]
+    for order in permutations((3, 0, 1, 2)):
+        first = list(order)
+        if np.linalg.det(nodes[first[1:], :3] - nodes[first[0], :3]) < 0.0:
+            first[:2] = first[1::-1]
+        neighbours = np.array([[-1, -2, -3, -4], [0, -5, -6, -7]])
+        neighbours[0, first.index(3)] = 1
+        arrays = no_mesh()._replace(
+            nodes=nodes, n_points=3, tets=np.array([first, [4, 0, 1, 2]]), neighbours=neighbours,
+            folds=np.zeros(5, dtype=np.uint8), triangle_patch=np.arange(7),
+        )  # fmt: skip
+        assert min(frame(arrays, t)[4] for t in (0, 1)) > 0.0
+        assert walk(arrays, 0, (-0.25, 0.0, 0.0), (0.25, 0.0, 0.0)) == (1, 1.0, REACHED, -1)

@@ -198,6 +198,10 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda c: edit(c, r"1\.491e-0?5", "1.5e-05", "constant/transportProperties"),
         "fluid/nu was 1.491e-05, is 1.5e-05",
     ),
+    "limits": (
+        lambda c: edit(c, r"deltaT\s", "maxStretch 50; deltaT "),
+        r"else: limits/max_stretch was 100\.0, is 50\.0\. Undo",
+    ),
     "integrator": (
         lambda c: edit(c, r"shape(\s+)paper", r"shape\1rosenbrock"),
         "models/integrator was paper",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -16,6 +17,7 @@ from foamprb.results.tables import write_table
 from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
+from foamprb.view.report.page import table
 from foamprb.view.report.report import write_report
 
 N = 60
@@ -89,6 +91,14 @@ def test_every_picture_has_a_name_and_every_id_is_there_once(page):
     inner = [link[1:] for link in reader.links if link.startswith("#")]
     assert inner
     assert set(inner) <= set(reader.ids)
+
+
+def test_texts_of_a_table_are_escaped():
+    text = '<b>a & "b"'
+    made = table(text, [text, text], [[text, text]])
+    escaped = html.escape(text)
+    assert made.count(escaped) == 6
+    assert "<b>" not in made
 
 
 def test_links_lead_to_files(case, page):

@@ -82,15 +82,14 @@ def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[object]], n
     align = ' class="n"' if numbers else ""
 
     def line(cells: Sequence[object], tag: str) -> str:
-        first = (
-            f'<th scope="row">{html.escape(str(cells[0]))}</th>' if tag == "td" else f"<th>{cells[0]}</th>"
-        )
+        scope = ' scope="row"' if tag == "td" else ""
+        first = f"<th{scope}>{html.escape(str(cells[0]))}</th>"
         others = "".join(f"<{tag}{align}>{html.escape(str(cell))}</{tag}>" for cell in cells[1:])
         return f"<tr>{first}{others}</tr>"
 
     body = "".join(line(row, "td") for row in rows)
     return (
         f'<div class="scroll" tabindex="0" role="region" aria-label="{html.escape(caption)}"><table>'
-        f"<caption>{html.escape(caption)}</caption><thead>{line(head, 'th')}</thead><tbody>{body}</tbody>"
+        f"<caption>{caption}</caption><thead>{line(head, 'th')}</thead><tbody>{body}</tbody>"
         "</table></div>"
     )

@@ -100,6 +100,15 @@ class TestCellZone:
         counts = np.bincount(flow.cell_of(whole.host), minlength=mesh.n_cells)
         assert np.abs(counts - mesh.volumes * density).max() < 2.0
 
+    def test_tetrahedra_inside_out_get_no_particle(self, lid_flow, monkeypatch):
+        """They overlap their neighbours, which hold their share already."""
+        zone = lid_flow.cell_zone(None)
+        volumes = np.where(np.arange(len(zone.volumes)) % 3 == 1, -0.5, 1.0) * zone.volumes
+        monkeypatch.setattr(MeshFlow, "cell_zone", lambda *_: zone._replace(volumes=volumes))
+        p = release(CellZoneInjection(selectionMode="all", numberDensity=3000.0), lid_flow, rng(), no_file)
+        assert p.size == pytest.approx(3000.0 * volumes[volumes > 0.0].sum(), abs=1.0)
+        assert (volumes[np.searchsorted(zone.hosts, p.host)] > 0.0).all()
+
     def test_velocity_is_the_fluids_or_the_users(self, pipe_flow):
         flow = with_zones(pipe_flow, {"all": np.arange(pipe_flow.mesh.n_cells)})
         density = 100.0 / pipe_flow.mesh.volumes.sum()

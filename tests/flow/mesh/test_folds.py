@@ -371,6 +371,23 @@ def test_a_thread_through_a_hard_mesh_ends_where_the_line_meets_the_boundary(kin
     assert min(reached, left) > 3
 
 
+@pytest.mark.filterwarnings("ignore:divide by zero")
+@pytest.mark.filterwarnings("ignore:invalid value")
+def test_a_thread_lost_from_one_tetrahedron_is_found_from_another(random):
+    """From a tetrahedron elsewhere some threads are lost; a second one, which holds the start, has them."""
+    flow = hard("folded")
+    arrays, lost = flow.arrays(), 0
+    for x0, host, x1 in along(flow, 60, random):
+        way, elsewhere = (tuple(x0), tuple(x1)), int(random.integers(len(flow.mesh.tets)))
+        if folds.trace(arrays, elsewhere, *way)[2] != folds._FAILED:
+            continue
+        lost += 1
+        _, fraction, patch, _ = find_thread(arrays, elsewhere, *way)
+        _, expected, left_by, _ = folds.trace(arrays, int(host), *way)
+        assert (patch, fraction) == (left_by, pytest.approx(expected, abs=1e-9))
+    assert lost > 2
+
+
 def test_from_outside_there_is_no_thread():
     """A place beyond a wall that is no round-off away, on a line that does not come in."""
     flow = hard("folded")
