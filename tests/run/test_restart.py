@@ -200,7 +200,7 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
     ),
     "limits": (
         lambda c: edit(c, r"deltaT\s", "maxStretch 50; deltaT "),
-        r"else: limits/max_stretch was 100\.0, is 50\.0\. Undo",
+        r"else: limits/maxStretch was 100\.0, is 50\.0\. Undo",
     ),
     "integrator": (
         lambda c: edit(c, r"shape(\s+)paper", r"shape\1rosenbrock"),

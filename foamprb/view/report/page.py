@@ -90,6 +90,6 @@ def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[object]], n
     body = "".join(line(row, "td") for row in rows)
     return (
         f'<div class="scroll" tabindex="0" role="region" aria-label="{html.escape(caption)}"><table>'
-        f"<caption>{caption}</caption><thead>{line(head, 'th')}</thead><tbody>{body}</tbody>"
+        f"<caption>{html.escape(caption)}</caption><thead>{line(head, 'th')}</thead><tbody>{body}</tbody>"
         "</table></div>"
     )
