@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import permutations
+from itertools import permutations, product
 
 import numpy as np
 import pytest
@@ -31,10 +31,9 @@ def longest_step(stretches, mu, eta):
     return low
 
 
-@pytest.mark.parametrize("eta", [0.0, 2.0])
-@pytest.mark.parametrize("mu", [0.02, 2.0, 200.0])
 @pytest.mark.parametrize("stretches", [(1.2, 0.9, 1.05), (0.3, 1.1, 3.4), (0.8, 2.0, 0.5), (3.0, 0.6, 0.6)])
-def test_the_longest_stable_step_does_not_depend_on_the_order_of_the_axes(stretches, mu, eta):
-    found = [longest_step(axes, mu, eta) for axes in permutations(stretches)]
-    assert found == pytest.approx([found[0]] * 6, rel=1e-9)
-    assert found[0] > 0.999999 * safe_step(stretches, C, MU_F, eta)
+def test_the_longest_stable_step_does_not_depend_on_the_order_of_the_axes(stretches):
+    for mu, eta in product((0.02, 2.0, 200.0), (0.0, 2.0)):
+        found = [longest_step(axes, mu, eta) for axes in permutations(stretches)]
+        assert found == pytest.approx([found[0]] * 6, rel=1e-9)
+        assert found[0] > 0.999999 * safe_step(stretches, C, MU_F, eta)

@@ -132,10 +132,10 @@ def test_response_is_that_function_of_the_stiffness(stretch, X, Y, h):
     np.testing.assert_allclose(found, expected, atol=1e-7 * (1.0 + np.abs(expected).max()))
 
 
-@pytest.mark.parametrize("z", [*-np.geomspace(1e-6, 1e6, 40)])
-def test_a_slope_counts_for_what_it_adds_up_to_or_a_little_more(z):
+def test_a_slope_counts_for_its_sum_or_a_little_more():
     """½ P for r₂, from no damping to one that leaves nothing."""
-    assert 0.96 < 0.5 / (1.0 - own.GAMMA * z) / r(2, z) < 1.15
+    ratios = [0.5 / (1.0 - own.GAMMA * z) / r(2, z) for z in -np.geomspace(1e-6, 1e6, 40)]
+    assert 0.96 < min(ratios) < max(ratios) < 1.15
 
 
 @given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
