@@ -84,12 +84,8 @@ class ShapeResistance(NamedTuple):
 def shape_resistance(semi_axes: Vector, g: Integrals, eta: Scalar) -> ShapeResistance:
     """Return the resistance: symmetric by Lorentz's theorem, and positive definite.
 
-    Parameters
-    ----------
-    semi_axes, g
-        a, b, c and their integrals, in one unit of length.
-    eta
-        Viscosity of the solid over that of the fluid.
+    ``semi_axes`` and ``g`` are a, b, c and their integrals, in one unit of length, ``eta`` the viscosity of
+    the solid over that of the fluid.
     """
     a, b, c = semi_axes
     own = 2.0 - 2.0 * eta

@@ -44,14 +44,8 @@ _TRACTION = 4.0
 def safe_step(stretches: Vector, c: Scalar, mu_f: Scalar, eta: Scalar) -> Scalar:
     """Return a step, s, stable for any elasticity: 3/2 τ_s λ²/J for η_s = 0, λ the smallest stretch.
 
-    Parameters
-    ----------
-    stretches
-        λ_a.
-    c
-        5/(ρ_s R²), m/kg.
-    mu_f, eta
-        Viscosities of the fluid and of the solid, Pa s.
+    ``stretches`` are λ_a, ``c`` is 5/(ρ_s R²), m/kg, ``mu_f`` and ``eta`` are the viscosities of fluid and
+    solid, Pa s.
     """
     x, y, z = stretches
     least = np.minimum(x, np.minimum(y, z))
@@ -80,20 +74,10 @@ def is_stable(
     mu_f: Scalar,
     eta: Scalar,
 ) -> Any:
-    """Return whether the paper's step dt is stable for a shape.
+    """Return whether the paper's step ``dt``, s, is stable for a shape.
 
-    Parameters
-    ----------
-    dt
-        The step, s.
-    stretches, g
-        λ_a and their integrals.
-    e, tau
-        Elasticity, with the resistance to dilation, and normal Kirchhoff stresses there, Pa.
-    c
-        5/(ρ_s R²), m/kg.
-    mu_f, eta
-        Viscosities of the fluid and of the solid, Pa s.
+    ``g`` are the integrals of the stretches; ``e`` is the elasticity, with the resistance to dilation, and
+    ``tau`` the normal Kirchhoff stresses, Pa. For the others see :func:`safe_step`.
     """
     x, y, z = stretches
     bx, by, bz = x * x, y * y, z * z

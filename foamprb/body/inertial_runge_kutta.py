@@ -214,18 +214,8 @@ def turning_acceleration(
     See :func:`foamprb.body.turning.turning_gradient`. Shape, l_s and traction rotate with the W of
     :func:`foamprb.body.turning.shape_spin`, the stress with the body's own spin.
 
-    Parameters
-    ----------
-    stretches, n
-        λ_a, and the stiffness of that shape.
-    c
-        5/(ρ_s R²), m/kg.
-    l_s, rate
-        Velocity gradient of the body, 1/s, and its rate, 1/s².
-    l_f
-        Velocity gradient of the fluid, 1/s.
-    tau
-        Kirchhoff stress, Pa.
+    ``n`` is the stiffness of the shape with the stretches λ_a, ``c`` is 5/(ρ_s R²), m/kg, ``rate`` dl_s/dt,
+    1/s², ``tau`` the Kirchhoff stress, Pa.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
     stress = scale(-c, turned(subtract(own, W), tau))

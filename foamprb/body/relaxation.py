@@ -119,15 +119,7 @@ class Relaxation(NamedTuple):
 
 
 def relaxation(m: Mobility, e: Elasticity, mu_f: Scalar) -> Relaxation:
-    """Return J.
-
-    Parameters
-    ----------
-    m, e
-        Mobility and elasticity at the start of the step, the latter without the resistance to dilation.
-    mu_f
-        Viscosity of the fluid, Pa s.
-    """
+    """Return J; the elasticity is that without the resistance to dilation, μ_f in Pa s."""
     h = 1.0 / mu_f
     s, k = e.shear, m.compliance
     c1, c2, c3 = -0.5 * h * s[0] * k[0], -0.5 * h * s[1] * k[1], -0.5 * h * s[2] * k[2]

@@ -29,12 +29,8 @@ class Mobility(NamedTuple):
 def mobility(semi_axes: Vector, g: Integrals, eta: Scalar) -> Mobility:
     """Return the response.
 
-    Parameters
-    ----------
-    semi_axes, g
-        a, b, c and their integrals, in one unit of length.
-    eta
-        Viscosity of the solid over that of the fluid.
+    ``semi_axes`` and ``g`` are a, b, c and their integrals, in one unit of length, ``eta`` the viscosity of
+    the solid over that of the fluid.
     """
     a, b, c = semi_axes
     s = g.star
@@ -73,14 +69,8 @@ def velocity_gradient(m: Mobility, sigma: Tensor, l_f: Tensor) -> Tensor:
     The normal components of the fluid's traction need no further integrals: −N·s̃(e) = e − 2 (1 − η_s/μ_f)
     N·e for a traceless e, with N the ``normal`` mobility, whose rows and columns sum to zero.
 
-    Parameters
-    ----------
-    m
-        :func:`mobility`.
-    sigma
-        Elastic Cauchy stress over μ_f, 1/s; symmetric, with any mean.
-    l_f
-        Velocity gradient of the fluid, 1/s.
+    ``sigma`` is the elastic Cauchy stress over μ_f, symmetric, with any mean, and ``l_f`` the velocity
+    gradient of the fluid, 1/s.
     """
     third = (l_f[0] + l_f[4] + l_f[8]) * (1.0 / 3.0)
     x, y, z = l_f[0] - third, l_f[4] - third, l_f[8] - third

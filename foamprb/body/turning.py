@@ -88,16 +88,8 @@ def turning_gradient(
     W of :func:`shape_spin` rotates the shape, the body's own spin the stress. J is that of
     :func:`foamprb.body.relaxation.relaxing`.
 
-    Parameters
-    ----------
-    stretches, m, e
-        Shape, its mobility and elasticity.
-    mu_f
-        Viscosity of the fluid, Pa s.
-    l_s, l_f
-        Velocity gradients of body and fluid, 1/s.
-    sigma
-        Elastic stress over μ_f, 1/s.
+    ``m`` and ``e`` are mobility and elasticity of the shape, ``mu_f`` the viscosity of the fluid, Pa s,
+    ``l_s`` and ``l_f`` the velocity gradients of body and fluid, ``sigma`` the elastic stress over μ_f, 1/s.
     """
     W, own = shape_spin(stretches, l_s), skew(l_s)
     stress = turned(subtract(W, own), sigma)
