@@ -1,14 +1,13 @@
-"""Where rigid particles go in OpenFOAM's elbow: foamprb and OpenFOAM's tracking, on finer and finer meshes.
+"""Rigid particles in OpenFOAM's elbow: foamprb against OpenFOAM's tracking, on refined meshes.
 
 Usage: python tools/figures/elbow.py [-levels N] [-folder DIR] [-write PAGE]
 
 The mesh of the icoFoam tutorial `elbow` is refined by cutting each triangle into four. icoFoam computes the
-flow on the finest mesh; on a coarser one a cell has the mean of the cells of which it consists. So the flow
-is the same one on all meshes, as well as each can hold it, and what differs is how a particle is taken
-through it. 60 particles, so small and stiff that both programs should find the same, start at the two inlets:
-foamprb with `rosenbrock`, and icoUncoupledKinematicParcelFoam with `sphereDrag` and each of its two
-interpolations of U. Their places at all seconds are compared with those that the *other* program finds, on
-the same mesh and on the finest one, so that no program is measured by itself.
+flow on the finest mesh; a cell of a coarser mesh has the mean of its parts. The flow is therefore the same
+on all meshes, within their resolution, and only the tracking differs. 60 small and stiff particles start at
+the two inlets: with foamprb's `rosenbrock`, and with icoUncoupledKinematicParcelFoam, `sphereDrag` and each
+of its two interpolations of U. Their places at all seconds are compared with those of the *other* program,
+on the same mesh and on the finest one.
 """
 
 from __future__ import annotations
@@ -38,12 +37,12 @@ EMPTY = "frontAndBackPlanes"
 DIAMETER, DENSITY, FLUID, NU = 1e-4, 1e5, 1.0, 0.01
 SECONDS = 30
 SETTLED = (40.0, 10.0, 5.0, 2.0)
-"""Seconds that icoFoam runs on each mesh, from the flow on the one before."""
+"""Time of icoFoam on each mesh, s, starting from the flow on the previous one."""
 HEADER = 'FoamFile {{ version 2.0; format ascii; class {}; location "{}"; object {}; }}\n'
 
 
 class Plane(NamedTuple):
-    """Triangles, and the edges of each patch; what is above and below them is empty."""
+    """Triangles, and the edges of each patch; front and back are empty patches."""
 
     points: Floats
     """(n, 2), m."""
@@ -57,7 +56,7 @@ class Plane(NamedTuple):
         return self.points[self.triangles].mean(axis=1)
 
     def refined(self) -> Plane:
-        """Each triangle in four, number 4 t to 4 t + 3 of triangle t, and each edge in two."""
+        """Divide each triangle t into four, 4 t to 4 t + 3, and each edge into two."""
         a, b, c = self.triangles.T
         sides = np.sort(np.concatenate([[a, b], [b, c], [c, a]], axis=1).T, axis=1)
         pairs, which = np.unique(sides, axis=0, return_inverse=True)
@@ -78,7 +77,7 @@ class Plane(NamedTuple):
         )
 
     def write(self, path: Path) -> None:
-        """As a mesh of prisms in Gmsh's format 2.2."""
+        """Return a mesh of prisms in Gmsh's format 2.2."""
         n = len(self.points)
         nodes = np.concatenate([np.column_stack([self.points, np.full(n, z)]) for z in self.z])
         names = [EMPTY, *self.edges]
@@ -103,7 +102,7 @@ class Plane(NamedTuple):
 
 
 class Run(NamedTuple):
-    """Places of all particles at each second, (times, n, 2), NaN where one is not in the flow."""
+    """Places of all particles at each second, (times, n, 2), NaN outside the flow."""
 
     name: str
     level: int
@@ -125,7 +124,7 @@ def put(case: Path, name: str, text: str, kind: str = "dictionary") -> None:
 
 
 def change(path: Path, entries: Mapping[str, object]) -> None:
-    """Give entries of a dictionary other values."""
+    """Change entries of a dictionary."""
     text = path.read_text()
     for key, value in entries.items():
         text = re.sub(rf"(\n{key}\s+)[^;]+", rf"\g<1>{value}", text)
@@ -168,7 +167,7 @@ def write_mesh(plane: Plane, case: Path) -> None:
 
 
 def order(plane: Plane, case: Path) -> Ints:
-    """The triangle of each cell of a case."""
+    """Return the triangle of each cell of a case."""
     centres = read_case(case, "0").mesh.centres[:, :2]
     distance, triangle = cKDTree(plane.centres).query(centres)
     if distance.max() > 1e-4 or len(np.unique(triangle)) < len(plane.triangles):
@@ -177,7 +176,7 @@ def order(plane: Plane, case: Path) -> Ints:
 
 
 def read_u(path: Path) -> Floats:
-    """Values of a field of vectors in the cells, written as text."""
+    """Return the cell values of an ascii vector field."""
     text = path.read_text()
     found = re.search(r"internalField\s+nonuniform List<vector>\s*\d+\s*\((.*?)\n\)", text, re.DOTALL)
     if found is None:
@@ -194,7 +193,7 @@ def write_u(case: Path, u: Floats) -> None:
 
 
 def solve(folder: Path, levels: int) -> list[Path]:
-    """Cases of all meshes with the flow of the finest one, the coarsest first."""
+    """Return cases of all meshes with the flow of the finest one, the coarsest first."""
     base = folder / "base"
     planes = [tutorial(base)]
     for _ in range(levels - 1):
@@ -227,14 +226,14 @@ def solve(folder: Path, levels: int) -> list[Path]:
 
 
 def area(points: Floats, triangles: Ints) -> Floats:
-    """Of each triangle, m², negative if it turns clockwise."""
+    """Return the area of each triangle, m², negative if clockwise."""
     a, b, c = np.moveaxis(points[triangles], 1, 0)
     p, q = b - a, c - a
     return np.asarray(0.5 * (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]))
 
 
 def starts(case: Path) -> Floats:
-    """60 places near the inlets, half at each."""
+    """Return 60 places near the inlets, half at each."""
     z = read_case(case, "0").mesh.points[:, 2].mean()
     share = (np.arange(30) + 0.5) / 30.0
     left = np.column_stack([np.full(30, 0.5), 16.0 * share, np.full(30, z)])
@@ -285,7 +284,7 @@ timeFormat general; timePrecision 9; runTimeModifiable no;
 
 
 def openfoam(case: Path, level: int, scheme: str, dt: float) -> Run:
-    """OpenFOAM's own tracking."""
+    """Track with OpenFOAM."""
     copy = case.with_name(f"{case.name}-{scheme}-{dt:g}")
     shutil.copytree(case / "0", copy / "0")
     shutil.copytree(case / "constant", copy / "constant")
@@ -310,7 +309,7 @@ def openfoam(case: Path, level: int, scheme: str, dt: float) -> Run:
 
 
 def _list(path: Path) -> list[str]:
-    """Lines of a list that is written as text; one of equal numbers is written as one."""
+    """Return the lines of an ascii list; a list of equal numbers has one line."""
     text = path.read_text()
     same = re.search(r"\n(\d+)\s*\{(\S+)\}", text)
     if same:
@@ -320,7 +319,7 @@ def _list(path: Path) -> list[str]:
 
 
 def foamprb(case: Path, level: int, dt: float) -> Run:
-    """Ours, with bodies that are stiff."""
+    """Track stiff bodies with foamprb."""
     flow, x = read_case(case, "0"), starts(case)
     p = spheres(x, d=DIAMETER, rho=DENSITY, mu=1e6)
     p.v[:] = 0.0
@@ -339,19 +338,19 @@ def foamprb(case: Path, level: int, dt: float) -> Run:
 
 
 def distances(a: Run, b: Run) -> Floats:
-    """Of a particle in one run and in the other, at all times at which both have it, m."""
+    """Return the distances of a particle between two runs, at all common times, m."""
     apart = np.linalg.norm(a.places - b.places, axis=2)
     return np.asarray(apart[np.isfinite(apart)])
 
 
 def fates(a: Run, b: Run) -> int:
-    """For how many particles both runs say alike whether it is in the flow in the end."""
+    """Return the number of particles with the same final fate in both runs."""
     ends = (np.isfinite(run.places[-1, :, 0]) for run in (a, b))
     return int(np.equal(*ends).sum())
 
 
 def table(runs: Sequence[Run], cells: Sequence[int]) -> str:
-    """Each run against the other program's on the same mesh, and against its best on the finest mesh."""
+    """Compare each run with the other program's on the same mesh and on the finest mesh."""
     finest = {(run.name, run.level): run for run in sorted(runs, key=lambda run: -run.dt)}
     rows = [
         "| | cells | step, s | on the same mesh: median, m | 95 % | fates alike "
@@ -369,7 +368,7 @@ def table(runs: Sequence[Run], cells: Sequence[int]) -> str:
 
 
 def compare(folder: Path, levels: int) -> tuple[list[Run], list[int]]:
-    """All runs, and the numbers of cells."""
+    """Return all runs, and the numbers of cells."""
     cases = solve(folder, levels)
     cells = [len(read_u(case / "0/U")) for case in cases]
     runs = [foamprb(cases[0], 0, 0.1)]
@@ -387,8 +386,8 @@ def main() -> None:
     )
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("-levels", type=int, default=3, choices=(2, 3, 4), help="number of meshes [3]")
-    parser.add_argument("-folder", type=Path, help="where the cases are left [nowhere]")
-    parser.add_argument("-write", type=Path, metavar="PAGE", help=f"put the table into a page, after {BEGIN}")
+    parser.add_argument("-folder", type=Path, help="folder to keep the cases in [none]")
+    parser.add_argument("-write", type=Path, metavar="PAGE", help=f"write the table after {BEGIN} of a page")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         text = table(*compare(options.folder or Path(folder), options.levels))

@@ -1,9 +1,9 @@
-"""Errors of the flow's second derivatives on three meshes of a pipe, as Faxén's correction takes them.
+"""Errors of the flow's second derivatives in Faxén's correction, on three meshes of a pipe.
 
 Usage: python tools/figures/faxen.py prints the table of docs/models/faxen.md. The meshes are those of
 tools/benchmark, with exact values at the cell centres and on the boundary, of two fields: Poiseuille's, and
-cells that turn across the pipe and flow along it, of wave number 2/radius. What is compared is ∇²u, of which
-a sphere feels ⅙ R², at random places in the core (r < 0.8 radii) and near the wall; errors are root mean
+rotating cells across the pipe with a flow along it, of wave number 2/radius. ∇²u, whose ⅙ R² acts on a
+sphere, is compared at random places in the core (r < 0.8 radii) and near the wall. Errors are root mean
 squares over that of ∇²u.
 """
 
@@ -36,18 +36,18 @@ WAVE = 2.0 / pipe.RADIUS
 
 
 def cells_across(x: Floats) -> Floats:
-    """Turning cells, and a flow along them, 1 m/s."""
+    """Return rotating cells with a flow along them, 1 m/s."""
     y, z = WAVE * x[:, 1], WAVE * x[:, 2]
     return np.stack([np.cos(y) * np.cos(z), np.sin(y) * np.cos(z), -np.cos(y) * np.sin(z)], axis=1)
 
 
 def laplacian_of_cells(x: Floats) -> Floats:
-    """Theirs, 1/(m s)."""
+    """Return ∇²u of the rotating cells, 1/(m s)."""
     return -2.0 * WAVE * WAVE * cells_across(x)
 
 
 def laplacian_of_poiseuille(x: Floats) -> Floats:
-    """8 U/a² against the flow, 1/(m s)."""
+    """Return ∇²u of Poiseuille's flow, 8 U/a² against the flow, 1/(m s)."""
     found = np.zeros_like(x)
     found[:, 0] = -8.0 * pipe.MEAN / pipe.RADIUS**2
     return found
@@ -60,7 +60,7 @@ FIELDS: dict[str, tuple[Callable[[Floats], Floats], Callable[[Floats], Floats]]]
 
 
 def laplacians(flow: Any, hosts: NDArray[np.int32], found: Floats) -> None:
-    """∇²u in the tetrahedra, (n, 3), 1/(m s)."""
+    """Return ∇²u in the tetrahedra, (n, 3), 1/(m s)."""
     for i in range(len(hosts)):
         xx, yy, zz, _, _, _ = curvature(flow, hosts[i], (0.0, 0.0, 0.0), 0.0)
         for k in range(3):
@@ -68,7 +68,7 @@ def laplacians(flow: Any, hosts: NDArray[np.int32], found: Floats) -> None:
 
 
 def places(n: int) -> Floats:
-    """Random places between a third and two thirds of the pipe, to 0.98 radii, (n, 3)."""
+    """Return random places between a third and two thirds of the pipe, to 0.98 radii, (n, 3)."""
     random = np.random.default_rng(0)
     r, angle = 0.98 * pipe.RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
     x = pipe.LENGTH / 3.0 * (1.0 + random.random(n))

@@ -1,8 +1,8 @@
 """Errors of u and ∇u between the cell centres of pipe meshes, against the Poiseuille solution.
 
 Usage: python tools/figures/flow_accuracy.py CASE [CASE …], coarsest first; pipes along x with the paper's
-dimensions unless told otherwise. Each mesh is sampled at random points, in the core (r < 0.9 R) and near the
-wall, by three methods: ours; OpenFOAM's cellPoint (nodal means on the same tetrahedra, gradient constant in
+dimensions by default. Each mesh is sampled at random points, in the core (r < 0.9 R) and near the wall, by
+three methods: foamprb's; OpenFOAM's cellPoint (nodal means on the same tetrahedra, gradient constant in
 each); and VTK's point data (probed; gradient by vtkGradientFilter). Once with the solver's U, once with exact
 values at the cell centres and at rest on the wall.
 """
@@ -30,32 +30,32 @@ COLUMNS = ("u core", "u wall", "∇u core", "∇u wall")
 
 
 class Pipe(NamedTuple):
-    """A pipe along x: radius in m, mean velocity in m/s."""
+    """Pipe along x: radius in m, mean velocity in m/s."""
 
     radius: float
     mean: float
 
     def velocity(self, x: Floats) -> Floats:
-        """Poiseuille's u at the points (n, 3), zero outside."""
+        """Return Poiseuille's u at the points (n, 3), zero outside."""
         u = np.zeros_like(x)
         u[:, 0] = 2.0 * self.mean * np.maximum(1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / self.radius**2, 0.0)
         return u
 
     def gradient(self, x: Floats) -> Floats:
-        """∂u_i/∂x_j at the points, (n, 3, 3)."""
+        """Return ∂u_i/∂x_j at the points, (n, 3, 3)."""
         l = np.zeros((len(x), 3, 3))
         l[:, 0, 1:] = -4.0 * self.mean / self.radius**2 * x[:, 1:]
         return l
 
 
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
-    """Nodal u and ∇u of foamprb."""
+    """Return nodal u and ∇u of foamprb."""
     flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, boundary))
     return lambda x: flow.sample(x, flow.locate(x), 0.0)
 
 
 def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
-    """OpenFOAM's cellPoint: means weighted by inverse distance, boundary points from boundary faces only."""
+    """Interpolate as OpenFOAM's cellPoint: inverse-distance means, boundary points by boundary faces only."""
     columns = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
     u = weighted_mean(mesh, mesh.cell_points, mesh.centres[columns], cells[columns])
     first = mesh.face_start[mesh.n_internal]
@@ -77,7 +77,7 @@ def cell_point(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
 
 
 def weighted_mean(mesh: Mesh, points: NDArray[np.int32], sites: Floats, values: Floats) -> Floats:
-    """Means at mesh points of values at sites, weighted by inverse distance."""
+    """Return means at mesh points of values at sites, weighted by inverse distance."""
     weight = 1.0 / np.linalg.norm(mesh.points[points] - sites, axis=1)
     total = np.bincount(points, weight, mesh.n_points)
     sums = [np.bincount(points, weight * column, mesh.n_points) for column in values.T]
@@ -85,7 +85,7 @@ def weighted_mean(mesh: Mesh, points: NDArray[np.int32], sites: Floats, values: 
 
 
 def vtk_points(grid: pyvista.UnstructuredGrid) -> Sampler:
-    """VTK's probe of the grid's point data ``U``, and of its gradient."""
+    """Probe the grid's point data ``U``, and its gradient, with VTK."""
     derived = grid.compute_derivative(scalars="U", gradient="l")
 
     def sample(x: Floats) -> tuple[Floats, Floats]:
@@ -96,7 +96,7 @@ def vtk_points(grid: pyvista.UnstructuredGrid) -> Sampler:
 
 
 def read_vtk(case: Path) -> pyvista.UnstructuredGrid:
-    """The case's mesh with the point data that VTK's reader makes."""
+    """Return the case's mesh with the point data of VTK's reader."""
     reader = pyvista.POpenFOAMReader(str(case / "system" / "controlDict"))
     reader.cell_to_point_creation = True
     reader.set_active_time_value(float(select_time(case)))
@@ -104,7 +104,7 @@ def read_vtk(case: Path) -> pyvista.UnstructuredGrid:
 
 
 def with_point_data(grid: pyvista.UnstructuredGrid, cells: Floats, pipe: Pipe) -> pyvista.UnstructuredGrid:
-    """The grid with the means that VTK makes of cell values, zero on the wall as the reader would have it."""
+    """Return the grid with VTK's means of cell values, zero on the wall as in its reader."""
     copy = pyvista.UnstructuredGrid()
     copy.copy_structure(grid)
     copy.cell_data["U"] = cells
@@ -115,7 +115,7 @@ def with_point_data(grid: pyvista.UnstructuredGrid, cells: Floats, pipe: Pipe) -
 
 
 def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
-    """Points spread evenly over the middle three fifths of the pipe, inside its faceted mesh."""
+    """Return uniformly distributed points in the middle three fifths of the pipe, inside its mesh."""
     rng = np.random.default_rng(0)
     low, high = mesh.points[:, 0].min(), mesh.points[:, 0].max()
     r, angle = pipe.radius * np.sqrt(rng.random(number)), 2.0 * np.pi * rng.random(number)
@@ -127,7 +127,7 @@ def random_points(mesh: Mesh, pipe: Pipe, number: int) -> Floats:
 
 
 def errors(sample: Sampler, pipe: Pipe, x: Floats) -> list[tuple[float, float]]:
-    """Rms and maximum of the errors, for each of the columns, in %."""
+    """Return rms and maximum of the errors, for each of the columns, in %."""
     u, l = sample(x)
     core = np.hypot(x[:, 1], x[:, 2]) < 0.9 * pipe.radius
     of_u = np.linalg.norm(u - pipe.velocity(x), axis=1) / pipe.mean

@@ -1,7 +1,7 @@
-"""Which method for the shape: errors of a step, and steps at a tolerance, of several methods in plain numpy.
+"""Comparison of methods for the shape: errors of a step, and steps at a tolerance, in plain numpy.
 
 Bodies of Ca from 1e-5 to 2, spheres and 2:1 ellipsoids at rest, in gradients that are steady, suddenly
-started, oscillating, pulsating and turning. The methods are the one used before (ROS2 with its estimate), the
+started, oscillating, pulsating and turning. The methods are ROS2 with its estimate, the
 W-method ROS34PW2, two Rosenbrock methods that need an exact Jacobian, and the pair of order 3(2) of
 :mod:`foamprb.body.exponential_runge_kutta`. An error is that of the elastic strain, relative to it, or of
 the attitude, whichever is larger (:mod:`foamprb.body.error_control`). Work is the number of evaluations
@@ -59,7 +59,7 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Bodies(NamedTuple):
-    """Some bodies side by side; every entry is an array, or a tuple of such."""
+    """Bodies; every entry is an array, or a tuple of arrays."""
 
     mu: Array
     M: tuple
@@ -68,7 +68,7 @@ class Bodies(NamedTuple):
 
 
 class Fluid(NamedTuple):
-    """What surrounds them."""
+    """Fluid around the bodies."""
 
     mu: float
     rho: float
@@ -79,21 +79,21 @@ PLAIN = Fluid(1.0, 0.0, (0.0, 0.0, 0.0))
 AIR = Fluid(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 
 Flow = Callable[[Array, tuple], tuple[tuple, tuple, tuple]]
-"""Time and position to u, ∇u and ∂u/∂t."""
+"""Function of time and position that returns u, ∇u and ∂u/∂t."""
 
 
 def take(bodies: Bodies, rows: Array) -> Bodies:
-    """Some of them."""
+    """Return some of the bodies."""
     return Bodies(bodies.mu[rows], pick(bodies.M, rows), bodies.R[rows], bodies.rho[rows])
 
 
 def pick(values: tuple, rows: Array) -> tuple:
-    """Rows of each component."""
+    """Return rows of each component."""
     return tuple(x[rows] for x in values)
 
 
 def spread(tensor: Any, n: int) -> tuple:
-    """A tensor or vector for n bodies alike."""
+    """Return a tensor or vector for n equal bodies."""
     return tuple(np.full(n, float(x)) for x in np.ravel(tensor))
 
 
@@ -101,14 +101,14 @@ REST = {"sphere": (1.0, 1.0, 1.0), "prolate": (2.0, 1.0, 1.0), "oblate": (1.0, 2
 
 
 def at_rest(kind: str) -> Array:
-    """F₀ of a body whose axes point nowhere in particular."""
+    """Return F₀ of a body with axes in general directions."""
     axes = np.array(REST[kind]) / np.prod(REST[kind]) ** (1 / 3)
     R = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
     return R @ np.diag(axes) @ R.T
 
 
 def unit_bodies(Ca: Array, kind: str) -> tuple[Bodies, tuple]:
-    """Bodies for a flow of unit shear rate and viscosity, and their deformation gradients at rest."""
+    """Return bodies for a flow of unit shear rate and viscosity, and their deformation gradients at rest."""
     n = len(Ca)
     F0 = spread(at_rest(kind), n)
     return Bodies(1.0 / Ca, metric_at_rest(F0), np.ones(n), np.ones(n)), F0
@@ -132,7 +132,7 @@ GRADIENTS: dict[str, Callable[[Array], Array]] = {
 
 
 def uniform(gradient: Callable[[Array], Array]) -> Flow:
-    """A gradient that is the same everywhere, seen by a body at rest."""
+    """Return a flow with a uniform gradient, relative to the body."""
 
     def flow(t: Array, _x: tuple) -> tuple[tuple, tuple, tuple]:
         zero = (0.0 * t,) * 3
@@ -143,7 +143,7 @@ def uniform(gradient: Callable[[Array], Array]) -> Flow:
 
 
 def pipe(radius: float, wall_rate: float) -> Flow:
-    """Poiseuille's flow along x."""
+    """Return Poiseuille's flow along x."""
     k = wall_rate / (2.0 * radius)
 
     def flow(t: Array, x: tuple) -> tuple[tuple, tuple, tuple]:
@@ -158,7 +158,7 @@ def pipe(radius: float, wall_rate: float) -> Flow:
 
 
 def evaluate(bodies: Bodies, fluid: Fluid, F: tuple, l_f: tuple, Q: tuple | None = None) -> SimpleNamespace:
-    """Everything that costs: frame, integrals, mobility, and the body's velocity gradient in its frame."""
+    """Evaluate frame, integrals, mobility, and the body's velocity gradient in its frame."""
     s = SimpleNamespace()
     if Q is None:
         s.Q, s.stretches = principal_frame(F)
@@ -180,18 +180,18 @@ def evaluate(bodies: Bodies, fluid: Fluid, F: tuple, l_f: tuple, Q: tuple | None
 
 
 def solid(bodies: Bodies, s: SimpleNamespace) -> Any:
-    """Elasticity without the resistance to dilation, which the pressure takes over."""
+    """Return the elasticity without the resistance to dilation, which the pressure replaces."""
     zero = 0.0 * bodies.mu
     return elasticity((s.b_e[0], s.b_e[4], s.b_e[8]), 1.0 + zero, bodies.mu, zero, zero, zero)
 
 
 def seen(s: SimpleNamespace, l_f: tuple) -> tuple:
-    """What of l_s a velocity gradient of the fluid alone would make, in the frame."""
+    """Return l_s by a velocity gradient of the fluid alone, in the frame."""
     return stokes.velocity_gradient(s.m, scale(0.0, l_f), to_frame(s.Q, l_f))
 
 
 def drag_rate(bodies: Bodies, fluid: Fluid, s: SimpleNamespace) -> tuple:
-    """μ_f K_a/m, 1/s."""
+    """Return μ_f K_a/m, 1/s."""
     c = fluid.mu / (4.0 / 3.0 * pi * bodies.R**2 * bodies.rho)
     k = oberbeck(s.stretches, s.g)
     return c * k[0], c * k[1], c * k[2]
@@ -205,7 +205,7 @@ def _to(x: tuple, *parts: tuple[Any, tuple]) -> tuple:
 
 
 class Step(NamedTuple):
-    """What a step came to."""
+    """Result of a step."""
 
     x: tuple
     F: tuple
@@ -218,7 +218,7 @@ class Step(NamedTuple):
 def pair_step(
     bodies: Bodies, fluid: Fluid, flow: Flow, t: Array, x: tuple, F: tuple, h: Array, tolerance: float
 ) -> Step:
-    """A step of the pair; ``tolerance`` 0 makes every step one of order 3."""
+    """Take a step of the pair; with ``tolerance`` 0 every step is of order 3."""
 
     def slip(s: SimpleNamespace, u: tuple, L: tuple, u_t: tuple) -> tuple:
         Du = _to(u_t, (1.0, dot_vector(L, u)))
@@ -380,7 +380,7 @@ def _solve_pair(c: Array, slip: Array, bi: Array, bj: Array, rij: Array, rji: Ar
 def w_increment(
     table: Tableau, bodies: Bodies, fluid: Fluid, flow: Flow, t: Array, x: tuple, F: tuple, h: Array
 ) -> tuple[tuple, tuple, tuple]:
-    """Ω of a Rosenbrock method on the group with ∂f/∂t, and the frame and F in it."""
+    """Return Ω of a Rosenbrock method on the group with ∂f/∂t, and the frame and F in it."""
     L0 = flow(t, x)[1]
     s = evaluate(bodies, fluid, F, L0)
     Q, G = s.Q, dot(s.Q, F)
@@ -419,14 +419,14 @@ def w_increment(
 
 
 def w_step(table: Tableau, *args: Any) -> tuple:
-    """F after a step of :func:`w_increment`."""
+    """Return F after a step of :func:`w_increment`."""
     Omega, Q, G = w_increment(table, *args)
     new = dot(transpose(Q), dot(pair.group_exponential(Omega), G))
     return stokes.isochoric(new, det(new))
 
 
 def exact_step(*args: Any) -> tuple:
-    """F by 32 steps of ROS34PW2."""
+    """Return F by 32 steps of ROS34PW2."""
     bodies, fluid, flow, t, x, F, h = args
     for i in range(32):
         F = w_step(TABLEAUS["ROS34PW2"], bodies, fluid, flow, t + i * h / 32, x, F, h / 32)
@@ -436,7 +436,7 @@ def exact_step(*args: Any) -> tuple:
 def present_step(
     bodies: Bodies, fluid: Fluid, flow: Flow, t: Array, x: tuple, F: tuple, h: Array, tolerance: float
 ) -> Step:
-    """The step of ``stokes`` as it was: ROS2 without ∂f/∂t, with the estimate of the first-order solution."""
+    """Take a step of ROS2 without ∂f/∂t, with the estimate of the first-order solution."""
     gh = _G2 * h
 
     def velocity(s: SimpleNamespace, u: tuple) -> tuple:
@@ -469,7 +469,7 @@ def present_step(
 
 
 def distance(bodies: Bodies, F: tuple, exact: tuple) -> Array:
-    """Error of F as :mod:`foamprb.body.error_control` has it: of the strain over it, or of the attitude."""
+    """Return the error of F as in :mod:`foamprb.body.error_control`: relative strain, or attitude."""
     b_e = finger(exact, bodies.M)
     strain = control.strain_scale(b_e, scale(0.0, b_e))
     change = control.largest(add(finger(F, bodies.M), scale(-1.0, b_e)))
@@ -477,7 +477,7 @@ def distance(bodies: Bodies, F: tuple, exact: tuple) -> Array:
 
 
 def local_errors(h: float, times: tuple[float, ...]) -> list[tuple]:
-    """Rows of body, gradient, method, Ca, time, error of one step of length h from the exact state."""
+    """Return rows of body, gradient, method, Ca, time, error of one step h from the exact state."""
     rows = []
     x = spread(np.zeros(3), len(CA))
     steps = np.full(len(CA), h)
@@ -506,7 +506,7 @@ def local_errors(h: float, times: tuple[float, ...]) -> list[tuple]:
 
 
 class Run(NamedTuple):
-    """Where adaptive steps led, and what they took."""
+    """Final state and work of adaptive steps."""
 
     x: tuple
     F: tuple
@@ -521,14 +521,14 @@ def advance(
     step: Callable[..., Step], bodies: Bodies, fluid: Fluid, flow: Flow, x: tuple, F: tuple, end: float,
     dt: float, tolerance: float, probe: int = 0,
 ) -> Run:  # fmt: skip
-    """Steps of each body's own within tracking steps dt, as long as the errors of those before let them be.
+    """Take adaptive steps of each body within tracking steps dt.
 
-    The compiled loop cuts what is left into equal steps, and lets them grow more slowly.
+    The compiled loop divides the remaining time into equal steps, and its steps grow more slowly.
 
     Parameters
     ----------
     probe
-        Every how many accepted rounds the error of the steps is measured; 0 for never.
+        Interval in accepted rounds at which the error of the steps is measured; 0 for never.
     """
     n = len(bodies.mu)
     t, size, current, last = np.zeros(n), np.full(n, dt), np.zeros(n, int), round(end / dt)
@@ -573,7 +573,7 @@ def advance(
 
 
 def adaptive(end: float, dt: float) -> tuple[list[tuple], dict[str, list[tuple[float, float]]]]:
-    """Steps and errors at a tolerance; measured errors of single steps over the tolerance, by method."""
+    """Return steps and errors at a tolerance, and errors of single steps over the tolerance, by method."""
     rows: list[tuple] = []
     ratios: dict[str, list[tuple[float, float]]] = {}
     for kind in ("sphere", "prolate"):
@@ -604,10 +604,10 @@ def adaptive(end: float, dt: float) -> tuple[list[tuple], dict[str, list[tuple[f
 
 
 def in_pipe(end: float = 0.01, dt: float = 1e-4) -> list[tuple]:
-    """5 µm particles in the air pipe of the paper at twelve radii: steps and evaluations per Δt, errors.
+    """Return steps and evaluations per Δt and errors of 5 µm particles in the air pipe at twelve radii.
 
-    The step of ROS2 leaves out that a particle which settles through a shear has to be accelerated, so
-    that it goes elsewhere.
+    The step of ROS2 neglects the acceleration of a particle that settles through a shear, so its path
+    differs.
     """
     radius, n = 2.1e-3, 12
     r = radius * np.linspace(0.05, 0.985, n)
@@ -635,7 +635,7 @@ def in_pipe(end: float = 0.01, dt: float = 1e-4) -> list[tuple]:
 def plot(
     local: list[tuple], steps: list[tuple], ratios: dict[str, list[tuple[float, float]]], file: Path
 ) -> None:
-    """Errors of a step by method; what of the tolerance a step has; work against error."""
+    """Plot errors of a step by method, errors over the tolerance, and work against error."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -682,7 +682,7 @@ def plot(
 
 
 def table(names: tuple[str, ...], rows: list[tuple]) -> dict[str, list]:
-    """Columns by name."""
+    """Return columns by name."""
     return dict(zip(names, map(list, zip(*rows, strict=True)), strict=True))
 
 

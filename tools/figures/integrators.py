@@ -1,4 +1,4 @@
-"""Error against work of the integrators of the shape, in the air pipe of the paper and in a water pipe.
+"""Error against work of the integrators, in the air pipe of the paper and in a water pipe.
 
 A particle in a pipe for a given time, steps of fixed size; the error is that of the deformation gradient and
 of the position over the diameter, against a far finer run of the integrator of order 3 with inertia. Work
@@ -23,7 +23,7 @@ from foamprb.results.tables import write_table
 
 
 class Pipe(NamedTuple):
-    """A fluid in a pipe, a particle in it, and for how long it is followed."""
+    """Fluid in a pipe, particle, and time of tracking."""
 
     name: str
     mu: float
@@ -41,7 +41,7 @@ EVALUATIONS = {"paper": 1, "rosenbrock": 3, "stokes": 3}
 
 
 def run(pipe: Pipe, integrator: str, steps: int) -> np.ndarray:
-    """Deformation gradient and position over the diameter at the end; NaN if the particle failed."""
+    """Return deformation gradient and position over the diameter at the end; NaN if the particle failed."""
     medium = foamprb.Medium(pipe.mu, pipe.rho_f, (0.0, -9.81, 0.0))
     flow = foamprb.analytic.pipe(RADIUS, pipe.wall_rate * RADIUS / 4)
     mu = pipe.mu * pipe.wall_rate / pipe.capillary
@@ -58,7 +58,7 @@ def run(pipe: Pipe, integrator: str, steps: int) -> np.ndarray:
 
 
 def sweep(pipe: Pipe) -> list[tuple[str, str, int, float, float]]:
-    """Rows of pipe, integrator, evaluations, error of F, error of x/d."""
+    """Return rows of pipe, integrator, evaluations, error of F, error of x/d."""
     tau = relaxation_time(pipe.rho_s, D / 2, pipe.mu)
     exact = run(pipe, "rosenbrock", 1 << 14)
     rows = []
@@ -98,7 +98,7 @@ def main() -> None:
 
 
 def plot(rows: list[tuple[str, str, int, float, float]], file: Path) -> None:
-    """Error of the deformation gradient against work, one panel a pipe."""
+    """Plot the error of the deformation gradient against work, one panel per pipe."""
     import matplotlib as mpl
 
     mpl.use("Agg")

@@ -1,8 +1,8 @@
-"""How far soft particles travel in the paper's pipe, against their softness: the paper's Fig. 14 (a).
+"""Landing distance in the paper's pipe against softness: the paper's Fig. 14 (a).
 
 Tracks the particle of Sect. 5.4 from (0, −1.65 mm, 0) until its centre meets the wall, for capillary numbers
 from 0.0001 to 1, with both drag laws, in the exact Poiseuille flow and in OpenFOAM cases of the same pipe.
-The solid has Poisson's ratio 0.499, and inertia. What the distances change by at ten times the tolerance is
+The solid has Poisson's ratio 0.499, and inertia. The change of the distances at ten times the tolerance is
 printed beside them. Writes ``distance.csv`` and, with matplotlib, ``distance.png``.
 
     python tools/figures/pipe_distance.py cases/pipe --output docs
@@ -29,7 +29,7 @@ INTEGRATOR, POISSONS_RATIO = "rosenbrock", 0.499
 
 
 def distances(flow, drag: str, dt: float, tolerance: float) -> np.ndarray:
-    """Landing distance over the particle's diameter, for each of CAPILLARY."""
+    """Return the landing distance over the particle's diameter, for each of CAPILLARY."""
     medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
     start = np.tile([0.0, -1.65e-3, 0.0], (len(CAPILLARY), 1))
     mu = medium.mu * WALL_SHEAR_RATE / CAPILLARY
@@ -73,7 +73,7 @@ def main() -> None:
 
 
 def plot(columns: dict[str, np.ndarray], file: Path) -> None:
-    """Distance against Ca, one curve for each drag law and flow."""
+    """Plot distance against Ca, one curve for each drag law and flow."""
     import matplotlib as mpl
 
     mpl.use("Agg")

@@ -1,4 +1,4 @@
-"""How far soft particles travel in the paper's pipe whose wall lifts and hinders them; for docs/pipe.md.
+"""Landing distance in the paper's pipe with wall lift and hindrance; for docs/pipe.md.
 
 The exact Poiseuille flow and the particle of Sect. 5.4, without inertia of the solid. Prints, for each Ca,
 the landing distance in diameters, or the height of the centre over the wall, in radii, at the end.
@@ -25,7 +25,7 @@ SURROUNDINGS = {
 
 
 def particles_after(seconds: float, dt: float, around: tuple[foamprb.WallLift, ...]) -> foamprb.Particles:
-    """The particles of CAPILLARY after a time, s, in tracking steps dt, s."""
+    """Return the particles of CAPILLARY after a time, s, in tracking steps dt, s."""
     flow = foamprb.analytic.pipe(RADIUS, WALL_SHEAR_RATE * RADIUS / 4)
     medium = foamprb.Medium(RHO * NU, RHO, (0.0, -9.81, 0.0))
     start = np.tile([0.0, -1.65e-3, 0.0], (len(CAPILLARY), 1))

@@ -1,8 +1,8 @@
-"""What a billion particles on a thousand nodes would take: a model with measured constants, no measurement.
+"""Projected cost of a billion particles on a thousand nodes: a model with measured constants.
 
 Constants of foamprb are read from ``performance.csv`` (``tools/benchmark`` makes it); those of the cluster
-are assumed and listed. The balance of load is simulated with the times at which rigid spheres land in or
-leave the paper's pipe. Writes ``projection.md`` and, with matplotlib, ``projection.png``.
+are assumed and listed. The load balance is simulated with the times at which rigid spheres land in or leave
+the paper's pipe. Writes ``projection.md`` and, with matplotlib, ``projection.png``.
 
     python tools/figures/projection.py --output docs
 """
@@ -39,7 +39,7 @@ TEMPLATE = Path(__file__).with_suffix(".md.in")
 
 @dataclass(frozen=True)
 class Cluster:
-    """What is assumed of the machine."""
+    """Assumptions about the machine."""
 
     nodes: int = 1000
     cores: int = 64  # per node
@@ -64,26 +64,26 @@ MEANING = {
 
 
 class Measured(NamedTuple):
-    """What is known of foamprb; SI units, bytes."""
+    """Measured constants of foamprb; SI units, bytes."""
 
     step: float
     """CPU of a particle-step of ``paper``."""
     efficiency: float
-    """Of two threads over one: taken for all cores of a node, for want of a larger machine."""
+    """Of two threads over one; assumed for all cores of a node."""
     state: float
-    """Kept per particle."""
+    """State per particle."""
     peak: float
-    """Per particle in a run with output."""
+    """Peak per particle in a run with output."""
     cell: float
-    """Kept per cell."""
+    """Mesh and flow per cell."""
     cell_peak: float
     """Per cell, during preparation of the mesh."""
     ready: float
-    """CPU per cell until particles can move."""
+    """CPU time per cell until the first step."""
     snapshot: float
     """Wall time per particle to measure and to write."""
     file: float
-    """Of a snapshot per particle."""
+    """Size of a snapshot per particle."""
     row: float
     """Wall time of a row of the table of fates."""
     row_bytes: float
@@ -92,7 +92,7 @@ class Measured(NamedTuple):
 
 
 def measured(results: Results) -> Measured:
-    """Constants from the benchmark's results, and those that take no time to measure here.
+    """Return constants from the benchmark's results, and others measured here at once.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def measured(results: Results) -> Measured:
 
 
 def table_row() -> tuple[float, float]:
-    """Seconds and bytes of a row of a table with 18 columns of numbers, as the table of fates has them."""
+    """Return seconds and bytes of a row of a table with 18 columns of numbers, like the table of fates."""
     n, random = 50_000, np.random.default_rng(0)
     columns = {f"column{k}": random.random(n) for k in range(18)}
     with tempfile.TemporaryDirectory() as folder:
@@ -138,7 +138,7 @@ def table_row() -> tuple[float, float]:
 
 
 def modules() -> float:
-    """Number of modules that a run imports."""
+    """Return the number of modules that a run imports."""
     text = "import sys, foamprb.run.loop; print(len(sys.modules))"
     return float(
         subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout
@@ -146,9 +146,9 @@ def modules() -> float:
 
 
 def lifetimes(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """When rigid spheres land or leave that enter in proportion to the flux; and where they enter.
+    """Return landing or leaving times of rigid spheres entering in proportion to the flux, and their angles.
 
-    They settle at Stokes' speed while Poiseuille's flow carries them: y falls evenly, and x is a cubic in t.
+    They settle at Stokes' speed in Poiseuille's flow: y is linear and x a cubic in t.
 
     Returns
     -------
@@ -176,26 +176,26 @@ def lifetimes(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Balance(NamedTuple):
-    """How well a way of sharing keeps the nodes busy."""
+    """Load balance of a way of sharing."""
 
     slowest: float
-    """Time of the run over that of perfect balance."""
+    """Time of the run over that with perfect balance."""
     moved: float
-    """Share of the particles that go to another node, on average per write interval."""
+    """Share of the particles that change nodes, on average per write interval."""
     requests: float
-    """Chunks asked for per write interval."""
+    """Requests for chunks per write interval."""
 
 
 def work_in(life: np.ndarray, interval: int) -> np.ndarray:
-    """Time that each particle is tracked in a write interval, s."""
+    """Return the time for which each particle is tracked in a write interval, s."""
     length = END / INTERVALS
     return np.clip(life - interval * length, 0.0, length)
 
 
 def shared_statically(life: np.ndarray, nodes: int, scatter: float) -> Balance:
-    """Every node keeps its share; all wait for the slowest at each write.
+    """Return the balance if every node keeps its share and all synchronise at each write.
 
-    ``scatter`` is the ratio of the run's particles to the sample's: where places are random, sums over more
+    ``scatter`` is the ratio of the run's particles to the sample's: with random places, sums over more
     particles scatter less about their mean.
     """
     total = slowest = 0.0
@@ -210,9 +210,9 @@ def shared_statically(life: np.ndarray, nodes: int, scatter: float) -> Balance:
 def shared_dynamically(
     life: np.ndarray, nodes: int, chunks_per_node: int, latency: float, scale: float
 ) -> Balance:
-    """Every node begins with its own chunks; one that has none left takes a chunk from the fullest.
+    """Return the balance if a node without chunks takes one from the fullest node.
 
-    ``scale`` is what a second of a sample's particle costs a node, s: a latency has to be set against it.
+    ``scale`` is the time of a node for a second of a sample's particle, s, for comparison with the latency.
     """
     total = slowest = moved = 0.0
     for interval in range(INTERVALS):
@@ -227,7 +227,7 @@ def shared_dynamically(
 
 
 def _steal(chunks: np.ndarray, latency: float) -> tuple[float, int]:
-    """When the last node is done, and how many chunks changed their node."""
+    """Return the end of the last node, and the number of chunks that changed nodes."""
     left = [list(map(float, row)) for row in chunks]
     fullest = [(-len(row), node) for node, row in enumerate(left)]
     heapq.heapify(fullest)
@@ -257,7 +257,7 @@ def _steal(chunks: np.ndarray, latency: float) -> tuple[float, int]:
 
 
 def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -> tuple[str, dict[str, Any]]:
-    """The page, and what the plot shows."""
+    """Return the page, and the data of the plot."""
     life, angle = lifetimes(_SAMPLE)
     steps = particles * life.mean() / dt
     compute = steps * m.step / (c.nodes * c.cores * m.efficiency)
@@ -376,7 +376,7 @@ def project(m: Measured, c: Cluster, particles: float, dt: float, writes: int) -
 
 
 def _order(whole: dict[str, float], compute: float) -> str:
-    """What takes longer than the computation, the worst first."""
+    """List operations longer than the computation, in descending order."""
     worst = sorted(
         ((v, k) for k, v in whole.items() if v > compute and "particle-steps" not in k), reverse=True
     )
@@ -389,7 +389,7 @@ def _order(whole: dict[str, float], compute: float) -> str:
 
 
 def plot(found: dict[str, Any], file: Path) -> None:
-    """Times of landing, and balance against the number of chunks."""
+    """Plot landing times, and balance against the number of chunks."""
     try:
         import matplotlib as mpl
     except ImportError:

@@ -1,6 +1,6 @@
-"""The picture of the page that ``foamprb report`` writes: docs/report.png.
+"""Picture of the page of ``foamprb report``: docs/report.png.
 
-Runs the pipe of the tree with the settings of ``foamprb init``, and opens its report in Chromium. Needs
+Runs the pipe case with the settings of ``foamprb init``, and opens its report in Chromium. Needs
 Chromium on PATH and the extra ``browser``.
 """
 
@@ -18,10 +18,10 @@ WIDTH, HEIGHT = 1100, 2300
 
 
 def main() -> None:
-    """Run, report, and take the picture."""
+    """Run the case, write the report and take the picture."""
     parser = argparse.ArgumentParser(description=__doc__, add_help=False)
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
-    parser.add_argument("-case", type=Path, help="a case that has been run, not the pipe")
+    parser.add_argument("-case", type=Path, help="a case with results, instead of the pipe")
     parser.add_argument("-output", type=Path, default=ROOT / "docs/report.png", help="[docs/report.png]")
     arguments = parser.parse_args()
     from playwright.sync_api import sync_playwright

@@ -1,4 +1,4 @@
-"""Which branch of a T-junction soft beads take, and how deformed they are there, by softness and start.
+"""Branch and deformation of soft beads in a T-junction, by softness and start.
 
 Sends beads through the flow that ``cases/tJunction/Allrun`` computed: from a grid across the channel, from
 the edges of what goes straight on and of what turns off, found to a tenth of a nanometre, and from random
@@ -24,33 +24,33 @@ from foamprb.results.tables import write_table
 Floats = NDArray[np.float64]
 
 HALF_WIDTH, RELEASE = 50e-6, -200e-6
-"""Of the channels; x at the start, from where their axes meet; m."""
+"""Half width of the channels; x at the start, from the intersection of their axes; m."""
 DIAMETER, REFERENCE_RATE = 20e-6, 100.0
-"""Of the beads, m; shear rate of Ca, the mean velocity over the width, 1/s."""
+"""Diameter of the beads, m; shear rate of Ca, the mean velocity over the width, 1/s."""
 CAPILLARY = np.array([0.001, 0.01, 0.03, 0.1])
 EXCESS = 1000.0
-"""Density of a heavy bead less the liquid's, kg/m³."""
+"""Density of a heavy bead less that of the liquid, kg/m³."""
 DT, END = 1e-4, 2.0
 """Tracking step, s; time after which a bead counts as undecided, s."""
 LOOK, LATE, LATE_LOOK = 5, 0.2, 100
-"""Steps between two looks at the shapes, and how many they are after so many s: who is still there creeps."""
+"""Steps between two samples of the shapes, and their number after a time, s, for creeping beads."""
 CUTS, ROUNDS = 16, 5
-"""An edge's bracket is cut into so many, so many times: 76 µm come down to 0.07 nm."""
+"""Number of parts and of repetitions in the search for an edge: from 76 µm to 0.07 nm."""
 BODY_ROUNDS = 3
-"""The same where ellipsoids touch: to 19 nm, as they are larger than cells and feel for many walls each."""
+"""Repetitions with contact of ellipsoids: to 19 nm, as each is larger than cells and tests many walls."""
 
 
 class Fates(NamedTuple):
-    """What became of each of n beads."""
+    """Fates of n beads."""
 
     patch: NDArray[np.str_]
-    """Patch that it left through or stuck to; ``""`` if still under way, ``failed`` if it failed."""
+    """Patch of its escape or deposition; ``""`` if still in the flow, ``failed`` if it failed."""
     D: Floats
-    """Largest Taylor deformation while the centre was where the channels cross; 0 if it was never there."""
+    """Largest Taylor deformation with the centre in the crossing of the channels; 0 if it was never there."""
 
 
 def flow_rates(case: Path) -> dict[str, float]:
-    """Volume that left through each patch per second by the solver's own fluxes, m³/s."""
+    """Return the flow rate out of each patch by the solver's own fluxes, m³/s."""
     rates = {}
     for patch in ("inlet", "straight", "side"):
         (table,) = (case / "postProcessing" / patch).glob("*/surfaceFieldValue.dat")
@@ -67,7 +67,7 @@ def send(
     touching: Literal["ellipsoid", "centre"] = "centre",
     dt: float = DT,
 ) -> Fates:
-    """Track spheres from ``starts``, (n, 2), y and z in m, until they have left, stuck, or taken too long."""
+    """Track spheres from ``starts``, (n, 2), y and z in m, until they leave, stick, or exceed the time."""
     flow, medium = job.cloud.flow, job.cloud.medium
     x = np.column_stack([np.full(len(starts), RELEASE), starts])
     stiffness = medium.mu * REFERENCE_RATE / np.broadcast_to(Ca, len(starts))
@@ -88,20 +88,20 @@ def send(
 
 
 def speeds(job: foamprb.Job, starts: Floats) -> Floats:
-    """Of the liquid along x at the starts, m/s."""
+    """Return the speed of the liquid along x at the starts, m/s."""
     x = np.column_stack([np.full(len(starts), RELEASE), starts])
     u, _ = job.cloud.flow.sample(x, job.cloud.flow.locate(x), 0.0)
     return u[:, 0]
 
 
 def grid(half: float, n_y: int, n_z: int) -> Floats:
-    """Middles of n_y × n_z equal parts of a square section that reaches to ±half, (n_y n_z, 2), m."""
+    """Return centres of n_y × n_z equal parts of a square section up to ±half, (n_y n_z, 2), m."""
     y, z = (half * ((2.0 * np.arange(n) + 1.0) / n - 1.0) for n in (n_y, n_z))
     return np.stack(np.meshgrid(y, z, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
 def random_by_flux(job: foamprb.Job, n: int, seed: int = 0) -> Floats:
-    """N random starts in the whole section, each place as likely as the liquid is fast, (n, 2), m."""
+    """Return n random starts in the whole section, with a density proportional to the speed, (n, 2), m."""
     rng = np.random.default_rng(seed)
     candidates = rng.uniform(-HALF_WIDTH, HALF_WIDTH, (8 * n, 2))
     u = speeds(job, candidates)
@@ -117,10 +117,10 @@ def edges(
     dt: float = DT,
     rounds: int = ROUNDS,
 ) -> Floats:
-    """Edges of both branches in the plane z = 0 for each Ca, (n, 2), m.
+    """Return the edges of both branches in the plane z = 0 for each Ca, (n, 2), m.
 
-    Up to the first y a bead goes straight on, from the second on it turns off; between them it ends on the
-    wall or takes too long.
+    Below the first y a bead goes straight on, above the second it turns off; between them it ends on the wall
+    or exceeds the time.
     """
     found = []
     for straight in (True, False):
@@ -139,10 +139,9 @@ def edges(
 
 
 def by_start(job: foamprb.Job, n_y: int, n_z: int) -> dict[str, Floats]:
-    """Columns of the main table: Ca, y, share of the flux at y that a bead carries to each branch, and D.
+    """Return the columns of the main table: Ca, y, share of the flux at y to each branch, and D.
 
-    The shares are over z, between the walls as far as a bead has room, each bead counted by the liquid's
-    speed at its start.
+    The shares are over all z with room for a bead, each bead weighted by the liquid's speed at its start.
     """
     starts = grid(HALF_WIDTH - 0.6 * DIAMETER, n_y, n_z)
     weights = speeds(job, starts).reshape(n_y, n_z)
@@ -218,7 +217,7 @@ def main() -> None:
 
 
 def plot(columns: dict[str, Floats], table: dict[str, Floats], file: Path) -> None:
-    """Share to the side branch and deformation against the start, and the edges against Ca."""
+    """Plot share to the side branch and deformation against the start, and the edges against Ca."""
     import matplotlib as mpl
 
     mpl.use("Agg")

@@ -1,4 +1,4 @@
-"""Pictures of the page that ``foamprb view`` writes: docs/view.png, view-dark.png and view-phone.png.
+"""Pictures of the page of ``foamprb view``: docs/view.png, view-dark.png and view-phone.png.
 
 Runs the pipe case of the tree and opens its page in Chromium, which draws by software, so that any machine
 makes the same pictures. Needs Chromium on PATH and the extra ``browser``.
@@ -25,7 +25,7 @@ SOFTWARE = (
 
 
 class Shot(NamedTuple):
-    """A picture: its file, the window, and what is done on the page before it is taken."""
+    """Picture: file, window size, and actions on the page before it is taken."""
 
     file: str
     width: int
@@ -54,7 +54,7 @@ SHOTS = (
 
 
 def take(browser: Any, page: Path, shot: Shot, folder: Path) -> None:
-    """Open a page, do what the shot says, and save what is seen."""
+    """Open a page, perform the actions of the shot, and save the picture."""
     size = {"width": shot.width, "height": shot.height}
     scale = 2 if shot.width < 500 else 1
     tab = browser.new_page(viewport=size, color_scheme=shot.scheme, device_scale_factor=scale)
