@@ -17,6 +17,7 @@ import orjson
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
+from foamprb.optional import load
 from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
@@ -111,11 +112,8 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
 
 
 def _parquet(what: str) -> Any:
-    try:
-        importlib.import_module("pyarrow")
-        return importlib.import_module("pyarrow.parquet")
-    except ImportError as error:
-        raise InputError(f"{what} needs pyarrow: pip install 'foamprb[parquet]'.") from error
+    load("pyarrow", "parquet", f"{what} needs")
+    return importlib.import_module("pyarrow.parquet")
 
 
 def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[], object]) -> None:

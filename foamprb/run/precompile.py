@@ -87,7 +87,9 @@ def compile_all() -> None:
 
     Steady and transient flows have loops of their own, and so has each integrator.
     """
-    import pyvista
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
 
     from foamprb.cloud.block import Medium
     from foamprb.cloud.cloud import Cloud
@@ -98,8 +100,11 @@ def compile_all() -> None:
     from foamprb.flow.series import SeriesFlow
 
     corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
-    cells = {pyvista.CellType.HEXAHEDRON: np.arange(8).reshape(1, 8)}
-    mesh = build_mesh(pyvista.UnstructuredGrid(cells, np.array(corners, dtype=float)))
+    cube, points = vtkUnstructuredGrid(), vtkPoints()
+    points.SetData(numpy_to_vtk(np.array(corners, dtype=float), deep=True))
+    cube.SetPoints(points)
+    cube.InsertNextCell(VTK_HEXAHEDRON, 8, range(8))
+    mesh = build_mesh(cube)
     nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
     steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
     flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}

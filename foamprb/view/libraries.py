@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
-from foamprb.errors import InputError
+from foamprb import optional
 
 __all__ = ["load"]
 
@@ -18,9 +17,4 @@ def load(module: str) -> Any:
     InputError
         If the library is not installed; the message names the extra.
     """
-    try:
-        return import_module(module)
-    except ImportError as error:
-        raise InputError(
-            f"pages, pictures and reports need {module.partition('.')[0]}: pip install 'foamprb[view]'."
-        ) from error
+    return optional.load(module, "view", "pages, pictures and reports need")

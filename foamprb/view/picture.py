@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkLight, vtkPolyDataMapper2D
 
+from foamprb import optional
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
@@ -261,10 +262,7 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: fl
     suffix = path.suffix.lower()
     if suffix not in (".mp4", ".gif"):
         raise InputError(f"-film {path}: the name must end in .mp4 or .gif.")
-    try:
-        from imageio.v2 import get_writer
-    except ImportError:
-        raise InputError("-film needs imageio: pip install 'foamprb[film]'.") from None
+    get_writer = optional.load("imageio.v2", "film", "-film needs").get_writer
     m = len(scene.bodies.times)
     rate = rate or float(np.clip(round(m / 8.0), 4, 30))
     # Codecs of films take sides that are even.

@@ -12,7 +12,7 @@ from scipy.sparse import csgraph
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.boundary import PatchSurface, mix
 from foamprb.flow.mesh.cells import HalfFaces
-from foamprb.flow.mesh.lists import Mask, cell_array, take_lists
+from foamprb.flow.mesh.lists import Mask, cell_array, points_of, take_lists
 
 
 def find_baffles(
@@ -20,11 +20,11 @@ def find_baffles(
 ) -> Mask:
     """Which of the matched halves belong to patches: walls without thickness, with a patch on either side."""
     inside = mate != np.arange(len(mate), dtype=np.int32)
-    faces = sum(surface.surface.n_cells for surface in surfaces or ())
+    faces = sum(surface.surface.GetNumberOfCells() for surface in surfaces or ())
     if surfaces is None or faces <= np.count_nonzero(~inside):
         return np.zeros(len(mate), dtype=bool)
     polygons = [cell_array(surface.surface.GetPolys()) for surface in surfaces]
-    clouds = [np.asarray(surface.surface.points, dtype=dtype).reshape(-1, 3) for surface in surfaces]
+    clouds = [points_of(surface.surface).astype(dtype, copy=False) for surface in surfaces]
     coordinates = np.concatenate([points.astype(dtype), *clouds]) + 0
     place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
     begin, wanted = len(points), []

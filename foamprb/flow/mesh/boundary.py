@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Patch
 from foamprb.flow.mesh.geometry import Faces
-from foamprb.flow.mesh.lists import Index, cell_array, starts, take_lists
+from foamprb.flow.mesh.lists import Index, cell_array, points_of, starts, take_lists
 
 _Hash: TypeAlias = NDArray[np.uint64]
 
@@ -31,7 +31,7 @@ class Transform(NamedTuple):
 
 
 class PatchSurface(NamedTuple):
-    """A patch with its faces, ``surface`` a ``pyvista.PolyData`` with points of its own."""
+    """A patch with its faces, ``surface`` a ``vtkPolyData`` with points of its own."""
 
     name: str
     type: str
@@ -67,7 +67,7 @@ def assign_patches(
         return np.arange(len(boundary)), (Patch("boundary", "wall"),), np.array([0, len(boundary)])
     start, lists = take_lists(faces.start, faces.points, boundary)
     polygons = [cell_array(surface.surface.GetPolys()) for surface in surfaces]
-    clouds = [np.asarray(surface.surface.points, dtype=dtype).reshape(-1, 3) for surface in surfaces]
+    clouds = [points_of(surface.surface).astype(dtype, copy=False) for surface in surfaces]
     used, local = np.unique(lists, return_inverse=True)
     # A point is known by its coordinates; adding zero makes −0 equal to 0.
     coordinates = np.concatenate([points[used].astype(dtype), *clouds]) + 0

@@ -10,7 +10,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Ints
 from foamprb.flow.mesh.faces import list_faces, pair_faces
-from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, int32
+from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, cell_types, int32
 
 _POLYHEDRON = 42
 # Faces of VTK's cell types by local vertex.
@@ -40,7 +40,7 @@ class HalfFaces(NamedTuple):
 
 
 def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
-    """List the faces of the cells of a ``pyvista.UnstructuredGrid``, cell after cell.
+    """List the faces of the cells of a ``vtkUnstructuredGrid``, cell after cell.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
     InputError
         Cells of a type that cannot be read, lists that name what is not there, or too many of them.
     """
-    types = np.ascontiguousarray(grid.celltypes, dtype=np.uint8)
+    types, n_points = cell_types(grid), grid.GetNumberOfPoints()
     unknown = sorted(set(np.flatnonzero(np.bincount(types)).tolist()) - set(CELL_KINDS))
     if unknown:
         raise InputError(
@@ -65,10 +65,10 @@ def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
     offset, connectivity = cell_array(grid.GetCells())
     polyhedra = [*cell_array(grid.GetPolyhedronFaceLocations()), *cell_array(grid.GetPolyhedronFaces())]
     for lists in (connectivity, polyhedra[3]):
-        if len(lists) and (lists.min() < 0 or lists.max() >= len(grid.points)):
+        if len(lists) and (lists.min() < 0 or lists.max() >= n_points):
             raise InputError(
                 f"{source}: a cell names point {max(lists.max(), -lists.min())}, "
-                f"but there are {len(grid.points)} points."
+                f"but there are {n_points} points."
             )
         if len(lists) > MOST_INDICES:
             raise InputError(f"{source}: {len(types)} cells are too many for 32-bit indices.")

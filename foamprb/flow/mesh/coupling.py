@@ -7,11 +7,13 @@ lie on each other but are cut differently, and each face goes on in all those of
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
+from vtkmodules.vtkCommonCore import reference
+from vtkmodules.vtkCommonDataModel import vtkCellLocator
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats, Patch
@@ -175,15 +177,31 @@ def _interface(
     for one, motion in ((0, (turn, shift)), (1, (turn.T, -turn.T @ shift))):
         a, b = faces[one], faces[1 - one]
         images = centres[a] @ motion[0].T + motion[1]
-        nearest, places = surfaces[pair[1 - one]].surface.find_closest_cell(images, return_closest_point=True)
+        nearest, places = _closest(surfaces[pair[1 - one]].surface, images)
         area = np.linalg.norm(areas[a], axis=1)
-        partners = b[np.atleast_1d(nearest)]
+        partners = b[nearest]
         size = np.sqrt(np.maximum(area, np.linalg.norm(areas[partners], axis=1)))
-        lies = np.linalg.norm(images - np.atleast_2d(places), axis=1) <= _APART * size
+        lies = np.linalg.norm(images - places, axis=1) <= _APART * size
         if area[lies].sum() < _COVERED * area.sum():
             return []
         found.append(Coupling(pair[one], pair[1 - one], a, partners, *motion, matching=False))
     return found
+
+
+def _closest(surface: Any, points: Floats) -> tuple[Index, Floats]:
+    """Return the cell of a surface that is closest to each point, and the place in it that is, m."""
+    locator = vtkCellLocator()
+    locator.SetDataSet(surface)
+    locator.BuildLocator()
+    cell: Any = reference(0)
+    sub_cell: Any = reference(0)
+    distance: Any = reference(0.0)
+    nearest, places = np.empty(len(points), dtype=np.intp), np.empty((len(points), 3))
+    for k, point in enumerate(points):
+        place = [0.0, 0.0, 0.0]
+        locator.FindClosestPoint(point, place, cell, sub_cell, distance)
+        nearest[k], places[k] = int(cell), place
+    return nearest, places
 
 
 def _summed(faces: Index, centres: Floats, areas: Floats) -> tuple[Floats, Floats]:

@@ -46,6 +46,25 @@ def cell_array(cells: Any) -> tuple[Index, Index]:
     return start, vtk_to_numpy(cells.GetConnectivityArray()).astype(np.intp, copy=False)
 
 
+def points_of(data: Any) -> NDArray[np.floating[Any]]:
+    """Points of a vtkPointSet, (n, 3), m, of the type that it holds."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if data.GetNumberOfPoints() == 0:
+        return np.empty((0, 3))
+    points: NDArray[np.floating[Any]] = vtk_to_numpy(data.GetPoints().GetData())
+    return points
+
+
+def cell_types(grid: Any) -> NDArray[np.uint8]:
+    """VTK's type number of each cell of a vtkUnstructuredGrid."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    if grid.GetNumberOfCells() == 0:
+        return np.empty(0, dtype=np.uint8)
+    return np.ascontiguousarray(vtk_to_numpy(grid.GetCellTypes()), dtype=np.uint8)
+
+
 def int32(values: NDArray[Any]) -> Ints:
     """The values as 32-bit integers, one after the other in memory."""
     return np.ascontiguousarray(values, dtype=np.int32)

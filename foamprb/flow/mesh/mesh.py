@@ -23,7 +23,7 @@ from foamprb.flow.mesh.cells import list_half_faces, match_half_faces
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import choose_bases
 from foamprb.flow.mesh.geometry import Faces, boundary_geometry, cell_geometry, inward_normals, order_faces
-from foamprb.flow.mesh.lists import Index, int32
+from foamprb.flow.mesh.lists import Index, int32, points_of
 from foamprb.flow.mesh.tetrahedra import cut_into_tetrahedra, turn_alike
 from foamprb.memory import wants
 
@@ -113,7 +113,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     Parameters
     ----------
     grid
-        ``pyvista.UnstructuredGrid`` of tetrahedra, hexahedra, prisms, pyramids and polyhedra.
+        ``vtkUnstructuredGrid`` of tetrahedra, hexahedra, prisms, pyramids and polyhedra.
     surfaces
         The patches. A face is known by the coordinates of its vertices, equal to the last bit. None: the
         source knows no patches, and the whole boundary is one patch ``boundary`` of type ``wall``.
@@ -126,11 +126,12 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         Cells of another type; a face of three cells; an open cell; boundary faces that no patch has or two
         patches have; patch faces that are not on the boundary.
     """
-    wants("cells", grid.n_cells, CELL_BYTES)
-    points = np.ascontiguousarray(grid.points, dtype=np.float64)
+    wants("cells", grid.GetNumberOfCells(), CELL_BYTES)
+    given = points_of(grid)
+    points = np.ascontiguousarray(given, dtype=np.float64)
     half, cell_point_start, cell_points = list_half_faces(grid, source)
     mate = match_half_faces(half, source)
-    apart = find_baffles(points, grid.points.dtype, half, mate, surfaces)
+    apart = find_baffles(points, given.dtype, half, mate, surfaces)
     if apart.any():
         split = np.flatnonzero(apart)
         mate[mate[split]] = mate[split]
@@ -140,7 +141,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     del half, mate
     for _ in range(_MOST_TURNS):
         mesh, astray = _assemble(
-            points, grid.points.dtype, faces, middles, (cell_point_start, cell_points), surfaces, source
+            points, given.dtype, faces, middles, (cell_point_start, cell_points), surfaces, source
         )
         if len(astray) == 0:
             return mesh

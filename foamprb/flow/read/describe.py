@@ -10,6 +10,7 @@ import numpy as np
 
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.cells import CELL_KINDS
+from foamprb.flow.mesh.lists import cell_types, points_of
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
 from foamprb.flow.read.case import available_times, fields_of, mesh_files, mesh_folder, regions, require_case
 from foamprb.flow.read.checks import noted_counts, require_labels
@@ -82,11 +83,11 @@ def describe(case: Path, region: str = "") -> CaseInfo:
     blocks, messages = read_blocks(files, patches=False)
     raise_first_error(folder, messages)
     grid = blocks["internalMesh"]
-    kinds = np.bincount(np.asarray(grid.celltypes), minlength=256)
+    kinds = np.bincount(cell_types(grid), minlength=256)
     cells = {
         CELL_KINDS.get(number, f"VTK type {number}"): int(kinds[number])
         for number in np.flatnonzero(kinds).tolist()
     }
-    points = np.asarray(grid.points, dtype=np.float64)
+    points = points_of(grid).astype(np.float64)
     bounds = (points.min(axis=0), points.max(axis=0))
     return CaseInfo(case, times, patches, len(points), cells, bounds, region, regions(case))

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyvista
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse import csgraph
@@ -16,6 +15,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.read.times import listed
+from foamprb.flow.read.vtk_guard import load_pyvista
 
 BOUNDARY = "boundary"
 _MOST_PATCHES = 1000
@@ -55,7 +55,7 @@ def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh
         ]
         if stream:
             surfaces.append(
-                PatchSurface(name, "wall", pyvista.PolyData(mesh.points, faces=np.concatenate(stream)))
+                PatchSurface(name, "wall", load_pyvista().PolyData(mesh.points, faces=np.concatenate(stream)))
             )
     exact = grid.copy()
     exact.points = mesh.points
@@ -70,7 +70,9 @@ def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[n
     values = np.asarray(whole.cell_data[array])
     if values.ndim != 1 or values.dtype.kind not in "iu":
         raise InputError(f"{path}: cell array {array} is not one of whole numbers, one for each cell.")
-    flat = [kind for kind in np.unique(whole.celltypes).tolist() if pyvista.CellType(kind).dimension == 2]
+    flat = [
+        kind for kind in np.unique(whole.celltypes).tolist() if load_pyvista().CellType(kind).dimension == 2
+    ]
     rows = np.flatnonzero(np.isin(whole.celltypes, flat))
     if len(rows) == 0:
         raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")

@@ -17,6 +17,7 @@ import numpy as np
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.boundary import PatchSurface
+from foamprb.flow.mesh.lists import points_of
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
@@ -177,7 +178,7 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
     files = mesh_files(case, time, region)
     blocks, messages = read_blocks(files, patches=True)
     grid = blocks["internalMesh"]
-    for word, found in (("nCells", grid.n_cells), ("nPoints", grid.n_points)):
+    for word, found in (("nCells", grid.GetNumberOfCells()), ("nPoints", grid.GetNumberOfPoints())):
         if word in noted and noted[word] != found:
             raise InputError(
                 f"{shown(folder / 'owner')}: the header says {word} {noted[word]}, but the mesh that the "
@@ -187,13 +188,14 @@ def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
     surfaces = []
     for patch in patches:
         block = blocks.get(patch.name)
-        if block is None or block.n_cells != patch.faces:
+        found = 0 if block is None else block.GetNumberOfCells()
+        if block is None or found != patch.faces:
             raise InputError(
                 f"{shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
-                f"{0 if block is None else block.n_cells} could be read."
+                f"{found} could be read."
             )
         surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour, patch.transform))
-    require_numbers(np.asarray(grid.points, dtype=np.float64), files[0], "point")
+    require_numbers(points_of(grid).astype(np.float64, copy=False), files[0], "point")
     mesh = build_mesh(grid, surfaces, source=str(folder))
     require_volumes(mesh, folder)
     require_patch_shapes(mesh, folder)

@@ -19,8 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from foamprb.errors import InputError
+from foamprb.optional import load
 
-__all__ = ["read_vtk", "require_survival", "times_of"]
+__all__ = ["load_pyvista", "read_vtk", "require_survival", "times_of"]
 
 _LEAST_TIME = 20
 _MOST_FILES = 10_000
@@ -30,17 +31,25 @@ _lock = threading.Lock()
 _server: Any = None
 
 
+def load_pyvista() -> Any:
+    """Import pyvista, by which mesh files are read.
+
+    Raises
+    ------
+    InputError
+        If it is not installed.
+    """
+    return load("pyvista", "meshes", "mesh files need")
+
+
 def times_of(path: Path) -> list[float]:
     """The times of a file of VTK's, rising; none if it has no time."""
-    import pyvista
-
-    return _times(pyvista.get_reader(path))
+    return _times(load_pyvista().get_reader(path))
 
 
 def read_vtk(path: Path, step: int | None = None) -> Any:
     """Read a file of VTK's, at the ``step``-th of its times if it has any."""
-    import pyvista
-
+    pyvista = load_pyvista()
     reader = pyvista.get_reader(path)
     if step is not None and isinstance(reader, pyvista.HDFReader):
         reader.reader.SetStep(step)
@@ -50,10 +59,9 @@ def read_vtk(path: Path, step: int | None = None) -> Any:
 
 
 def _times(reader: Any) -> list[float]:
-    import pyvista
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
-    if not isinstance(reader, pyvista.HDFReader):
+    if not isinstance(reader, load_pyvista().HDFReader):
         return list(getattr(reader, "time_values", None) or [])
     # Pyvista passes over the times of these.
     reader.reader.UpdateInformation()
@@ -118,8 +126,7 @@ def _serve() -> None:
     import contextlib
 
     # Once for all the copies.
-    import pyvista  # noqa: F401
-
+    load_pyvista()
     answers = os.fdopen(os.dup(1), "w")
     with open(os.devnull, "wb") as nothing:  # noqa: PTH123
         os.dup2(nothing.fileno(), 1)
@@ -138,9 +145,7 @@ def _serve() -> None:
 
 def _touch(data: Any) -> None:
     """Read every number of what was read."""
-    import pyvista
-
-    for part in data.recursive_iterator() if isinstance(data, pyvista.MultiBlock) else [data]:
+    for part in data.recursive_iterator() if isinstance(data, load_pyvista().MultiBlock) else [data]:
         for values in (part.points, *part.cell_data.values(), *part.point_data.values()):
             values.sum()
 

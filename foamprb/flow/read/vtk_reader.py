@@ -10,8 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
-import pyvista
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.dictionary.files import existing
@@ -105,7 +105,7 @@ def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any]
     places = {str(folder / path.name): str(path) for path in paths} | {str(folder): str(source)}
     messages = Messages(*([_replaced(text, places) for text in texts] for texts in messages))
     grid = blocks.get("internalMesh")
-    if grid is None or grid.n_cells == 0:
+    if grid is None or grid.GetNumberOfCells() == 0:
         raise_first_error(source, messages)
         raise InputError(f"{source}: no mesh could be read; a file is missing, broken or cut short.")
     return blocks, messages
@@ -139,7 +139,7 @@ def _open(case: Path, *, patches: bool) -> Any:
 def _update(reader: Any) -> dict[str, Any]:
     """The reader's blocks by name."""
     reader.Update()
-    return dict(_leaves(pyvista.wrap(reader.GetOutput())))
+    return dict(_leaves(reader.GetOutput()))
 
 
 def raise_first_error(source: Path, messages: Messages) -> None:
@@ -149,8 +149,9 @@ def raise_first_error(source: Path, messages: Messages) -> None:
 
 
 def _leaves(block: Any) -> Iterator[tuple[str, Any]]:
-    for name, part in zip(block.keys(), block, strict=True):
-        if isinstance(part, pyvista.MultiBlock):
+    for index in range(block.GetNumberOfBlocks()):
+        part = block.GetBlock(index)
+        if isinstance(part, vtkMultiBlockDataSet):
             yield from _leaves(part)
         elif part is not None:
-            yield name, part
+            yield block.GetMetaData(index).Get(vtkCompositeDataSet.NAME()), part

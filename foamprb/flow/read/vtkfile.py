@@ -14,15 +14,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyvista
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.cells import CELL_KINDS
 from foamprb.flow.read.times import listed, pick_time
-from foamprb.flow.read.vtk_guard import read_vtk, require_survival, times_of
+from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival, times_of
 from foamprb.flow.read.vtk_reader import vtk_messages
+from foamprb.optional import load
 
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 _SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5}
@@ -166,8 +166,8 @@ def _of_series(path: Path, time: float | str) -> Path:
 
 
 def _read_meshio(path: Path) -> Any:
-    import meshio
-
+    meshio = load("meshio", "meshes", "mesh files need")
+    pyvista = load_pyvista()
     # Where a format is beyond it, meshio prints and ends the program.
     words = io.StringIO()
     try:
@@ -186,6 +186,7 @@ def _read_meshio(path: Path) -> Any:
 
 def grid_and_surfaces(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]]:
     """The one unstructured grid in what was read, and the surfaces beside it by name."""
+    pyvista = load_pyvista()
     leaves = list(_leaves("", data))
     grids = [part for _, part in leaves if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
     if len(grids) != 1:
@@ -198,7 +199,7 @@ def grid_and_surfaces(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]
 
 
 def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
-    if not isinstance(block, pyvista.MultiBlock):
+    if not isinstance(block, load_pyvista().MultiBlock):
         return [] if block is None else [(name, block)]
     return [leaf for key, part in zip(block.keys(), block, strict=True) for leaf in _leaves(str(key), part)]
 
@@ -209,7 +210,7 @@ def solid_cells(grid: Any, path: Path) -> Any:
     _require_lists(grid, path)
     if not set(kinds) & set(CELL_KINDS):
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
-    flat = [kind for kind in kinds if pyvista.CellType(kind).dimension < 3]
+    flat = [kind for kind in kinds if load_pyvista().CellType(kind).dimension < 3]
     if not flat:
         return grid
     return grid.extract_cells(np.flatnonzero(~np.isin(grid.celltypes, flat)))

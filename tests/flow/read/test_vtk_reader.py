@@ -69,7 +69,7 @@ def test_patches_are_read_if_they_are_wanted_and_nothing_beside(tmp_path):
     for patches in (False, True):
         blocks, messages = read_blocks(files, patches=patches)
         assert set(blocks) == {"internalMesh", *([p.name for p in mesh.patches] if patches else [])}
-        assert blocks["internalMesh"].n_cells == mesh.n_cells
+        assert blocks["internalMesh"].GetNumberOfCells() == mesh.n_cells
         assert messages == ([], [])
     for patch, first, last in zip(mesh.patches, mesh.patch_start[:-1], mesh.patch_start[1:], strict=True):
-        assert blocks[patch.name].n_cells == last - first
+        assert blocks[patch.name].GetNumberOfCells() == last - first
