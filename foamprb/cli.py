@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from foamprb.compile.helper import Helper
     from foamprb.flow.read.source import Source
     from foamprb.parallel.ranks import Ranks
-    from foamprb.settings.settings import StartFrom
+    from foamprb.settings.solution import StartFrom
 
 
 class _Parser(argparse.ArgumentParser):

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from foamprb.settings.reading import read_settings
-from foamprb.settings.settings import Settings
+from foamprb.settings.settings import Settings, read_settings
 
 CLOUD = """
 FoamFile { version 2.0; format ascii; class dictionary; object softCloudProperties; }

@@ -89,16 +89,13 @@ class Haemolysis:
         Literal["fluid", "deformation"],
         Meaning("`fluid`: μ_f γ̇; `deformation`: by Taylor's D of the particle"),
     ] = "fluid"
-    A: (
-        Annotated[
-            float, Positive, Meaning("factor of `own` constants", "% Pa^−α s^−β", "with `own` required")
-        ]
-        | None
-    ) = None
-    alpha: (
-        Annotated[float, Positive, Meaning("exponent of the stress", "1", "with `own` required")] | None
-    ) = None
-    beta: Annotated[float, Positive, Meaning("exponent of the time", "1", "with `own` required")] | None = (
+    A: Annotated[
+        float | None, Positive, Meaning("factor of `own` constants", "% Pa^−α s^−β", "with `own` required")
+    ] = None
+    alpha: Annotated[
+        float | None, Positive, Meaning("exponent of the stress", "1", "with `own` required")
+    ] = None
+    beta: Annotated[float | None, Positive, Meaning("exponent of the time", "1", "with `own` required")] = (
         None
     )
     f1: Annotated[

@@ -31,9 +31,9 @@ class ParticleCollector:
     mode: Annotated[Literal["plane"], Meaning("the only one")]
     origin: Annotated[Vector3, Meaning("a point of the plane", "m")]
     normal: Annotated[Vector3, Meaning("its normal, of any length", "1")]
-    radius: (
-        Annotated[float, Positive, Meaning("only the disc about `origin`", "m", "the whole plane")] | None
-    ) = None
+    radius: Annotated[
+        float | None, Positive, Meaning("only the disc about `origin`", "m", "the whole plane")
+    ] = None
     negateParcelsOppositeNormal: Annotated[
         bool, Meaning("subtract the mass that goes against the normal")
     ] = False

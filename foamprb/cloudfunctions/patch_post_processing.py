@@ -37,9 +37,9 @@ class PatchPostProcessing:
     """
 
     patches: Annotated[Words, Meaning("`(name name)`")]
-    maxStoredParcels: (
-        Annotated[int, AtLeastOne, Meaning("only the first of each patch", default="all")] | None
-    ) = None
+    maxStoredParcels: Annotated[
+        int | None, AtLeastOne, Meaning("only the first of each patch", default="all")
+    ] = None
 
     @property
     def interval(self) -> int:

@@ -1,8 +1,8 @@
-"""A schema: a frozen dataclass that declares a dictionary's entries: types, bounds, defaults, meanings.
+"""Schemas: frozen dataclasses that declare a dictionary's entries: types, bounds, defaults, meanings.
 
-Its field names are the entries' own words, its type hints say what they hold:
-``rho0: Annotated[float, Positive]``. A field of type ``Annotated[None, NoEffect(why)]`` is an entry of
-OpenFOAM's that is accepted with any value, and of which a note says that it has no effect.
+Field names are the entries' names, type hints declare their values: ``rho0: Annotated[float, Positive]``.
+A field of type ``Annotated[None, NoEffect(why)]`` is an entry of OpenFOAM's that is accepted with any value;
+the log says that it has no effect.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import MISSING, Field, fields
-from types import UnionType
+from types import NoneType, UnionType
 from typing import (
     Annotated,
     Any,
@@ -35,9 +35,12 @@ __all__ = [
     "Instead",
     "Schema",
     "allowed",
+    "members",
     "names_of",
+    "note_of",
     "read_entries",
     "read_entry",
+    "read_model",
     "refuse_unknown",
     "rule_of",
     "selected",
@@ -48,18 +51,18 @@ log = logging.getLogger("foamprb")
 
 
 class Instead(NamedTuple):
-    """What to write for an entry of OpenFOAM's that does not exist here."""
+    """Replacement for an entry of OpenFOAM's that does not exist here."""
 
     entry: str
-    """The name of an entry that does."""
+    """Name of an entry that exists."""
     why: str
-    """How a message goes on behind ``use <entry>, ``."""
+    """End of the message ``use <entry>, …``."""
 
 
 class Schema(Protocol):
     """Any dataclass.
 
-    It may have a static method ``instead(word)``, which returns :class:`Instead` for a word of OpenFOAM's
+    It may have a static method ``instead(word)``, which returns :class:`Instead` for an entry of OpenFOAM's
     that has another name here, else None.
     """
 
@@ -75,31 +78,32 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
     Parameters
     ----------
     schema
-        Its type hints may be a key of :data:`~foamprb.dictionary.values.READERS`, another schema, Literal, or
-        Annotated with one rule; each also with ``| None``, or with ``| Dictionary`` for what may be a
-        dictionary instead.
+        A type hint may be a key of :data:`~foamprb.dictionary.values.READERS`, another schema, a Literal, or
+        a class with a static method ``from_dictionary``. It may be one of them ``| None``, or
+        ``| Dictionary`` or another class that is read from a dictionary, and Annotated with one rule.
     dictionary
-        Its entries; those that a macro has used may have any name.
+        The dictionary; entries that a macro has used may have any name.
     also
         Names of entries that are read elsewhere.
 
     Raises
     ------
     InputError
-        If entries are not known, missing, or do not hold what their hints say, all of them; or if the schema
-        refuses what its entries say together.
+        If entries are unknown, missing or invalid, with all of them; or if the schema raises it because
+        entries contradict each other.
     """
     hints = get_type_hints(schema, include_extras=True)
     known = {*names_of(schema), *also}
-    # Those are read, but not worth a suggestion.
+    # Entries without effect are read, but never suggested.
     idle = {name for name, hint in hints.items() if isinstance(_kind(hint)[1], NoEffect)}
     mistakes = Mistakes()
     with mistakes:
         _refuse_unknown(dictionary, known, idle, getattr(schema, "instead", None))
     values = {}
-    for entry in sorted(fields(schema), key=lambda field: _line(dictionary, field.name)):
+    lines = {key: entry.line for key, entry in dictionary.entries.items()}
+    for entry in sorted(fields(schema), key=lambda field: lines.get(field.name, 0)):
         with mistakes:
-            if entry.name in dictionary.entries or not _has_default(entry):
+            if entry.name in lines or entry.default is MISSING:
                 values[entry.name] = read_entry(dictionary, entry.name, hints[entry.name])
     mistakes.raise_any()
     try:
@@ -109,7 +113,7 @@ def read_entries(schema: type[S], dictionary: Dictionary, also: Iterable[str] = 
 
 
 def read_entry(dictionary: Dictionary, key: str, hint: Any) -> Any:
-    """Read one entry of a dictionary as a type hint says; see :func:`read_entries`."""
+    """Read one entry of a dictionary by a type hint; see :func:`read_entries`."""
     if key not in dictionary.entries:
         raise dictionary.missing(key, allowed(hint))
     return _convert(dictionary.entries[key], hint)
@@ -131,16 +135,16 @@ def _refuse_unknown(
     idle: Collection[str],
     instead: Callable[[str], Instead | None] | None,
 ) -> None:
-    """Do the same; what is ``idle`` is known, but no suggestion, and ``instead`` may have a better one."""
+    """See :func:`refuse_unknown`; ``idle`` names are known but never suggested, ``instead`` goes first."""
     mistakes = Mistakes()
     names = set(known).difference(idle)
     for key, entry in dictionary.entries.items():
-        # A name that only serves as a macro's variable is the user's own.
+        # A macro's variable may have any name.
         if key in known or entry.used:
             continue
         other = instead(key) if instead else None
         if other and other.entry in idle:
-            _note(entry, other.why)
+            _log_no_effect(entry, other.why)
         elif other:
             mistakes.add(entry.mistake(f"is not known: use {other.entry}, {other.why}.", (other.entry,)))
         else:
@@ -155,10 +159,13 @@ def selected(registry: Mapping[str, type[S]], dictionary: Dictionary) -> type[S]
     return registry[read_entry(dictionary, "type", Annotated[str, Choice(registry)])]
 
 
+def read_model(registry: Mapping[str, type[S]], dictionary: Dictionary, also: Iterable[str] = ()) -> S:
+    """Read ``{ type name; … }``: the class that ``type`` selects from a registry, with its entries."""
+    return read_entries(selected(registry, dictionary), dictionary, also=("type", *also))
+
+
 def allowed(hint: Any, found: str = "") -> str:
-    """Return the part of a message that says what an entry may be, given what was found."""
-    if _may_be_dictionary(hint):
-        return f"{allowed(_first(hint), found).removesuffix('.')}, or {DICTIONARY_TEXT}."
+    """Return the part of a message that lists the allowed values of an entry, given the value found."""
     kind, rule = _kind(hint)
     match rule:
         case Choice(names):
@@ -166,28 +173,53 @@ def allowed(hint: Any, found: str = "") -> str:
         case Only(value, why):
             return f"Allowed: {str(value).lower() if isinstance(value, bool) else value} ({why})."
         case Bounds() | Each():
-            return f"Allowed: {rule.text}{', constant in time' if kind is Constant else ''}."
-    return f"Allowed: {READERS[kind if kind in READERS else Dictionary].text}."
+            text = f"{rule.text}{', constant in time' if kind is Constant else ''}"
+        case _:
+            text = READERS[kind if kind in READERS else Dictionary].text
+    other = f", or {DICTIONARY_TEXT}" if any(map(_reads_dictionary, members(hint)[1:])) else ""
+    return f"Allowed: {text}{other}."
 
 
-def _line(dictionary: Dictionary, key: str) -> int:
-    return dictionary.entries[key].line if key in dictionary.entries else 0
+def members(hint: Any) -> tuple[Any, ...]:
+    """Return the types that an entry may have by its hint, without None and notes."""
+    if get_origin(hint) is Annotated:
+        return members(hint.__origin__)
+    if get_origin(hint) in (Union, UnionType):
+        return tuple(one for part in get_args(hint) if part is not NoneType for one in members(part))
+    return (hint,)
 
 
-def _has_default(entry: Field[Any]) -> bool:
-    return entry.default is not MISSING or entry.default_factory is not MISSING
+def note_of(hint: Any, kind: Any) -> Any:
+    """Return the note of a kind in a hint, such as its :class:`~foamprb.dictionary.constraints.Meaning`."""
+    notes = hint.__metadata__ if get_origin(hint) is Annotated else ()
+    return next((note for note in notes if isinstance(note, kind)), None)
+
+
+def rule_of(hint: Any) -> Rule | None:
+    """Return the rule for the value of an entry, by its type hint."""
+    return _kind(hint)[1]
+
+
+def _kind(hint: Any) -> tuple[Any, Rule | None]:
+    """Split a hint into its first type (a key of ``READERS``, or a schema) and the rule for the value."""
+    kind, rule = members(hint)[0], note_of(hint, Rule)
+    return (str, Choice(get_args(kind))) if get_origin(kind) is Literal else (kind, rule)
+
+
+def _reads_dictionary(kind: Any) -> bool:
+    return kind is Dictionary or hasattr(kind, "from_dictionary")
 
 
 def _convert(entry: Entry, hint: Any) -> Any:
-    """Return what an entry holds, of the type that a hint says."""
+    """Return the value of an entry, of the type that a hint declares."""
     kind, rule = _kind(hint)
     if isinstance(rule, NoEffect):
-        _note(entry, rule.why)
+        _log_no_effect(entry, rule.why)
         return None
-    if isinstance(entry, Dictionary) and _may_be_dictionary(hint):
-        return entry
-    if kind is Dictionary:
-        return entry.dictionary()
+    of_dictionary = next(filter(_reads_dictionary, members(hint)), None)
+    if of_dictionary and (isinstance(entry, Dictionary) or of_dictionary is kind):
+        dictionary = entry.dictionary()
+        return dictionary if of_dictionary is Dictionary else of_dictionary.from_dictionary(dictionary)
     if kind not in READERS:
         return read_entries(kind, entry.dictionary())
     if kind is DictionaryList and isinstance(entry, DictionaryList):
@@ -199,39 +231,11 @@ def _convert(entry: Entry, hint: Any) -> Any:
     except ValueError as error:
         raise entry.mistake(f"is {entry}, {error}.") from error
     if value is None or not (rule is None or rule.admits(value)):
-        # Without its semicolon an entry swallows those that follow.
+        # An entry without its semicolon includes the entries after it.
         text, tokens = (entry.text, entry.tokens) if isinstance(entry, Stream) else ("", ())
         raise entry.mistake(f"is {entry}. {allowed(hint, found=text)}", tokens)
     return value
 
 
-def _note(entry: Entry, why: str) -> None:
+def _log_no_effect(entry: Entry, why: str) -> None:
     log.info("%s, line %d: %s has no effect: %s.", entry.source, entry.line, entry.path, why)
-
-
-def _kind(hint: Any) -> tuple[Any, Rule | None]:
-    """Split a hint into a type (a key of ``READERS``, or a schema) and the rule that the value must keep."""
-    origin = get_origin(hint)
-    if origin is Annotated:
-        kind, rule = _kind(hint.__origin__)
-        return kind, next((note for note in hint.__metadata__ if isinstance(note, Rule)), rule)
-    if origin is Literal:
-        return str, Choice(get_args(hint))
-    if origin in (Union, UnionType):
-        return _kind(_first(hint))
-    return hint, None
-
-
-def rule_of(hint: Any) -> Rule | None:
-    """Return the rule that the value of an entry must keep, by its type hint."""
-    return _kind(hint)[1]
-
-
-def _may_be_dictionary(hint: Any) -> bool:
-    """Whether a union names Dictionary as the second choice."""
-    return Dictionary in get_args(hint) and _first(hint) is not Dictionary
-
-
-def _first(union: Any) -> Any:
-    """Return the first member of a union that is not None."""
-    return next(kind for kind in get_args(union) if kind is not type(None))

@@ -62,7 +62,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     arrays = cloud.make_ready()
     notes = [line for model in models.surroundings for line in model.notes(cloud.particles, arrays, flow)]
     number = None
-    if settings.solution.shape == "auto":
+    if settings.solution.integrationSchemes.shape == "auto":
         number = shape_stokes_number(cloud.particles, flow, cloud.medium.mu, cloud.time)
     description: dict[str, Any] = _as_json({
         "format": _FORMAT,

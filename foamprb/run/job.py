@@ -48,9 +48,10 @@ from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
 from foamprb.run.description import describe
 from foamprb.run.precompile import Precompiler
+from foamprb.settings.injections import InjectionSettings, Solid
 from foamprb.settings.patches import match_patches
-from foamprb.settings.reading import read_settings
-from foamprb.settings.settings import InjectionSettings, Settings, Solid, Solution
+from foamprb.settings.settings import Settings, read_settings
+from foamprb.settings.solution import Solution
 
 log = logging.getLogger("foamprb")
 
@@ -172,14 +173,14 @@ def prepare(
 
 def _precompile(settings: Settings, rotating: bool, helper: Helper | None) -> Precompiler:
     """Begin to compile the loop that the settings will want, as far as they tell."""
-    scheme = settings.solution.shape
+    scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
     # From which patches they bounce off is not known before these are read.
     bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
     seen = any(isinstance(function, SeesRebounds) for function in settings.functions.values())
     models = replace(models, rebounds=bounce and seen)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
-    tense = any(injection.solid.surface_tension != 0.0 for injection in settings.injections)
+    tense = any(injection.solid.surfaceTension != 0.0 for injection in settings.injections)
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     tracker = Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense)
@@ -197,9 +198,9 @@ def likely_integrator(settings: Settings) -> str:
     """
     numbers = [0.0]
     for injection in settings.injections:
-        if injection.size is not None:
-            rho, d = _most(injection.rho), injection.size.limits[1]
-            rate = injection.solid.reference_shear_rate or 0.1 / settings.solution.deltaT
+        if injection.sizeDistribution is not None:
+            rho, d = _most(injection.rho0), injection.sizeDistribution.limits[1]
+            rate = injection.solid.referenceShearRate or 0.1 / settings.solution.deltaT
             numbers.append(rate * float(relaxation_time(rho, 0.5 * d, settings.fluid.mu)))
     return automatic(max(numbers))
 
@@ -214,7 +215,7 @@ def _medium(settings: Settings) -> Medium:
 
 def _models(settings: Settings, integrator: str, rotating: bool = False) -> Models:
     solid = settings.injections[0].solid.type if settings.injections else Models.material
-    tolerance = settings.solution.tolerance
+    tolerance = settings.solution.integrationSchemes.tolerance
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
     frames = (RotatingFrames(),) if rotating else ()
@@ -264,7 +265,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
     if len(solids) > 1:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
-    models = _models(settings, solution.shape, isinstance(flow, RotatingFlow))
+    models = _models(settings, solution.integrationSchemes.shape, isinstance(flow, RotatingFlow))
     bouncing = {patch.name for patch, i in zip(flow.patches, interactions, strict=True) if i.code == REBOUND}
     models = replace(models, rebounds=wants_rebounds(settings.functions.values(), bouncing))
     try:
@@ -323,8 +324,8 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     solid = injection.solid
     try:
         p, given = release(injection.model, flow, _random(injection.name), read_positions)
-        stiffness = given_shear_modulus(given, solid.poissons_ratio, medium.mu, solid.reference_shear_rate)
-        if injection.size is None and "d" not in given:
+        stiffness = given_shear_modulus(given, solid.poissonsRatio, medium.mu, solid.referenceShearRate)
+        if injection.sizeDistribution is None and "d" not in given:
             raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
     except InputError as error:
         raise InputError(f"injection model {injection.name}: {error}") from error
@@ -333,12 +334,12 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         """What the file of positions gives, or else what is drawn."""
         return draw(quantity, p.size, _random(injection.name, key)) if own is None else own
 
-    p.R[:] = 0.5 * values(given.get("d"), injection.size or 0.0, "size")
-    p.rho[:] = values(given.get("rho"), injection.rho, "rho")
-    p.mu[:] = values(stiffness, solid.shear_modulus, "stiffness")
+    p.R[:] = 0.5 * values(given.get("d"), injection.sizeDistribution or 0.0, "size")
+    p.rho[:] = values(given.get("rho"), injection.rho0, "rho")
+    p.mu[:] = values(stiffness, solid.shearModulus, "stiffness")
     p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
-    p.gamma[:] = values(given.get("surfaceTension"), solid.surface_tension, "surfaceTension")
-    p.k[:] = solid.parameter
+    p.gamma[:] = values(given.get("surfaceTension"), solid.surfaceTension, "surfaceTension")
+    p.k[:] = injection.parameter
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
@@ -347,7 +348,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
             f"injection model {injection.name}: the shear modulus of {np.count_nonzero(wrong)} of {p.size} "
             f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {medium.mu:g} Pa s."
         )
-    rate: Any = solid.reference_shear_rate
+    rate: Any = solid.referenceShearRate
     if rate is None:
         rate = shear_rate_at(flow, p, start_of_injection(injection.model, flow))
     p.Ca[:] = medium.mu * rate / p.mu
@@ -357,9 +358,9 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
 
 def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArray[np.float64]:
     """λ_s, Pa, of particles with the shear moduli μ_s, Pa, and the largest viscous stress around them, Pa."""
-    if solid.poissons_ratio is not None:
-        return np.asarray(lame_parameter(mu, solid.poissons_ratio))
-    bulk = solid.bulk_modulus
+    if solid.poissonsRatio is not None:
+        return np.asarray(lame_parameter(mu, solid.poissonsRatio))
+    bulk = solid.bulkModulus
     return np.asarray(
         lame_from_bulk_modulus(sufficient_bulk_modulus(mu, viscous_stress) if bulk is None else bulk, mu)
     )

@@ -20,7 +20,7 @@ from foamprb.results.folder import FAILURES
 from foamprb.run.job import Job
 from foamprb.run.log import RunLog, log_compiling, progress_bar
 from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
-from foamprb.settings.settings import StartFrom
+from foamprb.settings.solution import StartFrom
 
 _COPIES, _BESIDE = 0.5 * BYTES, 1e8
 """Address space for each particle, for the copy that is written; and for threads and libraries, bytes."""

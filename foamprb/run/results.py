@@ -31,7 +31,7 @@ from foamprb.results.tables import Column, write_table
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
 from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
-from foamprb.settings.settings import StartFrom
+from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 

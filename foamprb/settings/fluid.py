@@ -1,17 +1,21 @@
-"""The fluid and gravity: ρ_f and ν from the cloud's dictionary or the case's, g from ``g``."""
+"""The dictionary ``constantProperties``, and the fluid and gravity of a case."""
 
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 from foamprb.cloud.block import Medium
-from foamprb.dictionary.constraints import Positive, Vector3
+from foamprb.cloud.injection.distribution import Distribution
+from foamprb.cloud.injection.shapes import Shape
+from foamprb.dictionary.constraints import Meaning, NoEffect, Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.mistakes import Mistakes
-from foamprb.dictionary.schema import read_entries, read_entry
+from foamprb.dictionary.mistakes import Mistakes, ReportedError
+from foamprb.dictionary.schema import Instead, read_entry
 from foamprb.dictionary.tree import Dictionary, Source
-from foamprb.dictionary.values import Acceleration
+from foamprb.dictionary.values import Acceleration, Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
     FILES,
@@ -21,32 +25,94 @@ from foamprb.flow.read.fluid import (
     read_density,
     read_viscosity,
 )
-from foamprb.settings import entries
-from foamprb.settings.settings import Fluid
 
-__all__ = ["of_region", "read_fluid", "read_gravity", "read_medium"]
+__all__ = ["ConstantProperties", "Fluid", "of_region", "read_fluid", "read_gravity", "read_medium"]
 
 log = logging.getLogger("foamprb")
 
+_OF_CASE = "that of the case, see [The fluid](#the-fluid)"
+_NO_MASS_TRANSFER = NoEffect("the mass of a particle does not change")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConstantProperties:
+    """``constantProperties``."""
+
+    rho0: Annotated[float | Distribution, Positive, Meaning("density of the particles", "kg/m³")]
+    rhoInf: Annotated[Density | None, Positive, Meaning("density of the fluid", "kg/m³", _OF_CASE)] = None
+    nu: Annotated[
+        Viscosity | None, Positive, Meaning("kinematic viscosity of the fluid", "m²/s", _OF_CASE)
+    ] = None
+    mu: Annotated[
+        DynamicViscosity | None,
+        Positive,
+        Meaning("dynamic viscosity of the fluid, in place of `nu`", "Pa s", _OF_CASE),
+    ] = None
+    TInf: Annotated[
+        float | None,
+        Positive,
+        Meaning("temperature of the fluid", "K", "required where the viscosity depends on it"),
+    ] = None
+    solid: Annotated[
+        Dictionary | None,
+        Meaning(
+            "[material](#solid); an injection model's own `solid` replaces single entries", "", "required"
+        ),
+    ] = None
+    shape: Annotated[
+        Shape | None,
+        Meaning("[shape at rest](#shape); an injection model may have its own", default="sphere"),
+    ] = None
+    parcelTypeId: Annotated[None, NoEffect("particles are distinguished by their injection model")] = None
+    constantVolume: Annotated[None, _NO_MASS_TRANSFER] = None
+    rhoMin: Annotated[None, _NO_MASS_TRANSFER] = None
+    minParcelMass: Annotated[None, _NO_MASS_TRANSFER] = None
+    minParticleMass: Annotated[None, _NO_MASS_TRANSFER] = None
+    alphaMax: Annotated[None, NoEffect("the suspension is dilute, particles do not meet")] = None
+
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the dictionary of the moduli."""
+        moduli = ("youngsModulus", "poissonsRatio", "shearModulus")
+        return Instead("solid", f"a dictionary with {word} and type") if word in moduli else None
+
+
+@dataclass(frozen=True)
+class Fluid:
+    """Density rho, kg/m3, and kinematic viscosity nu, m2/s."""
+
+    rho: float
+    nu: float
+
+    @property
+    def mu(self) -> float:
+        """Dynamic viscosity, Pa s."""
+        return self.rho * self.nu
+
 
 def of_region(case: Path, region: str, name: str) -> Path:
-    """Return the path, relative to the case, of a region's file, or of the case's if the region has none."""
+    """Return the path, relative to the case, of a region's file; without it, of the case's file."""
     own = Path("constant") / region / name
     return own if (case / own).is_file() else Path("constant") / name
 
 
-def read_fluid(case: Path, region: str, constant: Dictionary, time: float | str = "latestTime") -> Fluid:
-    """Read ρ_f and ν.
+def read_fluid(
+    case: Path,
+    region: str,
+    constant: Dictionary,
+    properties: ConstantProperties | None,
+    time: float | str = "latestTime",
+) -> Fluid:
+    """Read ρ_f and ν: from ``constantProperties``, the case's dictionary of the fluid, or the field ``rho``.
 
     Parameters
     ----------
     case, region
         The case, and a region of its mesh.
-    constant
-        The cloud's ``constantProperties``, which go before the case's own dictionary of the fluid, and this
-        before the field ``rho``.
+    constant, properties
+        The cloud's ``constantProperties``, and its entries, None if they are broken.
     time
-        At which the field ``rho`` is read.
+        Time of the field ``rho``.
 
     Raises
     ------
@@ -54,29 +120,27 @@ def read_fluid(case: Path, region: str, constant: Dictionary, time: float | str 
         If there are mistakes, in ``constantProperties`` or in the other file, all of them.
     """
     file = fluid_file(case, region)
-    properties, viscosity = None, None
-    rho: float | None = None
+    viscosity, rho = None, None
     mistakes = Mistakes()
     with mistakes:
-        properties = read_entries(entries.ConstantProperties, constant)
-        if properties.nu is not None and properties.mu is not None:
-            mistakes.add(constant.mistake("gives nu and mu. Allowed: one of them."))
-        viscosity = CaseViscosity(properties.nu, properties.mu)
-    with mistakes:
-        if not {"nu", "mu"} & set(constant.entries):
+        if properties and properties.nu is not None and properties.mu is not None:
+            raise constant.mistake("gives nu and mu. Allowed: one of them.")
+        if properties and {"nu", "mu"} & constant.entries.keys():
+            viscosity = CaseViscosity(properties.nu, properties.mu)
+        elif not {"nu", "mu"} & constant.entries.keys():
             if file is None:
                 raise constant.missing(
                     "nu", f"Allowed: {Positive.text}, m2/s; or mu, Pa s; or nu in constant/{FILES[0]}."
                 )
             viscosity = read_viscosity(file, case, properties.TInf if properties else None)
     with mistakes:
-        if properties and properties.rhoInf is not None:
-            rho = properties.rhoInf
-        elif "rhoInf" not in constant.entries:
+        if "rhoInf" not in constant.entries:
             rho = _density_of_case(case, region, constant, file, time)
+        elif properties:
+            rho = properties.rhoInf
     mistakes.raise_any()
-    assert viscosity is not None
-    assert rho is not None
+    if viscosity is None or rho is None:
+        raise ReportedError("constantProperties is broken")
     if viscosity.temperature is not None:
         log.info("%s: the viscosity is %g Pa s, at %g K.", file, viscosity.mu, viscosity.temperature)
     return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
@@ -95,7 +159,7 @@ def _density_of_case(
 
 
 def _find_density(case: Path, region: str, file: Path | None, time: float | str) -> tuple[float, str] | None:
-    """Density, kg/m3, and where the case says it; None if it does not."""
+    """Return the density of the case, kg/m3, and its source; None if the case has no density."""
     if file is not None and (found := read_density(file, case)) is not None:
         return found, str(Source(file, case))
     field = mean_density(case, region, time)
@@ -111,27 +175,27 @@ def read_medium(
     mu: float | None = None,
     temperature: float | None = None,
 ) -> Medium:
-    """Read the fluid's viscosity and density, and gravity, wherever the solver of a case keeps them.
+    """Read the fluid's viscosity and density, and gravity, from any file where a solver keeps them.
 
     Parameters
     ----------
     case, region
         The case's folder, and a region of its mesh if it has several.
     time
-        At which the field ``rho`` is read, if the density is nowhere else.
+        Time of the field ``rho``, which is read if no other file gives the density.
     rho, mu
-        Density, kg/m³, and viscosity, Pa s, to be taken instead of the case's.
+        Density, kg/m³, and viscosity, Pa s, in place of the case's.
     temperature
-        At which a viscosity that depends on it is taken, K.
+        Temperature for a viscosity that depends on it, K.
 
     Returns
     -------
-    The medium; without a file ``g`` there is no gravity.
+    The medium; without a file ``g``, gravity is zero.
 
     Raises
     ------
     InputError
-        A file that is broken, or a value that is neither in the case nor given.
+        If a file is broken, or a value is neither in the case nor given.
     """
     case = Path(case)
     file = fluid_file(case, region)
@@ -142,7 +206,7 @@ def read_medium(
         rho = found[0]
     if mu is None:
         if file is None:
-            raise InputError(f"{case}: constant/{FILES[0]} is not there; give mu, Pa s.")
+            raise InputError(f"{case}: constant/{FILES[0]} does not exist; give mu, Pa s.")
         viscosity = read_viscosity(file, case, temperature)
         mu = float(viscosity.mu or 0.0) if viscosity.nu is None else viscosity.nu * rho
     there = (case / of_region(case, region, "g")).is_file()

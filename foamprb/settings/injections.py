@@ -1,33 +1,178 @@
-"""Injection models, and what the particles are that they inject: from dictionaries to settings."""
+"""Injection models with their particles and solids: from dictionaries to settings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, get_type_hints
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, get_type_hints
 
 from foamprb.body.material import MATERIALS
-from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution, Scaled, scaled
-from foamprb.cloud.injection.models import INJECTIONS
-from foamprb.cloud.injection.shapes import SHAPES, Shape, Sphere
+from foamprb.cloud.injection.distribution import Distribution, scaled
+from foamprb.cloud.injection.models import INJECTIONS, Injection
+from foamprb.cloud.injection.shapes import Shape, Sphere
+from foamprb.dictionary.constraints import (
+    Bounds,
+    Choice,
+    Meaning,
+    NonNegative,
+    Only,
+    PoissonsRatio,
+    Positive,
+)
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
-from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, refuse_unknown, selected
+from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, selected
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
+from foamprb.dictionary.values import Line
 from foamprb.results.names import fault_of_word
-from foamprb.settings import entries
-from foamprb.settings.settings import Fluid, InjectionSettings, Solid
+from foamprb.settings.fluid import ConstantProperties, Fluid
 
-__all__ = ["read_injections"]
+__all__ = ["STIFFNESS", "InjectionModel", "InjectionSettings", "Solid", "parameters", "read_injections"]
+
+_ONE_OF_THESE = "one of the three is required"
 
 
-def read_injections(models: Dictionary, constant: Dictionary, fluid: Fluid) -> tuple[InjectionSettings, ...]:
+@dataclass(frozen=True, kw_only=True)
+class Solid:
+    """``solid``; which of its entries are required depends on the others.
+
+    Of the stiffness, settings have ``shearModulus`` only, whichever entry gave it.
+    """
+
+    type: Annotated[
+        str,
+        Choice(MATERIALS),
+        Meaning(
+            "[material](models/materials.md), or one from `libs`; one for the whole cloud", "", "required"
+        ),
+    ] = ""
+    bulkModulus: Annotated[
+        float | None,
+        Positive,
+        Meaning(
+            "bulk modulus; the default keeps the volume to 10⁻⁴ at the largest γ̇ at release",
+            "Pa",
+            "10⁴ max(μ_s, μ_f γ̇)",
+        ),
+    ] = None
+    poissonsRatio: Annotated[
+        float | None,
+        PoissonsRatio,
+        Meaning("Poisson's ratio, in place of `bulkModulus`", "1", "with `youngsModulus` required"),
+    ] = None
+    shearModulus: Annotated[float | Distribution, Positive, Meaning("shear modulus", "Pa", _ONE_OF_THESE)] = (
+        math.nan
+    )
+    youngsModulus: Annotated[
+        float | Distribution | None, Positive, Meaning("Young's modulus", "Pa", _ONE_OF_THESE)
+    ] = None
+    Ca: Annotated[
+        float | Distribution | None,
+        Positive,
+        Meaning("capillary number μ_f γ̇/μ_s at `referenceShearRate`", "1", _ONE_OF_THESE),
+    ] = None
+    referenceShearRate: Annotated[
+        float | None,
+        Positive,
+        Meaning(
+            "γ̇ of `Ca`; without it the reported Ca is that at the place of release",
+            "1/s",
+            "with `Ca` required",
+        ),
+    ] = None
+    viscosity: Annotated[
+        float | Distribution,
+        NonNegative,
+        Meaning("[of the solid](models/viscosity.md) (Kelvin–Voigt)", "Pa s", "0"),
+    ] = 0.0
+    surfaceTension: Annotated[
+        float | Distribution, NonNegative, Meaning("[surface tension](models/surface-tension.md)", "N/m", "0")
+    ] = 0.0
+
+
+STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
+"""Entries of a solid of which exactly one is given."""
+COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
+"""Entries of a solid of which at most one is given."""
+
+
+def parameters() -> dict[str, Any]:
+    """Return the entries of the solids' third parameters with their type hints, user-made solids included."""
+    return {
+        p.entry: Annotated[
+            float,
+            Bounds(p.lower, p.upper, True, math.isinf(p.upper), f"a number > {p.lower:g} and <= {p.upper:g}"),
+            Meaning(f"third parameter of `{name}`", "1", f"with `{name}` required"),
+        ]
+        for name, p in ((name, material.parameter) for name, material in MATERIALS.items())
+        if p is not None
+    }
+
+
+_PARCELS = "particles are single, not parcels"
+_CONSTANT_RATE = Line("constant 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class InjectionModel:
+    """The entries of every injection model beside its own."""
+
+    type: Annotated[str, Choice(INJECTIONS), Meaning("one of those below")]
+    sizeDistribution: Annotated[
+        Distribution | None,
+        Meaning(
+            "[distribution](#distributions) of the diameters, of the sphere of the same volume",
+            "m",
+            "required, unless a file of positions gives `d`",
+        ),
+    ] = None
+    rho0: Annotated[
+        float | Distribution | None,
+        Positive,
+        Meaning("density of this model's particles", "kg/m³", "that of the cloud"),
+    ] = None
+    solid: Annotated[
+        Dictionary | None, Meaning("[material](#solid) of this model's particles", "", "that of the cloud")
+    ] = None
+    shape: Annotated[
+        Shape | None, Meaning("[shape at rest](#shape) of this model's particles", "", "that of the cloud")
+    ] = None
+    parcelBasisType: Annotated[str, Only("fixed", _PARCELS)] = "fixed"
+    nParticle: Annotated[float, Only(1.0, _PARCELS)] = 1.0
+    massTotal: Annotated[float, Only(0.0, f"{_PARCELS}: their mass follows from diameter and rho0")] = 0.0
+    flowRateProfile: Annotated[
+        Line, Only(_CONSTANT_RATE, "parcelsPerSecond is the rate for the whole duration")
+    ] = _CONSTANT_RATE
+
+
+@dataclass(frozen=True)
+class InjectionSettings:
+    """An injection model with its particles."""
+
+    name: str
+    model: Injection
+    rho0: float | Distribution
+    """Density, kg/m³."""
+    solid: Solid
+    parameter: float
+    """Third parameter of the solid; 0 if it has none."""
+    sizeDistribution: Distribution | None
+    """Diameters, m; None if a file of positions must give them."""
+    shape: Shape
+
+
+def read_injections(
+    models: Dictionary, constant: Dictionary, properties: ConstantProperties | None, fluid: Fluid
+) -> tuple[InjectionSettings, ...]:
     """Read ``injectionModels { name { type …; … } … }``.
 
     Parameters
     ----------
     models
         The dictionary.
-    constant
-        The cloud's ``constantProperties``, which an injection model's own entries replace.
+    constant, properties
+        The cloud's ``constantProperties``, and its entries, None if they are broken. An injection model's own
+        entries replace them.
     fluid
         The fluid to which a capillary number refers.
 
@@ -38,16 +183,18 @@ def read_injections(models: Dictionary, constant: Dictionary, fluid: Fluid) -> t
     """
     found = [entry for entry in models.entries.values() if isinstance(entry, Dictionary) or not entry.used]
     if not found:
-        raise models.mistake("is empty: no particle would ever appear.")
+        raise models.mistake("is empty: there would be no particles.")
     mistakes, injections = Mistakes(), []
     for entry in found:
         with mistakes:
-            injections.append(_injection(entry.dictionary(), constant, fluid))
+            injections.append(_injection(entry.dictionary(), constant, properties, fluid))
     mistakes.raise_any()
     return tuple(injections)
 
 
-def _injection(dictionary: Dictionary, constant: Dictionary, fluid: Fluid) -> InjectionSettings:
+def _injection(
+    dictionary: Dictionary, constant: Dictionary, properties: ConstantProperties | None, fluid: Fluid
+) -> InjectionSettings:
     mistakes = Mistakes()
     name = unquoted(dictionary.key)
     if fault := fault_of_word(name):
@@ -57,60 +204,31 @@ def _injection(dictionary: Dictionary, constant: Dictionary, fluid: Fluid) -> In
         kind = selected(INJECTIONS, dictionary)
         own = set(names_of(kind))
         with mistakes:
-            model = read_entries(kind, dictionary, also=names_of(entries.InjectionModel))
+            model = read_entries(kind, dictionary, also=names_of(InjectionModel))
     with mistakes:
-        read_entries(entries.InjectionModel, dictionary, also=own)
-    hints = get_type_hints(entries.InjectionModel, include_extras=True)
-    # The cloud's, which the injection model's own replaces.
-    places = {key: dictionary if key in dictionary.entries else constant for key in ("rho0", "shape")}
+        common = read_entries(InjectionModel, dictionary, also=own)
+        if common.sizeDistribution is None and "positionsFile" not in own:
+            hint = get_type_hints(InjectionModel, include_extras=True)["sizeDistribution"]
+            raise dictionary.missing("sizeDistribution", allowed(hint))
     with mistakes:
-        if "rho0" not in places["rho0"].entries:
-            raise ReportedError("rho0 is missing")
-        rho = _quantity(read_entry(places["rho0"], "rho0", hints["rho0"]))
-    with mistakes:
-        shape = _shape(places["shape"])
-    with mistakes:
-        size = None
-        if "sizeDistribution" in dictionary.entries or "positionsFile" not in own:
-            size = _distribution(read_entry(dictionary, "sizeDistribution", Dictionary))
-    with mistakes:
-        solid = _solid(
-            [place for place in (constant, dictionary) if "solid" in place.entries], constant, fluid
-        )
+        places = [place for place in (constant, dictionary) if "solid" in place.entries]
+        solid, parameter = _solid(places, constant, fluid)
+    if properties is None:
+        mistakes.add(ReportedError("constantProperties is broken"))
     mistakes.raise_any()
-    return InjectionSettings(name=name, model=model, rho=rho, solid=solid, size=size, shape=shape)
+    assert properties is not None
+    return InjectionSettings(
+        name=name,
+        model=model,
+        rho0=properties.rho0 if common.rho0 is None else common.rho0,
+        solid=solid,
+        parameter=parameter,
+        sizeDistribution=common.sizeDistribution,
+        shape=common.shape or properties.shape or Sphere(),
+    )
 
 
-def _shape(place: Dictionary) -> Shape:
-    """Read ``shape { type ellipsoid; … }`` of a dictionary; without it particles are spheres."""
-    if "shape" not in place.entries:
-        return Sphere()
-    dictionary = place.entries["shape"].dictionary()
-    return read_entries(selected(SHAPES, dictionary), dictionary, also=("type",))
-
-
-def _quantity(found: float | Dictionary) -> float | Distribution:
-    """Return a positive number, or a distribution of such numbers."""
-    return _distribution(found) if isinstance(found, Dictionary) else found
-
-
-def _distribution(dictionary: Dictionary) -> Distribution:
-    """Read ``{ type name; nameDistribution { … } }``, a distribution of positive numbers."""
-    kind = selected(DISTRIBUTIONS, dictionary)
-    coefficients = f"{read_entry(dictionary, 'type', str)}Distribution"
-    mistakes = Mistakes()
-    with mistakes:
-        refuse_unknown(dictionary, ("type", coefficients))
-    with mistakes:
-        found: Dictionary = read_entry(dictionary, coefficients, Dictionary)
-        distribution = read_entries(kind, found)
-        if not distribution.limits[0] > 0.0:
-            raise found.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
-    mistakes.raise_any()
-    return distribution
-
-
-def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> Solid:
+def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> tuple[Solid, float]:
     """Combine the cloud's solid with an injection model's, whose entries replace the cloud's.
 
     Parameters
@@ -121,11 +239,15 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
         ``constantProperties``.
     fluid
         The fluid to which a capillary number refers.
+
+    Returns
+    -------
+    The solid and its third parameter, 0 if it has none.
     """
     if not places:
         raise constant.missing(
             "solid",
-            f"Allowed: {DICTIONARY_TEXT} with type and one of {', '.join(entries.STIFFNESS)}, "
+            f"Allowed: {DICTIONARY_TEXT} with type and one of {', '.join(STIFFNESS)}, "
             "here or in every injection model.",
         )
     mistakes = Mistakes()
@@ -133,78 +255,60 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     for place in places:
         with mistakes:
             own = _solid_entries(place.entries["solid"].dictionary())
-            for one_of in (entries.STIFFNESS, entries.COMPRESSIBILITY):
+            for one_of in (STIFFNESS, COMPRESSIBILITY):
                 if own.keys() & set(one_of):
                     combined = {key: value for key, value in combined.items() if key not in one_of}
             combined |= own
-    # Only what is there can tell what else is needed.
+    # Whether entries are missing depends on valid entries.
     mistakes.raise_any()
     where = places[-1].entries["solid"].dictionary()
-    hints = get_type_hints(entries.Solid, include_extras=True)
-    stiffness = combined.keys() & set(entries.STIFFNESS)
+    hints = parameters() | get_type_hints(Solid, include_extras=True)
+    stiffness = combined.keys() & set(STIFFNESS)
     if not stiffness:
-        mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(entries.STIFFNESS)}."))
-    needed = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
-    for key in ("type", *(needed[key] for key in stiffness if key in needed)):
+        mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(STIFFNESS)}."))
+    required = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
+    needed = ["type", *(required[key] for key in stiffness if key in required)]
+    parameter = MATERIALS[combined["type"]].parameter if "type" in combined else None
+    if parameter:
+        needed.append(parameter.entry)
+    for key in needed:
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
-    parameters = entries.parameters()
-    parameter = MATERIALS[combined["type"]].parameter if "type" in combined else None
-    for name, hint in parameters.items() if "type" in combined else ():
-        if parameter is not None and name == parameter.entry and name not in combined:
-            mistakes.add(where.missing(name, allowed(hint)))
-        if name in combined and (parameter is None or name != parameter.entry):
+    for name in parameters() if "type" in combined else ():
+        if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
-    quantities: dict[str, float | Distribution] = {}
-    for key in ("viscosity", "surfaceTension", *stiffness):
-        with mistakes:
-            quantities[key] = _quantity(combined.get(key, 0.0))
     mistakes.raise_any()
-    return Solid(
-        type=combined["type"],
-        shear_modulus=_shear_modulus(combined | quantities, fluid),
-        poissons_ratio=combined.get("poissonsRatio"),
-        bulk_modulus=combined.get("bulkModulus"),
-        reference_shear_rate=combined.get("referenceShearRate"),
-        parameter=combined[parameter.entry] if parameter else 0.0,
-        viscosity=quantities["viscosity"],
-        surface_tension=quantities["surfaceTension"],
-    )
+    third = combined[parameter.entry] if parameter else 0.0
+    solid = Solid(**{name: value for name, value in combined.items() if name in names_of(Solid)})
+    return _with_shear_modulus(solid, fluid), third
 
 
 def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
     """Read the entries of one ``solid``, as far as it has them; of the stiffness only one."""
-    parameters = entries.parameters()
+    third = parameters()
     mistakes = Mistakes()
     with mistakes:
-        read = vars(read_entries(entries.Solid, dictionary, also=parameters))
-    found = {}
-    for name, hint in parameters.items():
+        solid = read_entries(Solid, dictionary, also=third)
+        found = {name: getattr(solid, name) for name in names_of(Solid) if name in dictionary.entries}
+    for name, hint in third.items():
         with mistakes:
             if name in dictionary.entries:
                 found[name] = read_entry(dictionary, name, hint)
-    for one_of in (entries.STIFFNESS, entries.COMPRESSIBILITY):
+    for one_of in (STIFFNESS, COMPRESSIBILITY):
         given = [key for key in one_of if key in dictionary.entries]
         if len(given) > 1:
             mistakes.add(
                 dictionary.mistake(f"gives {' and '.join(given)}. Allowed: one of {', '.join(one_of)}.")
             )
     mistakes.raise_any()
-    return found | {key: value for key, value in read.items() if value is not None}
+    return found
 
 
-def _shear_modulus(solid: Mapping[str, Any], fluid: Fluid) -> float | Distribution:
-    """Return μ_s, Pa, of a solid that gives one of ``STIFFNESS``; Ca = μ_f γ̇/μ_s."""
-    if "Ca" in solid:
-        return _scaled(solid["Ca"], fluid.mu * solid["referenceShearRate"], power=-1)
-    if "youngsModulus" in solid:
-        return _scaled(solid["youngsModulus"], 0.5 / (1.0 + solid["poissonsRatio"]))
-    modulus: float | Distribution = solid["shearModulus"]
-    return modulus
-
-
-def _scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
-    """Return ``factor`` times a power of a quantity, distributed or not."""
-    if isinstance(quantity, float):
-        return float(scaled(quantity, factor, power))
-    return Scaled(quantity, factor, power)
+def _with_shear_modulus(solid: Solid, fluid: Fluid) -> Solid:
+    """Return a solid with μ_s, Pa, from Ca = μ_f γ̇/μ_s or Young's modulus, if it gives one of these."""
+    if solid.Ca is not None and solid.referenceShearRate is not None:
+        return replace(solid, shearModulus=scaled(solid.Ca, fluid.mu * solid.referenceShearRate, -1), Ca=None)
+    if solid.youngsModulus is not None and solid.poissonsRatio is not None:
+        modulus = scaled(solid.youngsModulus, 0.5 / (1.0 + solid.poissonsRatio))
+        return replace(solid, shearModulus=modulus, youngsModulus=None)
+    return solid

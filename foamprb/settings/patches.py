@@ -1,4 +1,4 @@
-"""Which patch does what to a particle: OpenFOAM's patch interaction models, and how their rules are matched.
+"""OpenFOAM's patch interaction models, and the match of their rules with the patches of a mesh.
 
 A new patch interaction model is a function from its ``…Coeffs`` to rules and a line in
 :data:`INTERACTION_MODELS`.
@@ -15,7 +15,7 @@ from typing import Annotated, Literal, TypeAlias
 from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
 from foamprb.dictionary.constraints import Bounds, Choice, Meaning
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
-from foamprb.dictionary.schema import read_entries, read_entry, selected
+from foamprb.dictionary.schema import read_entries, read_entry, read_model
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Patch
@@ -26,32 +26,31 @@ __all__ = [
     "PatchRule",
     "Rule",
     "Touching",
-    "coefficient_names",
     "match_patches",
     "needs_entry",
     "read_patch_interaction",
 ]
 
 Touching: TypeAlias = Literal["ellipsoid", "centre"]
-"""What of a particle touches a wall."""
+"""Part of a particle that touches a wall."""
 
 
 @dataclass(frozen=True)
 class PatchRule:
-    """What the patches do whose name or group is ``pattern`` or, if that is a ``regex``, matches it."""
+    """Interaction of the patches whose name or group equals ``pattern`` or, as a ``regex``, matches it."""
 
     pattern: str
     interaction: Interaction
     regex: bool = False
 
     def matches(self, word: str) -> bool:
-        """Whether the whole ``word`` is or matches the pattern."""
+        """Return whether the whole ``word`` equals or matches the pattern."""
         return re.fullmatch(self.pattern, word) is not None if self.regex else self.pattern == word
 
 
 @dataclass(frozen=True)
 class KindRule:
-    """What all patches of a kind do: the walls, the open ones (neither walls nor constrained), or any."""
+    """Interaction of all patches of a kind: walls, open (neither walls nor constrained), or any."""
 
     kind: Literal["wall", "open", "any"]
     interaction: Interaction
@@ -69,7 +68,7 @@ def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], To
 
     Returns
     -------
-    The rules for the patches, and what of a particle touches a wall.
+    The rules for the patches, and the part of a particle that touches a wall.
 
     Raises
     ------
@@ -80,11 +79,9 @@ def read_patch_interaction(sub_models: Dictionary) -> tuple[tuple[Rule, ...], To
         raise ReportedError("patchInteractionModel is missing")
     model = read_entry(sub_models, "patchInteractionModel", Annotated[str, Choice(INTERACTION_MODELS)])
     coefficients: Dictionary = read_entry(sub_models, f"{model}Coeffs", Dictionary)
-    touching: Touching = "ellipsoid"
     mistakes = Mistakes()
     with mistakes:
-        if "touching" in coefficients.entries:
-            touching = read_entry(coefficients, "touching", Touching)
+        touching = read_entries(AnyInteraction, coefficients, also=coefficients.entries).touching
     with mistakes:
         rules = INTERACTION_MODELS[model](coefficients)
     mistakes.raise_any()
@@ -99,7 +96,7 @@ class LocalInteraction:
         DictionaryList,
         Meaning(
             "`( pattern { type …; } … )`: a name, a group (`wall`) or a quoted regular expression; the first "
-            "that matches counts. A symmetry plane, wedge or empty patch needs none"
+            "match counts. Symmetry planes, wedges and empty patches need no entry"
         ),
     ]
 
@@ -123,13 +120,12 @@ def _patch_rule(dictionary: Dictionary) -> PatchRule:
             re.compile(pattern)
         except re.error as error:
             raise dictionary.mistake(f"is not a regular expression: {error}.") from error
-    interaction = read_entries(selected(INTERACTIONS, dictionary), dictionary, also=("type",))
-    return PatchRule(pattern, interaction, regex)
+    return PatchRule(pattern, read_model(INTERACTIONS, dictionary), regex)
 
 
 @dataclass(frozen=True, kw_only=True)
 class StandardWallInteraction:
-    """``standardWallInteractionCoeffs``: what all walls do; particles leave through open patches."""
+    """``standardWallInteractionCoeffs``: one interaction for all walls; open patches let particles out."""
 
     type: Annotated[
         str,
@@ -140,16 +136,16 @@ class StandardWallInteraction:
 
 @dataclass(frozen=True, kw_only=True)
 class AnyInteraction:
-    """What the ``…Coeffs`` of every model may have."""
+    """Entries of the ``…Coeffs`` of every model."""
 
     touching: Annotated[
-        Touching, Meaning("what of the particle touches a wall: the body, or only its centre")
+        Touching, Meaning("part of the particle that touches a wall: the body, or only its centre")
     ] = "ellipsoid"
 
 
 def _standard_wall_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
-    """Return one rule for all walls, and that particles leave through what is open."""
-    walls = read_entries(selected(INTERACTIONS, coefficients), coefficients, also=("type", "touching"))
+    """Return one rule for all walls, and that particles leave through open patches."""
+    walls = read_model(INTERACTIONS, coefficients, also=("touching",))
     return KindRule("wall", walls), KindRule("open", Escape())
 
 
@@ -165,7 +161,7 @@ class ReboundFromAll:
 
 
 def _rebound(coefficients: Dictionary) -> tuple[Rule, ...]:
-    """Return that particles bounce off every patch; twice UFactor of the normal velocity is taken away."""
+    """Return the rule that particles bounce off every patch and lose 2 UFactor of the normal velocity."""
     entries = read_entries(ReboundFromAll, coefficients, also=("touching",))
     return (KindRule("any", Rebound(e=2.0 * entries.UFactor - 1.0)),)
 
@@ -175,12 +171,7 @@ INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
     "rebound": _rebound,
     "standardWallInteraction": _standard_wall_interaction,
 }
-"""The rules that follow from the coefficients, by the word that ``patchInteractionModel`` selects."""
-
-
-def coefficient_names() -> tuple[str, ...]:
-    """Return the names of the entries of ``subModels`` that hold the models' coefficients."""
-    return tuple(f"{model}Coeffs" for model in INTERACTION_MODELS)
+"""Functions from coefficients to rules, by the word that ``patchInteractionModel`` selects."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -192,16 +183,16 @@ _COUPLED = ("cyclic", "processor")
 
 
 def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | str) -> list[Interaction]:
-    """Find what each patch does to a particle, as OpenFOAM's patch interaction models do.
+    """Return the interaction of each patch, by the rules of OpenFOAM's patch interaction models.
 
-    The first rule counts whose pattern matches the patch's name or its group (a ``wall`` belongs to the group
-    of that name, as does a patch of a constraint type). Without a rule, a particle goes on beyond a coupled
-    patch or a wedge from its neighbour, and symmetry planes and empty patches mirror it.
+    The first rule counts whose pattern matches the patch's name or its group: ``wall``, or a constraint type.
+    Without a rule, a particle continues at the neighbour of a coupled patch or a wedge, and symmetry planes
+    and empty patches mirror it.
 
     Parameters
     ----------
     rules, patches
-        Of the settings and of the mesh, in their order.
+        Rules of the settings and patches of the mesh.
     file
         The file that a message names.
 
@@ -212,7 +203,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     Raises
     ------
     InputError
-        If rules match no patch, or patches of another kind are left without a rule; all of them.
+        If rules match no patch, or patches of other kinds have no rule; all of them.
     """
     where = f"{file}: subModels/localInteractionCoeffs/patches"
     names = [patch.name for patch in patches]
@@ -221,7 +212,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
         if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
             text = f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}"
             mistakes.add(InputError(text))
-    # First: a rule that matches no patch may be meant for one that is left without.
+    # A rule without a match may explain a patch without a rule.
     mistakes.raise_any()
     for patch in patches:
         with mistakes:
@@ -231,7 +222,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
 
 
 def needs_entry(patch: Patch) -> bool:
-    """Whether the settings must say what a patch does: its type does not."""
+    """Return whether a patch needs an entry in the settings, because its type implies no interaction."""
     if patch.type in _MIRRORS:
         return False
     return not (patch.neighbour and patch.type == "cyclic")
@@ -249,8 +240,8 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
         raise InputError(f"{where}: the cyclic patch '{patch.name}' names no neighbourPatch to go on from.")
     if patch.type.startswith(_COUPLED):
         raise InputError(
-            f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}; of the "
-            "coupled patches only cyclic and cyclicAMI ones that lie on their neighbours let them through. "
+            f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}. They "
+            "only pass cyclic and cyclicAMI patches that coincide with their neighbours. "
             f"Give it an entry of its own ({', '.join(INTERACTIONS)})."
         )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")

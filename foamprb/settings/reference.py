@@ -1,20 +1,20 @@
-"""What the documentation says of the entries: made from the declarations that read them.
+"""Documentation of the entries, from the declarations that read them.
 
-``docs/settings.md`` (``tools/settings_page``), ``foamprb help`` and the comments of ``foamprb init`` all come
-from here. A test finds an entry that is declared without a :class:`~foamprb.dictionary.constraints.Meaning`.
+``docs/settings.md`` (``tools/settings_page``), ``foamprb help`` and the comments of ``foamprb init`` are made
+here. A test reports entries that are declared without a :class:`~foamprb.dictionary.constraints.Meaning`.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
-from types import NoneType
-from typing import Annotated, Any, NamedTuple, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, get_type_hints
 
 from foamprb.cloud.forces import FORCES
-from foamprb.cloud.injection.distribution import DISTRIBUTIONS
+from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.injection.shapes import SHAPES
 from foamprb.cloud.patches import INTERACTIONS
@@ -22,11 +22,14 @@ from foamprb.cloud.surroundings.dispersion import DISPERSIONS
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only
-from foamprb.dictionary.schema import Schema, allowed, rule_of
-from foamprb.dictionary.tree import Dictionary
+from foamprb.dictionary.schema import Schema, allowed, members, note_of, rule_of
 from foamprb.dictionary.values import READERS
 from foamprb.errors import InputError, suggestion
-from foamprb.settings import entries, patches
+from foamprb.settings import patches
+from foamprb.settings.fluid import ConstantProperties
+from foamprb.settings.injections import InjectionModel, Solid, parameters
+from foamprb.settings.settings import CloudProperties, ParticleForces, SubModels
+from foamprb.settings.solution import Solution
 
 __all__ = [
     "SECTIONS",
@@ -42,21 +45,21 @@ __all__ = [
 
 
 class EntryText(NamedTuple):
-    """What is said of one entry; texts are Markdown."""
+    """Documentation of one entry; texts are Markdown."""
 
     section: str
     """Name of the :class:`Section`."""
     model: str
-    """The ``type`` that has the entry, if not all have it."""
+    """The ``type`` that has the entry; empty if all have it."""
     name: str
-    """With the dictionaries that hold it below that of its section: ``integrationSchemes/shape``."""
+    """With the dictionaries between it and that of its section: ``integrationSchemes/shape``."""
     unit: str
     default: str
     allowed: str
-    """What it may be, in the words of a message."""
+    """Allowed values, in the words of a message."""
     meaning: str
     why_idle: str = ""
-    """Why it has no effect, if so."""
+    """Why it has no effect; empty if it has one."""
 
     @property
     def path(self) -> str:
@@ -66,7 +69,7 @@ class EntryText(NamedTuple):
 
 
 class Section(NamedTuple):
-    """A table of the page: the dictionary that it is about, and the schemas of its entries."""
+    """A table of the page: its dictionary, and the schemas of its entries."""
 
     path: str
     schemas: Mapping[str, type[Schema]] = {}
@@ -78,19 +81,19 @@ class Section(NamedTuple):
 _CHOSEN: dict[str, type[Schema]] = {**FORCES, **SURROUNDINGS}
 
 SECTIONS: dict[str, Section] = {
-    "file": Section("", {"": entries.CloudProperties}),
-    "solution": Section("solution", {"": entries.Solution}),
-    "constantProperties": Section("constantProperties", {"": entries.ConstantProperties}),
-    "solid": Section("constantProperties/solid", {"": entries.Solid}),
+    "file": Section("", {"": CloudProperties}),
+    "solution": Section("solution", {"": Solution}),
+    "constantProperties": Section("constantProperties", {"": ConstantProperties}),
+    "solid": Section("constantProperties/solid", {"": Solid}),
     "shape": Section("constantProperties/shape", models=SHAPES),
     "distributions": Section("(distribution)", models=DISTRIBUTIONS),
-    "subModels": Section("subModels", {"": entries.SubModels}),
+    "subModels": Section("subModels", {"": SubModels}),
     "dispersion": Section("subModels", {f"{name}Coeffs": model for name, model in DISPERSIONS.items()}),
     "particleForces": Section(
         "subModels",
-        {"particleForces": entries.ParticleForces, **{f"particleForces/{k}": v for k, v in _CHOSEN.items()}},
+        {"particleForces": ParticleForces, **{f"particleForces/{k}": v for k, v in _CHOSEN.items()}},
     ),
-    "injectionModels": Section("subModels/injectionModels/(name)", {"": entries.InjectionModel}),
+    "injectionModels": Section("subModels/injectionModels/(name)", {"": InjectionModel}),
     "injections": Section("subModels/injectionModels/(name)", models=INJECTIONS),
     "patchInteraction": Section(
         "subModels",
@@ -104,7 +107,7 @@ SECTIONS: dict[str, Section] = {
     "interactions": Section("subModels/localInteractionCoeffs/patches/(pattern)", models=INTERACTIONS),
     "cloudFunctions": Section("cloudFunctions/(name)", models=FUNCTIONS),
 }
-"""The tables of the page, by the names of their marks there; those of ``noEffect`` are about all."""
+"""The tables of the page, by the names of their marks; ``noEffect`` is a table of all."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -112,20 +115,20 @@ SECTIONS: dict[str, Section] = {
 
 
 def entries_of(name: str) -> tuple[EntryText, ...]:
-    """Return what is said of the entries of a section, those without effect included."""
+    """Return the documentation of the entries of a section, including entries without effect."""
     section = SECTIONS[name]
     found = [
         text for prefix, schema in section.schemas.items() for text in _described(name, "", prefix, schema)
     ]
     if name == "solid":
-        found += [_text(name, "", key, hint, MISSING) for key, hint in entries.parameters().items()]
+        found += [_text(name, "", key, hint, MISSING) for key, hint in parameters().items()]
     for model, schema in section.models.items():
         found += _described(name, model, "", schema)
     return tuple(found)
 
 
 def meaning(section: str, entry: str, model: str = "") -> EntryText:
-    """Return what is said of one entry; KeyError if no declaration has it."""
+    """Return the documentation of one entry; raise KeyError if it is not declared."""
     for text in entries_of(section):
         if (text.name, text.model) == (entry, model):
             return text
@@ -136,15 +139,16 @@ def _described(section: str, model: str, prefix: str, schema: Any) -> Iterator[E
     hints = get_type_hints(schema, include_extras=True)
     for field in fields(schema):
         hint, name = hints[field.name], "/".join(filter(None, (prefix, field.name)))
-        own = [part for part in _parts(hint) if is_dataclass(part) and part not in READERS]
-        if not own or _note(hint, Meaning):
+        own = [part for part in members(hint) if is_dataclass(part) and part not in READERS]
+        if not own or note_of(hint, Meaning):
             yield _text(section, model, name, hint, field.default)
         for inner in own:
-            yield from _described(section, model, name, inner)
+            if not hasattr(inner, "from_dictionary"):
+                yield from _described(section, model, name, inner)
 
 
 def _text(section: str, model: str, name: str, hint: Any, default: Any) -> EntryText:
-    note, rule = _note(hint, Meaning), rule_of(hint)
+    note, rule = note_of(hint, Meaning), rule_of(hint)
     if isinstance(rule, NoEffect):
         return EntryText(section, model, name, "", "", "any", "no effect", rule.why)
     unit, said = (note.unit, note.text) if note else ("", "")
@@ -156,33 +160,14 @@ def _text(section: str, model: str, name: str, hint: Any, default: Any) -> Entry
         said = f"accepted as `{value}` only: {rule.why}"
     elif isinstance(rule, Choice) and sorted(rule.names) != sorted(re.findall(r"`(\w+)`", said)):
         said = f"{said}: {', '.join(f'`{choice}`' for choice in rule.names)}".removeprefix(": ")
-    if Dictionary in get_args(hint) and rule is not None:
+    if Distribution in members(hint)[1:]:
         said += "; a number or a [distribution](#distributions)"
     shown = note.default if note and note.default else _shown(default)
     return EntryText(section, model, name, unit, shown, may_be, said)
 
 
-def _parts(hint: Any) -> Iterator[Any]:
-    """The types that a hint names, without its notes."""
-    if get_origin(hint) is Annotated:
-        yield from _parts(hint.__origin__)
-    elif get_args(hint) and not isinstance(hint, type):
-        for part in get_args(hint):
-            yield from _parts(part)
-    elif hint is not NoneType:
-        yield hint
-
-
-def _note(hint: Any, kind: type[Meaning]) -> Meaning | None:
-    """The note of a kind in a hint, at any depth."""
-    if get_origin(hint) is Annotated:
-        own = next((note for note in hint.__metadata__ if isinstance(note, kind)), None)
-        return own or _note(hint.__origin__, kind)
-    return next((note for part in get_args(hint) if (note := _note(part, kind))), None)
-
-
 def _shown(default: Any) -> str:
-    """A default as the page shows it."""
+    """Return a default as the page shows it."""
     match default:
         case bool():
             return f"`{str(default).lower()}`"
@@ -196,7 +181,7 @@ def _shown(default: Any) -> str:
 
 
 def summary(schema: type) -> str:
-    """The first paragraph of a schema's docstring, as Markdown."""
+    """Return the first paragraph of a schema's docstring, as Markdown."""
     text = inspect.cleandoc(schema.__doc__ or "").split("\n\n")[0]
     return " ".join(text.replace("``", "`").split())
 
@@ -212,12 +197,12 @@ def tables() -> dict[str, str]:
 
 
 def with_tables(page: str) -> str:
-    """Return a page with the tables between its marks ``<!-- table NAME -->`` and ``<!-- end -->`` made anew.
+    """Return a page with new tables between its marks ``<!-- table NAME -->`` and ``<!-- end -->``.
 
     Raises
     ------
     InputError
-        If the page lacks a table, or has the mark of one that does not exist.
+        If the marks of the page are not the names of the tables.
     """
     made = tables()
     marked = re.findall(r"<!-- table (\w+) -->", page)
@@ -277,12 +262,12 @@ def _idle_table() -> str:
 
 
 def explain(word: str | None) -> list[str]:
-    """Return lines that say what an entry, a dictionary or a type is; without a word, what there is.
+    """Return the documentation of an entry, a dictionary or a type; without a word, a list of all.
 
     Raises
     ------
     InputError
-        If nothing has that name; with what was probably meant.
+        If the name is unknown; with the most similar name.
     """
     if word is None:
         return _overview()
@@ -301,7 +286,7 @@ def explain(word: str | None) -> list[str]:
     if wanted in _CHOSEN and not any(wanted in line for line in lines):
         lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
     if not lines:
-        # A dictionary that is no section of its own, such as integrationSchemes.
+        # A dictionary without a section, such as integrationSchemes.
         within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]
         lines = [line for text in within for line in _entry_lines(text)]
     if lines:
@@ -310,9 +295,7 @@ def explain(word: str | None) -> list[str]:
     names = {part for path in paths for part in path.split("/") if not part.startswith("(")}
     names |= {model for section in SECTIONS.values() for model in section.models} | {*SECTIONS, *_CHOSEN}
     close = suggestion(word, names)
-    question = (
-        close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists what there is."
-    )
+    question = close.partition(" Allowed:")[0] if close.startswith("Did") else "foamprb help lists all names."
     raise InputError(f"no entry, dictionary or type '{word}'. {question}")
 
 
@@ -366,14 +349,10 @@ def _list_lines(found: Sequence[EntryText]) -> list[str]:
 
 
 def plain(markdown: str) -> str:
-    """The words of a text without its marks."""
+    """Return Markdown as plain text."""
     return re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", markdown).replace("`", "")
 
 
 def _wrapped(text: str) -> list[str]:
-    lines, words = [""], text.split()
-    for word in words:
-        if lines[-1] and len(lines[-1]) + len(word) > 100:
-            lines.append("")
-        lines[-1] = f"{lines[-1]} {word}".strip()
-    return [f"    {line}" for line in lines]
+    indent = "    "
+    return textwrap.wrap(text, 105, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)

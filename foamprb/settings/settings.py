@@ -1,99 +1,126 @@
-"""What a user asks for, as typed and validated values: what the rest of the package knows of a dictionary."""
+"""Settings of a cloud: ``constant/softCloudProperties``, read with the files beside it."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import Annotated, Any, TypeVar
 
-from foamprb.cloud.forces import Force
-from foamprb.cloud.injection.distribution import Distribution
-from foamprb.cloud.injection.models import Injection
-from foamprb.cloud.injection.shapes import Shape
-from foamprb.cloud.limits import Limits
+from foamprb.body.drag import DRAGS
+from foamprb.body.traction import TRACTIONS
+from foamprb.cloud.forces import FORCES, Force
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.dispersion import DISPERSIONS
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.base import CloudFunction
-from foamprb.dictionary.constraints import Vector3
-from foamprb.settings.patches import Rule, Touching
+from foamprb.cloudfunctions.registry import FUNCTIONS
+from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only, Vector3
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.mistakes import Mistakes, ReportedError
+from foamprb.dictionary.schema import Instead, read_entries, read_entry, read_model
+from foamprb.dictionary.tree import Dictionary, Source, unquoted
+from foamprb.dictionary.values import Files
+from foamprb.errors import InputError
+from foamprb.results.folder import fault_of_function
+from foamprb.results.names import fault_of_word
+from foamprb.settings.fluid import ConstantProperties, Fluid, of_region, read_fluid, read_gravity
+from foamprb.settings.injections import InjectionSettings, read_injections
+from foamprb.settings.libs import load_libs
+from foamprb.settings.patches import INTERACTION_MODELS, Rule, Touching, read_patch_interaction
+from foamprb.settings.solution import Solution, read_solution
 
-__all__ = ["Fluid", "InjectionSettings", "Settings", "Solid", "Solution", "StartFrom"]
+__all__ = ["CloudProperties", "ParticleForces", "Settings", "SubModels", "read_settings"]
 
-StartFrom: TypeAlias = Literal["startTime", "latestTime"]
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Time stepping: step, end and write interval, s; the flow in time; the integrator and its tolerance.
-
-    A run begins at time 0 or goes on from its last checkpoint, as ``startFrom`` says, None if the user does
-    not; it stops when more than ``maxFailedFraction`` of the injected particles have failed.
-    """
-
-    deltaT: float
-    endTime: float
-    writeInterval: float
-    shape: str
-    tolerance: float
-    stride: int
-    """Through how many tracking steps a step may go whose size the integrator chooses."""
-    transient: bool = False
-    """Whether the flow changes in time; its time is then that of the run."""
-    period: float | None = None
-    """Time after which a transient flow repeats itself, s."""
-    rotatingZones: Literal["relative", "absolute"] = "relative"
-    """How zones of MRFProperties are seen."""
-    startFrom: StartFrom | None = None
-    maxFailedFraction: float = 1.0
-    limits: Limits = field(default_factory=Limits)
+_DICTIONARY = "softCloudProperties"
+_HINT = f"Write one: foamprb init writes constant/{_DICTIONARY} for a case; or name another file with -dict."
 
 
-@dataclass(frozen=True)
-class Fluid:
-    """Density rho, kg/m3, and kinematic viscosity nu, m2/s."""
+@dataclass(frozen=True, kw_only=True)
+class EllipsoidDrag:
+    """``subModels/particleForces/ellipsoidDrag``."""
 
-    rho: float
-    nu: float
-
-    @property
-    def mu(self) -> float:
-        """Dynamic viscosity, Pa s."""
-        return self.rho * self.nu
+    type: Annotated[str, Choice(DRAGS), Meaning("[law of drag](models/drag.md)")] = "oberbeck"
 
 
-@dataclass(frozen=True)
-class Solid:
-    """A particle's material: μ_s, Pa, the shear rate of its Ca, 1/s, η_s, Pa s, and γ, N/m.
+@dataclass(frozen=True, kw_only=True)
+class ParticleForces:
+    """``subModels/particleForces``, without the entries of the registries of forces and surroundings."""
 
-    How it yields to pressure is said by ν_s or by the bulk modulus, Pa; if by neither, it hardly does.
-    """
+    ellipsoidDrag: Annotated[EllipsoidDrag, Meaning("drag; `ellipsoidDrag;` alone is enough")]
 
-    type: str
-    shear_modulus: float | Distribution
-    poissons_ratio: float | None = None
-    bulk_modulus: float | None = None
-    reference_shear_rate: float | None = None
-    parameter: float = 0.0
-    viscosity: float | Distribution = 0.0
-    surface_tension: float | Distribution = 0.0
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the drag that replaces OpenFOAM's laws for spheres."""
+        why = "which for a rigid sphere is Stokes' drag"
+        return Instead("ellipsoidDrag", why) if word.endswith("Drag") else None
 
 
-@dataclass(frozen=True)
-class InjectionSettings:
-    """One injection model: where and when particles appear, and what they are; rho in kg/m3."""
+_DILUTE = Only("none", "the suspension is dilute, particles do not meet")
+_NO_MODEL = NoEffect("there is no such model")
 
-    name: str
-    model: Injection
-    rho: float | Distribution
-    solid: Solid
-    size: Distribution | None
-    """Diameters, m; None if a file of positions must give them."""
-    shape: Shape
+
+@dataclass(frozen=True, kw_only=True)
+class SubModels:
+    """``subModels``, without the coefficients of the patch interaction and dispersion models."""
+
+    particleForces: Annotated[Dictionary, Meaning("[forces](#particleforces); `ellipsoidDrag;` at least")]
+    injectionModels: Annotated[
+        Dictionary, Meaning("[dictionaries](#injectionmodels), one for each model, any number")
+    ]
+    patchInteractionModel: Annotated[
+        str,
+        Choice(INTERACTION_MODELS),
+        Meaning("[interaction with patches](#patch-interaction), with the `…Coeffs` of the model"),
+    ]
+    tractionModel: Annotated[
+        str, Choice(TRACTIONS), Meaning("[traction](models/traction.md) on the surface")
+    ] = "roscoe"
+    dispersionModel: Annotated[
+        str,
+        Choice(("none", *DISPERSIONS)),
+        Meaning(
+            "[dispersion by eddies](models/turbulent-dispersion.md) of a flow that is a mean; the `…Coeffs` "
+            "of the model are optional"
+        ),
+    ] = "none"
+    heatTransferModel: Annotated[str, Only("none", "particles have no temperature")] = "none"
+    surfaceFilmModel: Annotated[str, Only("none", "there is no film on the walls")] = "none"
+    collisionModel: Annotated[str, _DILUTE] = "none"
+    stochasticCollisionModel: Annotated[str, _DILUTE] = "none"
+    packingModel: Annotated[str, _DILUTE] = "none"
+    dampingModel: Annotated[str, _DILUTE] = "none"
+    isotropyModel: Annotated[str, _DILUTE] = "none"
+    radiation: Annotated[bool, Only(False, "particles have no temperature")] = False
+    pairCollisionCoeffs: Annotated[None, _NO_MODEL] = None
+    explicitCoeffs: Annotated[None, _NO_MODEL] = None
+    implicitCoeffs: Annotated[None, _NO_MODEL] = None
+    relaxationCoeffs: Annotated[None, _NO_MODEL] = None
+    stochasticCoeffs: Annotated[None, _NO_MODEL] = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CloudProperties:
+    """The whole file, whose dictionaries have schemas of their own."""
+
+    solution: Annotated[Dictionary, Meaning("[time](#solution) and schemes")]
+    constantProperties: Annotated[Dictionary, Meaning("[fluid and particles](#constantproperties)")]
+    subModels: Annotated[Dictionary, Meaning("[models](#submodels)")]
+    cloudFunctions: Annotated[
+        Dictionary | None, Meaning("[data recorded during the run](#cloudfunctions)", default="none")
+    ] = None
+    libs: Annotated[
+        Files | None,
+        Meaning(
+            "Python files, in `constant` or absolute, that add [solids](models/materials.md)", "", "none"
+        ),
+    ] = None
 
 
 @dataclass(frozen=True)
 class Settings:
-    """All that a user asks for; gravity in m/s2, zero if it is not among the forces."""
+    """The settings of a run; gravity in m/s2, zero if it is not among the forces."""
 
     case: Path
     file: Path
@@ -111,5 +138,151 @@ class Settings:
     forces: Mapping[str, Force]
     surroundings: Mapping[str, Surrounding]
     dispersion: Mapping[str, Surrounding] = field(default_factory=dict)
-    """The dispersionModel by its name, if there is one."""
+    """The dispersionModel by its name; empty without one."""
     region: str = ""
+
+
+def read_settings(
+    case: Path, dictionary: Path | None = None, region: str = "", time: float | str = "latestTime"
+) -> Settings:
+    """Read and validate the settings of a cloud.
+
+    Parameters
+    ----------
+    case
+        The case. Where the cloud's dictionary does not give them, ν is read from
+        ``constant/transportProperties``, ``physicalProperties`` or ``thermophysicalProperties``, ρ_f from
+        there or from the field ``rho``, and g, if ``gravity`` is among the forces, from ``constant/g``.
+    dictionary
+        The cloud's dictionary, relative to the case; ``constant/softCloudProperties`` by default.
+    region
+        Region of the mesh: its files in ``constant/REGION`` go before the files in ``constant``.
+    time
+        Time of the flow, at which the field ``rho`` is read.
+
+    Raises
+    ------
+    InputError
+        If there are mistakes, all of them, each with the file, the line, the entry's path, the value and the
+        allowed values. If a file is not a dictionary, its first syntax error.
+    """
+    if region and (fault := fault_of_word(region)):
+        raise InputError(f"'{region}' is not a valid name of a region: {fault}.")
+    file = case / (dictionary or of_region(case, region, _DICTIONARY))
+    name = file.stem.removesuffix("Properties") or file.stem
+    if fault := fault_of_word(name):
+        raise InputError(f"{file}: the file name yields an invalid cloud name, '{name}': {fault}.")
+    if not file.exists() and case.is_dir():
+        raise InputError(f"{Source(file, case)}: No such file or directory (case {case}). {_HINT}")
+    root = read_dictionary(file, case)
+    if "libs" in root.entries:
+        # Other entries may name solids from these files.
+        load_libs(read_entry(root, "libs", Files))
+    mistakes = Mistakes()
+    with mistakes:
+        read_entries(CloudProperties, root)
+    with mistakes:
+        solution = read_solution(_section(root, "solution"), case)
+    # Particles are also checked if the fluid is unknown.
+    fluid, properties = Fluid(math.nan, math.nan), None
+    with mistakes:
+        constant = _section(root, "constantProperties")
+        with mistakes:
+            properties = read_entries(ConstantProperties, constant)
+        fluid = read_fluid(case, region, constant, properties, time)
+    with mistakes:
+        sub_models = _section(root, "subModels")
+        with mistakes:
+            coefficients = [f"{model}Coeffs" for model in (*INTERACTION_MODELS, *DISPERSIONS)]
+            models = read_entries(SubModels, sub_models, also=coefficients)
+        with mistakes:
+            dispersion = _dispersion(sub_models)
+        with mistakes:
+            particle_forces = _section(sub_models, "particleForces")
+            with mistakes:
+                also = (*FORCES, *SURROUNDINGS)
+                drag = read_entries(ParticleForces, particle_forces, also).ellipsoidDrag.type
+            forces = _chosen(FORCES, particle_forces, mistakes)
+            surroundings = _chosen(SURROUNDINGS, particle_forces, mistakes)
+            gravity = read_gravity(case, region) if "gravity" in forces else (0.0, 0.0, 0.0)
+        with mistakes:
+            patches, touching = read_patch_interaction(sub_models)
+        with mistakes:
+            injection_models = _section(sub_models, "injectionModels")
+            injections = read_injections(
+                injection_models, _section(root, "constantProperties"), properties, fluid
+            )
+    with mistakes:
+        functions = (
+            _functions(_section(root, "cloudFunctions"), name) if "cloudFunctions" in root.entries else {}
+        )
+    mistakes.raise_any()
+    return Settings(
+        case=case,
+        file=file,
+        name=name,
+        solution=solution,
+        fluid=fluid,
+        gravity=gravity,
+        traction=models.tractionModel,
+        drag=drag,
+        injections=injections,
+        interaction=models.patchInteractionModel,
+        touching=touching,
+        patches=patches,
+        functions=functions,
+        forces=forces,
+        surroundings=surroundings,
+        dispersion=dispersion,
+        region=region,
+    )
+
+
+def _section(dictionary: Dictionary, key: str) -> Dictionary:
+    """Return a dictionary that a schema requires in another."""
+    if key not in dictionary.entries:
+        raise ReportedError(f"{key} is missing")
+    return dictionary.entries[key].dictionary()
+
+
+T = TypeVar("T")
+
+
+def _chosen(registry: Mapping[str, type[T]], dictionary: Dictionary, mistakes: Mistakes) -> dict[str, T]:
+    """Read the models of a registry whose names are entries of a dictionary, in the registry's order."""
+    found: dict[str, Any] = {}
+    for name, kind in registry.items():
+        with mistakes:
+            if name in dictionary.entries:
+                found[name] = read_entry(dictionary, name, kind)
+    return found
+
+
+def _dispersion(sub_models: Dictionary) -> dict[str, Surrounding]:
+    """Read the ``dispersionModel`` of ``subModels`` with its coefficients; empty if there is none."""
+    mistakes = Mistakes()
+    chosen, found = "none", {}
+    with mistakes:
+        if "dispersionModel" in sub_models.entries:
+            rule = Annotated[str, Choice(("none", *DISPERSIONS))]
+            chosen = read_entry(sub_models, "dispersionModel", rule)
+    for name, model in DISPERSIONS.items():
+        with mistakes:
+            given = f"{name}Coeffs" in sub_models.entries
+            found[name] = read_entry(sub_models, f"{name}Coeffs", model) if given else model()
+    mistakes.raise_any()
+    return {name: model for name, model in found.items() if name == chosen}
+
+
+def _functions(dictionary: Dictionary, cloud: str) -> dict[str, CloudFunction]:
+    """Read ``cloudFunctions { name { type …; … } … }``."""
+    functions: dict[str, CloudFunction] = {}
+    mistakes = Mistakes()
+    for entry in dictionary.entries.values():
+        with mistakes:
+            name, own = unquoted(entry.key), entry.dictionary()
+            if fault := fault_of_function(name, cloud):
+                raise entry.mistake(f"is not a valid name of a folder for results: {fault}.")
+            functions[name] = read_model(FUNCTIONS, own)
+    mistakes.raise_any()
+    return functions

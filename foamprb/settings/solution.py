@@ -1,41 +1,189 @@
-"""Steps and times of a run: from ``solution``, or from ``system/controlDict`` as far as that has none."""
+"""The dictionary ``solution``: steps, times and limits of a run; times also from ``system/controlDict``."""
 
 from __future__ import annotations
 
 import logging
 import math
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
+from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.limits import Limits
-from foamprb.dictionary.constraints import Positive
+from foamprb.dictionary.constraints import Bounds, Choice, Fraction, Meaning, NoEffect, Only, Positive
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
-from foamprb.dictionary.schema import read_entries, read_entry
+from foamprb.dictionary.schema import Instead, read_entries, read_entry
 from foamprb.dictionary.tree import Dictionary, Entry
 from foamprb.errors import InputError
-from foamprb.settings import entries
-from foamprb.settings.settings import Solution
 
-__all__ = ["read_solution"]
+__all__ = ["STRIDE", "Solution", "StartFrom", "read_solution"]
 
 log = logging.getLogger("foamprb")
 
 _CONTROL, _SCHEMES = Path("system/controlDict"), Path("system/fvSchemes")
 _TIME = Annotated[float, Positive]
 MULTIPLE_TOLERANCE = 1e-6
-"""Relative error of a write interval that counts as a multiple of the step."""
+"""Tolerance of the check that a write interval is a multiple of the step, relative."""
 STRIDE = 8
-"""How many tracking steps long a step of an integrator that chooses its own may be by default."""
+"""Default of ``maxDeltaT`` in tracking steps."""
 MOST_STEPS = 2**53
-"""From there on not every step has a number of its own in double precision."""
+"""Number of steps above which steps have no distinct numbers in double precision."""
+
+StartFrom: TypeAlias = Literal["startTime", "latestTime"]
+
+_CONSTANT_FLUID = NoEffect("density and viscosity of the fluid are constants")
+_NO_SOURCES = NoEffect("the particles do not act on the flow")
+_NOT_COUPLED = Only(False, "the particles do not act on the flow")
+_ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")
+_FROM_ONE = Bounds(1.0, math.inf, False, True, "a number >= 1")
+_OF_CONTROL = "that of `system/controlDict`"
+
+
+@dataclass(frozen=True, kw_only=True)
+class InterpolationSchemes:
+    """``solution/interpolationSchemes``; OpenFOAM's ``cellPoint`` is linear in the same tetrahedra."""
+
+    U: Annotated[Literal["linear", "cellPoint"], Meaning("the only one; OpenFOAM calls it `cellPoint`")] = (
+        "linear"
+    )
+    rho: Annotated[None, _CONSTANT_FLUID] = None
+    mu: Annotated[None, _CONSTANT_FLUID] = None
+
+    @staticmethod
+    def instead(word: str) -> Instead | None:
+        """Return the name without that of a phase, as in ``U.air``."""
+        name, dot, _ = word.partition(".")
+        return Instead(name, "there is one fluid") if dot and name in ("U", "rho", "mu") else None
+
+
+@dataclass(frozen=True, kw_only=True)
+class IntegrationSchemes:
+    """``solution/integrationSchemes``."""
+
+    U: Annotated[Literal["Euler"], Meaning("of the barycentre; the only one")] = "Euler"
+    shape: Annotated[
+        str,
+        Choice(("auto", *INTEGRATORS)),
+        Meaning("[integrator of the shape](integrators.md); `auto` chooses by the shape Stokes number"),
+    ] = "auto"
+    tolerance: Annotated[
+        float, Positive, Meaning("largest error of a step, for integrators with error control", "1")
+    ] = 1e-4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solution:
+    """``solution``; :func:`read_solution` sets times that are not given, which are NaN before."""
+
+    deltaT: Annotated[float, Positive, Meaning("tracking step", "s", _OF_CONTROL)] = math.nan
+    maxDeltaT: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "[longest step](integrators.md#steps-longer-than-deltat) of integrators with error control",
+            "s",
+            "eight times `deltaT`",
+        ),
+    ] = math.nan
+    endTime: Annotated[
+        float, Positive, Meaning("end of the run, which also ends when no particle moves", "s", _OF_CONTROL)
+    ] = math.nan
+    writeInterval: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "time between two writings, a multiple of `deltaT`; if `deltaT` or `endTime` is that of "
+            "`system/controlDict`, so is this one",
+            "s",
+            "`endTime`",
+        ),
+    ] = math.nan
+    startFrom: Annotated[
+        StartFrom | None,
+        Meaning(
+            "`startTime`: begin anew; `latestTime`: continue from the last checkpoint, if it exists",
+            default="as `startTime`, but an unfinished run is an error",
+        ),
+    ] = None
+    startTime: Annotated[float, Only(0.0, "a cloud begins at time 0"), Meaning("accepted as 0", "s")] = 0.0
+    maxFailedFraction: Annotated[
+        float,
+        Fraction,
+        Meaning("the run ends when a larger share of the injected particles has failed", "1"),
+    ] = 1.0
+    maxStretch: Annotated[
+        float, _ABOVE_ONE, Meaning("a particle with a larger stretch from its shape at rest fails", "1")
+    ] = Limits.maxStretch
+    maxSize: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "a particle fails whose longest semi-axis is a larger share of the flow's width; at its start "
+            "this is an error",
+            "1",
+        ),
+    ] = Limits.maxSize
+    maxSubSteps: Annotated[
+        float, _FROM_ONE, Meaning("a particle with more time steps in one `deltaT` fails", "1")
+    ] = Limits.maxSubSteps
+    maxCells: Annotated[
+        float,
+        Positive,
+        Meaning(
+            "a particle fails whose longest semi-axis is longer than this number of cell sizes (the cube "
+            "root of the volume of the cell at its centre)",
+            "1",
+            "none",
+        ),
+    ] = Limits.maxCells
+    active: Annotated[bool, Only(True, "the cloud is not active, there is nothing to do")] = True
+    coupled: Annotated[bool, _NOT_COUPLED] = False
+    transient: Annotated[
+        bool,
+        Meaning(
+            "the flow changes in time: it is read at all times, or the times of `-time a:b`, and is linear "
+            "between them; the run begins at the first"
+        ),
+    ] = False
+    period: Annotated[
+        float | None, Positive, Meaning("with `transient`: period of the flow", "s", "none")
+    ] = None
+    rotatingZones: Annotated[
+        Literal["relative", "absolute"],
+        Meaning(
+            "[zones of `constant/MRFProperties`](models/rotating-zones.md): particles in them move "
+            "relative to the rotor, or with the absolute velocity as without rotation"
+        ),
+    ] = "relative"
+    cellValueSourceCorrection: Annotated[bool, _NOT_COUPLED] = False
+    interpolationSchemes: InterpolationSchemes = InterpolationSchemes()
+    integrationSchemes: IntegrationSchemes = IntegrationSchemes()
+    maxCo: Annotated[
+        None, NoEffect("the tracking step is deltaT, and walks go through any number of cells")
+    ] = None
+    sourceTerms: Annotated[None, _NO_SOURCES] = None
+    averagingMethod: Annotated[None, _NO_SOURCES] = None
+    averagingMethods: Annotated[None, _NO_SOURCES] = None
+    calcFrequency: Annotated[None, _NO_SOURCES] = None
+    resetSourcesOnStartup: Annotated[None, _NO_SOURCES] = None
+
+    @property
+    def stride(self) -> int:
+        """``maxDeltaT`` in tracking steps, rounded down."""
+        return max(1, int(self.maxDeltaT / self.deltaT * (1.0 + MULTIPLE_TOLERANCE)))
+
+    @property
+    def limits(self) -> Limits:
+        """Limits of a particle."""
+        return Limits(self.maxStretch, self.maxSize, self.maxSubSteps, self.maxCells)
 
 
 def read_solution(dictionary: Dictionary, case: Path) -> Solution:
     """Read ``solution``.
 
-    A step or an end time that it does not give is that of ``system/controlDict``, as for OpenFOAM's clouds,
-    unless the solver's time counts iterations; and then so is the write interval.
+    A step or an end time that is not given is read from ``system/controlDict``, as for OpenFOAM's clouds,
+    unless the solver's time counts iterations. The write interval is then read from there too.
 
     Raises
     ------
@@ -44,9 +192,9 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
     """
     mistakes = Mistakes()
     with mistakes:
-        solution = read_entries(entries.Solution, dictionary)
+        solution = read_entries(Solution, dictionary)
     times: dict[str, tuple[Entry, float]] = {}
-    for key in ("deltaT", "endTime", "writeInterval"):
+    for key in ("deltaT", "endTime", "writeInterval", "maxDeltaT"):
         with mistakes:
             if key in dictionary.entries:
                 times[key] = dictionary.entries[key], read_entry(dictionary, key, _TIME)
@@ -58,67 +206,37 @@ def read_solution(dictionary: Dictionary, case: Path) -> Solution:
     for key in ("deltaT", "endTime"):
         if key not in times and key not in dictionary.entries:
             mistakes.add(dictionary.missing(key, f"Allowed: {Positive.text}."))
-    for key, require in (("endTime", _require_steps), ("writeInterval", _require_multiple)):
+    for key, (entry, time) in times.items() if "deltaT" in times else ():
         with mistakes:
-            if key in times and "deltaT" in times:
-                require(*times[key], times["deltaT"][1])
-    stride = STRIDE
-    with mistakes:
-        if "maxDeltaT" in dictionary.entries and "deltaT" in times:
-            longest = read_entry(dictionary, "maxDeltaT", _TIME)
-            stride = _stride(dictionary.entries["maxDeltaT"], longest, times["deltaT"][1])
+            _check_time(key, entry, time, step=times["deltaT"][1])
     mistakes.raise_any()
     if solution.period is not None and not solution.transient:
         raise dictionary.entries["period"].mistake("needs a flow that changes in time: transient yes.")
-    end = times["endTime"][1]
-    return Solution(
-        deltaT=times["deltaT"][1],
-        endTime=end,
-        writeInterval=times["writeInterval"][1] if "writeInterval" in times else end,
-        shape=solution.integrationSchemes.shape,
-        tolerance=solution.integrationSchemes.tolerance,
-        stride=stride,
-        transient=solution.transient,
-        period=solution.period,
-        rotatingZones=solution.rotatingZones,
-        startFrom=solution.startFrom,
-        maxFailedFraction=solution.maxFailedFraction,
-        limits=Limits(
-            solution.maxStretch, solution.maxSize, solution.maxSubSteps, solution.maxCells or math.inf
-        ),
-    )
+    step, end = times["deltaT"][1], times["endTime"][1]
+    interval = times["writeInterval"][1] if "writeInterval" in times else end
+    longest = times["maxDeltaT"][1] if "maxDeltaT" in times else STRIDE * step
+    return replace(solution, deltaT=step, endTime=end, writeInterval=interval, maxDeltaT=longest)
 
 
-def _require_steps(entry: Entry, time: float, step: float) -> None:
-    """Raise InputError if a time is so many steps that they cannot be counted."""
+def _check_time(key: str, entry: Entry, time: float, step: float) -> None:
+    """Raise InputError for a time with too many steps, or that is inconsistent with the step."""
     if not time / step < MOST_STEPS:
         raise entry.mistake(
             f"is {time:g}, with deltaT = {step:g} that is {time / step:.3g} steps. Allowed: fewer than "
             f"{MOST_STEPS:.3g}."
         )
-
-
-def _require_multiple(entry: Entry, interval: float, step: float) -> None:
-    """Raise InputError if a write interval is not a multiple of the step."""
-    _require_steps(entry, interval, step)
-    steps = max(round(interval / step), 1)
-    if abs(steps * step - interval) > MULTIPLE_TOLERANCE * interval:
-        raise entry.mistake(f"is {interval:g}. Allowed: a multiple of deltaT = {step:g}.")
-
-
-def _stride(entry: Entry, longest: float, step: float) -> int:
-    """The largest number of steps up to ``longest``, s; raise InputError if there is not even one."""
-    _require_steps(entry, longest, step)
-    if longest < step * (1.0 - MULTIPLE_TOLERANCE):
-        raise entry.mistake(f"is {longest:g}. Allowed: at least deltaT = {step:g}.")
-    return max(1, int(longest / step * (1.0 + MULTIPLE_TOLERANCE)))
+    steps = max(round(time / step), 1)
+    if key == "writeInterval" and abs(steps * step - time) > MULTIPLE_TOLERANCE * time:
+        raise entry.mistake(f"is {time:g}. Allowed: a multiple of deltaT = {step:g}.")
+    if key == "maxDeltaT" and time < step * (1.0 - MULTIPLE_TOLERANCE):
+        raise entry.mistake(f"is {time:g}. Allowed: at least deltaT = {step:g}.")
 
 
 def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:
     """Return the step, end time and write interval of ``system/controlDict``, s, with their entries.
 
-    Nothing of a file that is missing or cannot be read, or of a steady solver's, whose time counts
-    iterations; no write interval that is not one of time.
+    It is empty if the file is missing or broken, or if the time of a steady solver counts iterations. A write
+    interval that is not a time is left out.
     """
     found: dict[str, tuple[Entry, float]] = {}
     try:
@@ -143,7 +261,7 @@ def _time_control(case: Path) -> dict[str, tuple[Entry, float]]:
 
 
 def _counts_iterations(case: Path) -> bool:
-    """Whether the time derivatives of ``system/fvSchemes`` are those of a steady solver."""
+    """Return whether ``system/fvSchemes`` has the time derivatives of a steady solver."""
     if not (case / _SCHEMES).is_file():
         return False
     schemes = read_dictionary(case / _SCHEMES, case).entries.get("ddtSchemes")

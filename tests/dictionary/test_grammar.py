@@ -113,7 +113,7 @@ def test_a_computed_value_is_refused_where_it_is_needed(read: Reader) -> None:
 
 def test_a_macros_variable_may_have_any_name(read: Reader) -> None:
     settings = read(("FoamFile", "size 2e-6; FoamFile"), ("value 5e-6;", "value $size;"))
-    assert settings.injections[0].size.value == 2e-6
+    assert settings.injections[0].sizeDistribution.value == 2e-6
     settings = read(
         ("injectionModels\n    {", "injectionModels { size 2e-6;"), ("value 5e-6;", "value $size;")
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 pytestmark = pytest.mark.openfoam
 

@@ -20,7 +20,7 @@ from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import likely_integrator, prepare
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 HEADER = "id,d,rho,Ca,t0,x0,y0,z0,t1,x1,y1,z1,fate,patch,a,b,c,D"
 D = 5e-6

@@ -192,7 +192,7 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda c: edit(c, r"deltaT\s+\S+;", "deltaT 1e-05;"),
         "solution/deltaT was 2e-05, is 1e-05",
     ),
-    "stiffness": (lambda c: edit(c, r"Ca 0\.25;", "Ca 0.3;"), "injections/Ca025/solid/shear_modulus was"),
+    "stiffness": (lambda c: edit(c, r"Ca 0\.25;", "Ca 0.3;"), "injections/Ca025/solid/shearModulus was"),
     "gravity": (lambda c: edit(c, r"^(\s*)gravity;", r"\1"), r"gravity was .*, is \(0\.0, 0\.0, 0\.0\)"),
     "viscosity": (
         lambda c: edit(c, r"1\.491e-0?5", "1.5e-05", "constant/transportProperties"),

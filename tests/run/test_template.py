@@ -18,7 +18,7 @@ from foamprb.flow.base import Patch
 from foamprb.run.job import prepare
 from foamprb.run.template import FlowScales, _nice, diameter, times, write_template
 from foamprb.settings.patches import match_patches
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from foamprb.dictionary.mistakes import ReportedError
 from foamprb.errors import InputError
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 WORDS = re.findall(r"\s+|[{}();]|[^\s{}();]+", CLOUD)
 NAMES = sorted({word for word in WORDS if re.fullmatch(r"[A-Za-z]\w*", word)})

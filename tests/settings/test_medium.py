@@ -39,5 +39,5 @@ def test_what_is_missing_is_said(case: Path) -> None:
     with pytest.raises(InputError, match="the density is not in the case; give rho"):
         read_medium(case)
     (case / "constant/transportProperties").unlink()
-    with pytest.raises(InputError, match="transportProperties is not there; give mu"):
+    with pytest.raises(InputError, match="transportProperties does not exist; give mu"):
         read_medium(case, rho=1.0)

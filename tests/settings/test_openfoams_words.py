@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 CLOUD = """
 solution
@@ -112,7 +112,7 @@ def test_with_those_changes_it_is_read(case: Path, notes: list[str]) -> None:
     assert settings.fluid.rho == 998.0
     assert any(note.endswith("rhoInf is 998 kg/m3, that of constant/transportProperties.") for note in notes)
     assert (settings.solution.deltaT, settings.solution.writeInterval) == (1e-3, 0.5)
-    assert settings.injections[0].solid.shear_modulus == pytest.approx(4e7 / 2.8)
+    assert settings.injections[0].solid.shearModulus == pytest.approx(4e7 / 2.8)
 
 
 def test_a_density_of_the_cloud_goes_before_that_of_the_fluids_file(case: Path) -> None:

@@ -84,7 +84,7 @@ def test_help_knows_all_that_the_page_does():
 def test_help_of_what_does_not_exist_says_what_was_meant():
     with pytest.raises(InputError, match=r"'deltT'. Did you mean 'deltaT'\?"):
         explain("deltT")
-    with pytest.raises(InputError, match="foamprb help lists what there is"):
+    with pytest.raises(InputError, match="foamprb help lists all names"):
         explain("zzzzz")
 
 

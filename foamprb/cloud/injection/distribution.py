@@ -1,4 +1,4 @@
-"""How sizes and stiffnesses are spread over a population: OpenFOAM's distribution models, with its entries.
+"""Distributions of sizes and stiffnesses over a population: OpenFOAM's distribution models, with its entries.
 
 A distribution is given by its quantile function, the value below which a given share of the population lies.
 Samples are the quantiles of uniform random numbers: limits are exact, and no sample is rejected.
@@ -9,32 +9,53 @@ A new distribution is a frozen dataclass of its entries and a line in :data:`DIS
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Protocol
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr, ndtri
 
 from foamprb.dictionary.constraints import Meaning, Pairs, Positive
-from foamprb.dictionary.schema import Schema
+from foamprb.dictionary.mistakes import Mistakes
+from foamprb.dictionary.schema import read_entries, read_entry, refuse_unknown, selected
+from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 
 Floats = NDArray[np.float64]
 
 
-class Distribution(Schema, Protocol):
+@dataclass(frozen=True)
+class Distribution:
     """A distribution of one quantity, in the quantity's own unit."""
 
     @property
     def limits(self) -> tuple[float, float]:
         """The smallest and the largest value."""
+        raise NotImplementedError
 
     def quantile(self, share: Floats) -> Floats:
         """Return the values below which the shares (n,), from 0 to 1, of the population lie."""
+        raise NotImplementedError
+
+    @staticmethod
+    def from_dictionary(dictionary: Dictionary) -> Distribution:
+        """Read ``{ type name; nameDistribution { … } }``, a distribution of positive numbers."""
+        kind = selected(DISTRIBUTIONS, dictionary)
+        coefficients = f"{read_entry(dictionary, 'type', str)}Distribution"
+        mistakes = Mistakes()
+        with mistakes:
+            refuse_unknown(dictionary, ("type", coefficients))
+        with mistakes:
+            found: Dictionary = read_entry(dictionary, coefficients, Dictionary)
+            distribution = read_entries(kind, found)
+            if not distribution.limits[0] > 0.0:
+                raise found.mistake(f"begins at {distribution.limits[0]:g}. Allowed: values > 0.")
+        mistakes.raise_any()
+        return distribution
 
 
 @dataclass(frozen=True)
-class FixedValue:
+class FixedValue(Distribution):
     """Every particle has the same value."""
 
     value: Annotated[float, Meaning("of every particle")]
@@ -50,19 +71,25 @@ class FixedValue:
 
 
 @dataclass(frozen=True)
-class Uniform:
-    """Every value between the limits is as likely as any other."""
+class _Bounded(Distribution):
+    """A distribution between two values."""
 
     minValue: Annotated[float, Meaning("smallest value")]
     maxValue: Annotated[float, Meaning("largest value")]
 
     def __post_init__(self) -> None:
-        _check_order(self.minValue, self.maxValue)
+        if not self.minValue < self.maxValue:
+            raise InputError(f"has minValue {self.minValue:g}, which is not below maxValue {self.maxValue:g}")
 
     @property
     def limits(self) -> tuple[float, float]:
         """``minValue`` and ``maxValue``."""
         return self.minValue, self.maxValue
+
+
+@dataclass(frozen=True)
+class Uniform(_Bounded):
+    """All values between the limits are equally likely."""
 
     def quantile(self, share: Floats) -> Floats:
         """Return values that are linear in the share."""
@@ -70,30 +97,23 @@ class Uniform:
 
 
 @dataclass(frozen=True)
-class Normal:
+class Normal(_Bounded):
     """A density proportional to exp(−((x − expectation)/variance)²) between the limits.
 
-    So OpenFOAM up to v2112 reads ``variance``: √2 times the standard deviation of the whole bell, in the
-    quantity's own unit.
+    ``variance`` is defined as in OpenFOAM up to v2112: √2 times the standard deviation of the whole bell, in
+    the quantity's own unit.
     """
 
-    minValue: Annotated[float, Meaning("smallest value")]
-    maxValue: Annotated[float, Meaning("largest value")]
     expectation: Annotated[float, Meaning("where the density is largest")]
     variance: Annotated[
         float, Positive, Meaning("a width: √2 times the standard deviation of the whole bell")
     ]
 
     def __post_init__(self) -> None:
-        _check_order(self.minValue, self.maxValue)
+        super().__post_init__()
         low, high, _ = self._tail()
         if not ndtr(high) > ndtr(low):
-            raise InputError("lies so far from its limits that none of it is left between them")
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """``minValue`` and ``maxValue``."""
-        return self.minValue, self.maxValue
+            raise InputError("has limits so far from its expectation that no values remain between them")
 
     def _tail(self) -> tuple[float, float, float]:
         """Return the limits in standard deviations, mirrored (−1) if that gives the accurate lower tail."""
@@ -113,24 +133,14 @@ class Normal:
 
 
 @dataclass(frozen=True)
-class RosinRammler:
+class RosinRammler(_Bounded):
     """A share 1 − exp(−((x − minValue)/d)ⁿ) of the values is below x, cut off at ``maxValue``.
 
-    So OpenFOAM up to v2112 has it: the distribution begins at ``minValue``.
+    As in OpenFOAM up to v2112, the distribution begins at ``minValue``.
     """
 
-    minValue: Annotated[float, Meaning("smallest value")]
-    maxValue: Annotated[float, Meaning("largest value")]
     d: Annotated[float, Positive, Meaning("scale")]
     n: Annotated[float, Positive, Meaning("exponent", "1")]
-
-    def __post_init__(self) -> None:
-        _check_order(self.minValue, self.maxValue)
-
-    @property
-    def limits(self) -> tuple[float, float]:
-        """``minValue`` and ``maxValue``."""
-        return self.minValue, self.maxValue
 
     def quantile(self, share: Floats) -> Floats:
         """Return the inverse of the share."""
@@ -140,15 +150,15 @@ class RosinRammler:
 
 
 @dataclass(frozen=True)
-class General:
-    """A density given at rising values, ``( (x w) (x w) … )``, linear between them, of any scale."""
+class General(Distribution):
+    """A density given at increasing values, ``( (x w) (x w) … )``, linear between them, of any scale."""
 
-    distribution: Annotated[Pairs, Meaning("`( (x w) (x w) … )`, x rising")]
+    distribution: Annotated[Pairs, Meaning("`( (x w) (x w) … )`, x increasing")]
 
     def __post_init__(self) -> None:
         x, w = np.transpose(self.distribution) if self.distribution else np.empty((2, 0))
         if len(x) < 2 or not (np.diff(x) > 0.0).all():
-            raise InputError("needs two pairs (x w) or more, x rising")
+            raise InputError("needs two pairs (x w) or more, x increasing")
         if (w < 0.0).any() or not w.any():
             raise InputError("has a density w that is negative, or zero throughout")
 
@@ -164,7 +174,7 @@ class General:
         area = 0.5 * h * (w[1:] + w[:-1])
         total = np.concatenate([[0.0], np.cumsum(area)])
         sought = share * total[-1]
-        # An interval without area holds nothing: of equal sums the last is where it begins to rise.
+        # Intervals without area are skipped: the last of equal sums is the one where the density begins.
         i = np.clip(np.searchsorted(total, sought, side="right") - 1, 0, np.flatnonzero(area)[-1])
         rest = np.maximum(sought - total[i], 0.0) / h[i]
         rise = w[i + 1] - w[i]
@@ -185,7 +195,7 @@ DISTRIBUTIONS: dict[str, type[Distribution]] = {
 
 
 @dataclass(frozen=True)
-class Scaled:
+class Scaled(Distribution):
     """A quantity that is ``factor`` times a power, 1 or −1, of another, distributed and positive."""
 
     base: Distribution
@@ -195,17 +205,23 @@ class Scaled:
     @property
     def limits(self) -> tuple[float, float]:
         """Smallest and largest value of the result."""
-        low, high = (float(scaled(value, self.factor, self.power)) for value in self.base.limits)
+        low, high = (float(_power(value, self.factor, self.power)) for value in self.base.limits)
         return min(low, high), max(low, high)
 
     def quantile(self, share: Floats) -> Floats:
-        """Return quantiles of the result; a power −1 turns their order around."""
+        """Return quantiles of the result; a power −1 reverses their order."""
         below = share if self.power > 0 else 1.0 - share
-        return scaled(self.base.quantile(below), self.factor, self.power)
+        return _power(self.base.quantile(below), self.factor, self.power)
 
 
-def scaled(value: float | Floats, factor: float, power: int) -> Floats:
-    """Return ``factor`` times a power of each value; infinite where that overflows."""
+def scaled(quantity: float | Distribution, factor: float, power: int = 1) -> float | Distribution:
+    """Return ``factor`` times a power of a quantity, distributed or not; infinite where that overflows."""
+    if isinstance(quantity, float):
+        return float(_power(quantity, factor, power))
+    return Scaled(quantity, factor, power)
+
+
+def _power(value: float | Floats, factor: float, power: int) -> Floats:
     with np.errstate(over="ignore"):
         return np.asarray(factor * np.asarray(value, dtype=float) ** power)
 
@@ -215,8 +231,3 @@ def draw(quantity: float | Distribution, n: int, random: np.random.Generator) ->
     if isinstance(quantity, float | int):
         return np.full(n, float(quantity))
     return quantity.quantile(random.random(n))
-
-
-def _check_order(low: float, high: float) -> None:
-    if not low < high:
-        raise InputError(f"has minValue {low:g}, which is not below maxValue {high:g}")

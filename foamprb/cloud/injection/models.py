@@ -41,17 +41,14 @@ START_OF_FLOW = -math.inf
 
 
 _SOI = Annotated[float, NonNegative, Meaning("start of injection", "s", "first time of the flow, or 0")]
-_U0 = (
-    Annotated[
-        Vector3,
-        Meaning(
-            "initial velocity; the integrator `stokes` has no inertia and forgets it at once",
-            "m/s",
-            "the fluid's",
-        ),
-    ]
-    | None
-)
+_U0 = Annotated[
+    Vector3 | None,
+    Meaning(
+        "initial velocity; the integrator `stokes` has no inertia and forgets it at once",
+        "m/s",
+        "the fluid's",
+    ),
+]
 
 GIVEN: dict[str, Bounds] = {
     "d": Positive,

@@ -6,7 +6,7 @@ A new shape is a frozen dataclass of its entries and a line in :data:`SHAPES`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Literal, Protocol
+from typing import Annotated, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,38 +14,42 @@ from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.state import Particles, set_rest_shape
 from foamprb.dictionary.constraints import Meaning, Positive3, Vector3
-from foamprb.dictionary.schema import Schema
+from foamprb.dictionary.schema import read_model
+from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 
 Floats = NDArray[np.float64]
 
 
-class Shape(Schema, Protocol):
+@dataclass(frozen=True)
+class Shape:
     """A shape at rest, of the volume of the sphere whose diameter the size distribution gives."""
 
     def form(self, p: Particles, random: np.random.Generator) -> None:
-        """Give spheres at rest this shape, in which they start."""
+        """Change spheres at rest into this shape, in which they start."""
+
+    @staticmethod
+    def from_dictionary(dictionary: Dictionary) -> Shape:
+        """Read ``{ type ellipsoid; … }``."""
+        return read_model(SHAPES, dictionary)
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Shape):
     """Spheres, whose diameter is that of the size distribution."""
 
-    def form(self, p: Particles, random: np.random.Generator) -> None:
-        """Leave the particles as they are."""
-
 
 @dataclass(frozen=True)
-class Ellipsoid:
+class Ellipsoid(Shape):
     """Ellipsoids with the volume of the sphere whose diameter the size distribution gives.
 
     Their semi-axes are in the proportion ``axisRatios``. The first lies along ``e1``, the second in the plane
-    of ``e1`` and ``e2``; or their directions are random, each as likely as any other.
+    of ``e1`` and ``e2``; or all directions are equally likely.
     """
 
     axisRatios: Annotated[Vector3, Positive3, Meaning("semi-axes up to a common factor, `(2 1 1)`", "1")]
     orientation: Annotated[
-        Literal["axes", "random"], Meaning("`axes`, or `random`: each direction as likely as any other")
+        Literal["axes", "random"], Meaning("`axes`, or `random`: all directions are equally likely")
     ] = "axes"
     e1: Annotated[Vector3, Meaning("the first semi-axis lies along it", "1")] = (1.0, 0.0, 0.0)
     e2: Annotated[Vector3, Meaning("the second lies in the plane of `e1` and `e2`", "1")] = (0.0, 1.0, 0.0)
@@ -65,7 +69,7 @@ class Ellipsoid:
         return unit
 
     def form(self, p: Particles, random: np.random.Generator) -> None:
-        """Make ellipsoids of spheres at rest."""
+        """Change spheres at rest into ellipsoids."""
         if self.orientation == "random":
             # A normal distribution of four components has no preferred direction.
             axes = Rotation.from_quat(random.standard_normal((p.size, 4))).as_matrix()

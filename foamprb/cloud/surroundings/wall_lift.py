@@ -496,9 +496,9 @@ class WallLift(Surrounding):
     leastGap: Annotated[
         float, Positive, Meaning("smallest gap in the hindrance: the roughness of the wall", "radii")
     ] = 0.01
-    patches: (
-        Annotated[Words, Meaning("patches that count: names, or patterns in quotes", "", "walls")] | None
-    ) = None
+    patches: Annotated[
+        Words | None, Meaning("patches that count: names, or patterns in quotes", "", "walls")
+    ] = None
 
     rows: ClassVar = WallRows
     rows_name: ClassVar = "near"

@@ -173,10 +173,10 @@ def test_a_number_is_the_same_for_all():
     [
         (lambda: Uniform(minValue=2.0, maxValue=2.0), "minValue 2, which is not below maxValue 2"),
         (lambda: RosinRammler(minValue=3.0, maxValue=2.0, d=1.0, n=1.0), "not below"),
-        (lambda: Normal(minValue=50.0, maxValue=51.0, expectation=0.0, variance=1.0), "none of it is left"),
+        (lambda: Normal(minValue=50.0, maxValue=51.0, expectation=0.0, variance=1.0), "no values remain"),
         (lambda: General(((1.0, 1.0),)), "two pairs"),
         (lambda: General(()), "two pairs"),
-        (lambda: General(((1.0, 1.0), (1.0, 2.0))), "rising"),
+        (lambda: General(((1.0, 1.0), (1.0, 2.0))), "increasing"),
         (lambda: General(((1.0, -1.0), (2.0, 2.0))), "negative"),
         (lambda: General(((1.0, 0.0), (2.0, 0.0))), "zero throughout"),
     ],

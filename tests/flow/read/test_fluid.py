@@ -11,7 +11,7 @@ from transient_case import SETTINGS
 
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
-from foamprb.settings.reading import read_settings
+from foamprb.settings.settings import read_settings
 
 AIR = """
 thermoType
