@@ -334,8 +334,8 @@ def test_what_to_do_without_a_dictionary(case: Path) -> None:
     with pytest.raises(InputError) as caught:
         read_settings(case)
     assert str(caught.value) == (
-        f"constant/softCloudProperties: No such file or directory (case {case}). To begin: foamprb init "
-        "writes constant/softCloudProperties from what the case says; or name another dictionary with -dict."
+        f"constant/softCloudProperties: No such file or directory (case {case}). Write one: foamprb init "
+        "writes constant/softCloudProperties for a case; or name another file with -dict."
     )
     for missing in ("constant/other", "/nowhere/other"):
         with pytest.raises(
