@@ -19,7 +19,7 @@ KT = BOLTZMANN * T
 
 
 def brownian(quick: bool) -> Outcome:
-    """Particles that molecules push, without flow."""
+    """Brownian motion at rest."""
     n = 4000 if quick else 40000
     # Four standard errors of a variance.
     allowed = 4.0 * float(np.sqrt(2.0 / n))
@@ -50,7 +50,7 @@ def brownian(quick: bool) -> Outcome:
         Row("soft spheres: mean stored energy over kT", energy, expected, "integral over the shapes", spread,
             relative=True)
     )  # fmt: skip
-    remark = "What is allowed is four standard errors of as many particles; the energy's step adds 3 %."
+    remark = "Allowed are four standard errors of the mean; the time step of the energy adds 3 %."
     return Outcome(rows, [], [remark])
 
 

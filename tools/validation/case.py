@@ -20,7 +20,7 @@ class Row(NamedTuple):
     source: str
     """Of the reference."""
     allowed: float | None = None
-    """Largest difference that passes; none for a row that only informs."""
+    """Largest allowed difference; None for a row for information only."""
     relative: bool = False
     """Whether differences are relative to the reference."""
     note: str = ""
@@ -34,7 +34,7 @@ class Row(NamedTuple):
 
     @property
     def passed(self) -> bool | None:
-        """Whether the difference is allowed; none where the row only informs."""
+        """Whether the difference is allowed; None for a row for information only."""
         if self.allowed is None:
             return None
         # A number that is not finite must fail.

@@ -17,7 +17,7 @@ TABLE = {"sphere, 3206 elements": 56.0, "3:1, 3254 elements": 70.0, "4:2, 3998 e
 
 
 def cost(quick: bool) -> Outcome:
-    """Cost per particle and step beside the paper's."""
+    """Cost per particle-step."""
     n, steps = (320, 100) if quick else (3200, 500)
     rows = []
     for name in INTEGRATORS:
@@ -42,5 +42,5 @@ def cost(quick: bool) -> Outcome:
                 )
                 for body, seconds in TABLE.items()
             ]
-    remarks = ["Times are of the machine that made this report, and only inform."]
+    remarks = ["Times are those of the machine of this report, for information only."]
     return Outcome(rows, [], remarks)

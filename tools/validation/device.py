@@ -174,7 +174,7 @@ def _largest(x: Floats, D: Floats) -> float:
 
 
 def beads(quick: bool) -> Outcome:
-    """Elastic beads on the axis of the extensional device."""
+    """Beads in extensional device."""
     rows: list[Row] = []
     table = read_axis("fine")
     found = track(table, "stokes")
@@ -250,13 +250,13 @@ def beads(quick: bool) -> Outcome:
 
 
 _REMARKS = [
-    "Of the device the paper prints the lengths (700 µm and 234 µm wide, 1500, 60 and 117 µm long), but "
-    "neither the shape of the contraction nor the liquid, the flow rate, the bead's size or its stiffness; "
-    "its Fig. 5 takes the velocity and its gradient from Villone et al. and tabulates neither. So the "
-    "paper's D cannot be reproduced number by number. What can be checked is the model in such a flow: "
-    "here the contraction is a straight cone, the liquid a silicone oil, and the beads are those of "
-    "`cases/extension`. The release at x₃(0) = 1000 mm that the paper prints can only mean 1000 µm.",
-    "This case needs no OpenFOAM: `extension_axis.csv` holds u₁ and ∂u₁/∂x₁ on the axis as OpenFOAM computes "
-    "them on three meshes and foamprb reads them (`cases/extension/axis.py`). Near the axis the flow is "
-    "symmetric about it and free of divergence.",
+    "The paper prints the lengths of the device (700 µm and 234 µm wide, 1500, 60 and 117 µm long), but "
+    "not the shape of the contraction, the liquid, the flow rate, or the bead's size and stiffness; its "
+    "Fig. 5 uses velocity and gradient of Villone et al. and tabulates neither. The paper's D therefore "
+    "cannot be reproduced number by number. This case checks the model in such a flow: the contraction is "
+    "a straight cone, the liquid a silicone oil, and the beads are those of `cases/extension`. The "
+    "printed release at x₃(0) = 1000 mm can only mean 1000 µm.",
+    "This case needs no OpenFOAM: `extension_axis.csv` holds u₁ and ∂u₁/∂x₁ on the axis, computed by "
+    "OpenFOAM on three meshes and interpolated by foamprb (`cases/extension/axis.py`). Near the axis the "
+    "flow is axisymmetric and free of divergence.",
 ]

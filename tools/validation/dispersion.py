@@ -42,7 +42,7 @@ def turbulence(flow: EddyArrays, host: int, x: Vector, t: float) -> Turbulence: 
 
 
 def dispersion(quick: bool) -> Outcome:
-    """Tracers and settling spheres among random eddies."""
+    """Turbulent dispersion."""
     n = 4000 if quick else 20000
     # Four standard errors of a variance of three components.
     allowed = 4.0 * float(np.sqrt(2.0 / (3 * n)))
@@ -95,7 +95,7 @@ def dispersion(quick: bool) -> Outcome:
             rows.append(Row(f"{title} over σ", drift, expected, "Itô's walk", error))
     figure = Figure(
         "dispersion",
-        "Dispersion of tracers by eddies of one life T: ours, and Taylor's.",
+        "Dispersion of tracers by eddies of one lifetime T: ours, and Taylor's.",
         [
             Panel(
                 "t/T",
@@ -105,8 +105,8 @@ def dispersion(quick: bool) -> Outcome:
         ],
     )
     remark = (
-        "What is allowed is four standard errors of as many particles; crossing eddies adds 4 %, as the "
-        "first is met at rest, and the corrected drift 0.01, as it changes along the way."
+        "Allowed are four standard errors of the mean. Crossing eddies adds 4 %, as the first eddy starts "
+        "with the particle at rest, and the corrected drift 0.01, as it changes along the path."
     )
     return Outcome(rows, [figure], [remark])
 

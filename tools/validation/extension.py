@@ -22,7 +22,7 @@ QUADRATURE = "Oberbeck's resistances by quadrature, closed-form motion"
 
 
 def steady_extension(quick: bool) -> Outcome:
-    """Steady axes in uniaxial, planar and biaxial extension."""
+    """Steady axes in extension."""
     largest = {"uniaxial": 0.30, "planar": 0.24, "biaxial": 0.13}
     rows, panels = [], []
     for name, rates in EXTENSIONS.items():
@@ -59,8 +59,8 @@ def steady_extension(quick: bool) -> Outcome:
         panels,
     )
     remarks = [
-        "Beyond Ca of about 0.32 (uniaxial), 0.26 (planar) and 0.14 (biaxial) the flow pulls harder than "
-        "a neo-Hooke solid can hold, and there is no steady shape."
+        "Beyond Ca of about 0.32 (uniaxial), 0.26 (planar) and 0.14 (biaxial) the load exceeds the "
+        "resistance of a neo-Hooke solid, and there is no steady shape."
     ]
     return Outcome(rows, [figure], remarks)
 
@@ -124,12 +124,12 @@ def volume(quick: bool) -> Outcome:
         ],
     )
     remarks = [
-        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: +2/3 tr(d_s) on "
-        "each axis where the exact flow around an expanding sphere has −4/3 tr(d_s), so that without inertia "
-        "the volume would grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I, which is the same "
-        "where the particle keeps its volume.",
+        "The printed 2 d_s of the traction (27) contains the dilation with the wrong sign: +2/3 tr(d_s) "
+        "on each axis instead of −4/3 tr(d_s) of the exact flow around an expanding sphere. Without "
+        "inertia the volume would then grow without bound. foamprb uses 2 dev d_s − 4/3 tr(d_s) I; both "
+        "agree if the particle keeps its volume.",
         "Two more formulas are misprinted: the elastic stress (24) is μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ, and the "
-        "traction as a Piola stress J σ̃ F⁻ᵀ, where the paper has F⁻¹. With F⁻¹ neither is a stress: P·Fᵀ "
-        "would not be symmetric, nor σ̃ the traction on the deformed surface.",
+        "traction as a Piola stress J σ̃ F⁻ᵀ; the paper has F⁻¹ in both. With F⁻¹, P·Fᵀ would not be "
+        "symmetric, and σ̃ not the traction on the deformed surface.",
     ]
     return Outcome(rows, [] if quick else [figure], remarks)

@@ -20,7 +20,7 @@ PLACES = (0.0, 0.3, 0.6)
 
 
 def lag(quick: bool) -> Outcome:
-    """Bodies of a tenth of the pipe's radius, without weight."""
+    """Faxén's correction in pipe."""
     rows = []
     unit = 2.0 * MEAN * (R / RADIUS) ** 2
     for place, found in zip(PLACES, _lags(_bodies(1e4)), strict=True):

@@ -106,7 +106,7 @@ def _run(
 
 
 def forces(quick: bool) -> Outcome:
-    """Pressure gradient and virtual mass on a sphere."""
+    """Pressure gradient, virtual mass."""
     rows: list[Row] = []
     turns: list[Curve] = []
     swings: list[Curve] = []
@@ -186,7 +186,7 @@ def forces(quick: bool) -> Outcome:
 
 
 _REMARKS = [
-    "Both sides leave out Basset's history force, Faxén's corrections and Saffman's lift. The history force "
-    "is not small where the fluid's acceleration matters: with these forces a light particle is nearer the "
-    "truth than without them, not exact.",
+    "Both sides leave out Basset's history force, Faxén's corrections and Saffman's lift. The history "
+    "force is significant where the fluid's acceleration is: for a light particle these forces reduce the "
+    "error but do not remove it.",
 ]

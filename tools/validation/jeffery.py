@@ -62,7 +62,7 @@ def _period(times: Floats, axis: Floats) -> float:
 
 
 def orbits(quick: bool) -> Outcome:
-    """Quasi-rigid spheroids and ellipsoids in simple shear."""
+    """Jeffery's orbits."""
     rows = []
     curves: list[Curve] = []
     paths: list[Curve] = []
@@ -136,9 +136,9 @@ def orbits(quick: bool) -> Outcome:
         [Panel("p₁", "p₂", paths, "equal"), Panel("γ̇t", "|p₁|", curves)],
     )
     remarks = [
-        f"The bodies are soft solids of Ca = {CAPILLARY:g} with ellipsoids as shapes at rest. What is left "
-        "of their softness lets the orbit's constant drift in proportion to Ca, that of a prolate body "
-        "towards the plane of shear and that of an oblate one towards the vorticity; a rigid body keeps it "
-        "for ever. The motion of a body with three different axes is not periodic (Hinch & Leal 1979)."
+        f"The bodies are soft solids of Ca = {CAPILLARY:g} with ellipsoids as rest shapes. Their small "
+        "softness makes the orbit's constant drift in proportion to Ca, for a prolate body towards the "
+        "plane of shear and for an oblate one towards the vorticity; for a rigid body it is constant. The "
+        "motion of a body with three different axes is not periodic (Hinch & Leal 1979)."
     ]
     return Outcome(rows, [figure], remarks)

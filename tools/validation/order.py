@@ -47,7 +47,7 @@ def _without_inertia(name: str, steps: Floats) -> Floats:
 
 
 def order(quick: bool) -> Outcome:
-    """Temporal order of accuracy of every integrator."""
+    """Order of integrators."""
     rows = []
     inertial: list[Curve] = []
     inertialess: list[Curve] = []

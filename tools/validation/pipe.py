@@ -42,7 +42,7 @@ def _models(drag: str = "oberbeck", integrator: str = "paper") -> Models:
 
 
 def rigid(quick: bool) -> Outcome:
-    """Quasi-rigid particle in the pipe."""
+    """Quasi-rigid particle in pipe."""
     end, dt = (0.01, 2e-6) if quick else (0.1, 1e-6)
     # Close together where the particle starts, then evenly.
     times = np.concatenate(
@@ -151,7 +151,7 @@ def _landing(
 
 
 def soft(quick: bool) -> Outcome:
-    """Soft particles in the pipe."""
+    """Soft particles in pipe."""
     if quick:
         return _soft_start()
     rows, figures = [], []
@@ -253,8 +253,8 @@ def soft(quick: bool) -> Outcome:
         "The paper prints 9165 diameters for the rigid sphere; its own numbers give 8989 (0.2327 s). Its "
         "soft particles were computed with a resistance surrogate for triaxial bodies that it does not "
         "print, so its distances for Ca ≥ 0.25 cannot be reproduced digit by digit. With the exact drag "
-        "(`oberbeck`) the distance grows with Ca from the start; with the prolate surrogate of the "
-        "paper's Appendix D (`brennerProlate`) it first falls below the rigid one, as in the paper's Fig. "
+        "(`oberbeck`) the distance increases with Ca from the start. With the prolate surrogate of the "
+        "paper's Appendix D (`brennerProlate`) it is at first below the rigid one, as in the paper's Fig. "
         "14, with its minimum between Ca = 0.3 and 0.35.",
         "The text's Re = 1 contradicts its own shear rates, which belong to a mean velocity of 0.485 m/s "
         "and Re = 137; the case uses these.",
@@ -350,7 +350,7 @@ def _trajectories(dt: float) -> list[Figure]:
 
 
 def openfoam(quick: bool) -> Outcome:
-    """Soft particles in the pipe computed by OpenFOAM."""
+    """OpenFOAM pipe."""
     if not (CASE / "constant" / "polyMesh").is_dir():
         note = "skipped: cases/pipe is not beside the package; clone the repository to run it"
         return Outcome([Row("landing distance", None, None, SOFT, note=note)], [], [])

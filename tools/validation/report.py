@@ -135,11 +135,12 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def summary(sections: Sequence[Section]) -> str:
-    """How many rows passed, failed and only inform."""
+    """Return the numbers of rows that pass, fail, and are for information only."""
     rows = [row for section in sections for row in section.outcome.rows]
     passed = sum(row.passed is True for row in rows)
     failed = sum(row.passed is False for row in rows)
-    return f"{passed} of {passed + failed} rows pass; {len(rows) - passed - failed} more only inform."
+    others = len(rows) - passed - failed
+    return f"{passed} of {passed + failed} rows pass; {others} more are for information only."
 
 
 def write(sections: Sequence[Section], folder: Path, quick: bool, plt: Any) -> None:
@@ -156,8 +157,8 @@ def _introduction(sections: Sequence[Section], quick: bool) -> list[str]:
     form = "the quick form of `tools/validate`" if quick else "`tools/validate`"
     return [
         f"Made by {form}, version {version('foamprb')}. {summary(sections)}",
-        "Each reference is independent of what it checks. A difference in per cent is relative to the "
-        "reference. Rows without an allowed difference only inform.",
+        "Each reference is independent of the quantity checked. A difference in per cent is relative to "
+        "the reference. Rows without an allowed difference are for information only.",
     ]
 
 

@@ -80,7 +80,7 @@ def differences(rho: float, steps: int = 200) -> tuple[float, float]:
 
 
 def frames(quick: bool) -> Outcome:
-    """Soft spheres in Couette's flow, seen at rest and from a frame that turns."""
+    """Couette flow, rotating frame."""
     rows = []
     for rho in (1000.0, 3000.0):
         place, shape = differences(rho, 200 if quick else 400)
@@ -89,7 +89,8 @@ def frames(quick: bool) -> Outcome:
         rows.append(Row(f"{title}: F", shape, 0.0, "the frame at rest", 1e-4))
     out = float(np.linalg.norm(carried(0.0, 3000.0).x, axis=1).min())
     remark = (
-        f"Both go outwards, as nothing but drag holds them: the heavier from 1.04 m to {out:.3g} m at least. "
-        "Without centrifugal and Coriolis force in the frame they would not."
+        "Drag alone balances the centrifugal force, so both drift outwards: the heavier from 1.04 m to "
+        f"{out:.3g} m at least. Without centrifugal and Coriolis force in the rotating frame they would "
+        "not."
     )
     return Outcome(rows, [], [remark])

@@ -15,7 +15,7 @@ RIGID = "rigid sphere's equation of motion by solve_ivp"
 
 
 def spin_up(quick: bool) -> Outcome:
-    """Quasi-rigid particle in a pure rotation."""
+    """Spin-up in pure rotation."""
     # Re = γ̇ d²/ν_f = 0.1 (53) with ρ_s = ρ_f: τ_s γ̇ = Re/60. Rates in units of γ̇, lengths of R.
     reynolds = 0.1
     tau = reynolds / 60.0
@@ -70,8 +70,8 @@ def spin_up(quick: bool) -> Outcome:
         ],
     )
     remarks = [
-        "The paper does not print the density ratio of this case; with ρ_s = ρ_f the relaxation time of "
-        "the spin is τ_s = ρ_s R²/(15 μ_f) = Re/(60 γ̇). As a function of t/τ_s the curves are those of "
-        "any other ratio."
+        "The paper does not print the density ratio of this case. With ρ_s = ρ_f the relaxation time of "
+        "the spin is τ_s = ρ_s R²/(15 μ_f) = Re/(60 γ̇). As functions of t/τ_s the curves do not depend "
+        "on the ratio."
     ]
     return Outcome(rows, [figure], remarks)

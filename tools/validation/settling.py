@@ -109,7 +109,7 @@ def _ellipsoids(quick: bool) -> tuple[list[Row], list[Figure]]:
 
 
 def settling(quick: bool) -> Outcome:
-    """Settling of spheres, ellipsoids and deformed bodies."""
+    """Settling."""
     R = DIAMETER / 2.0
     p = spheres([[0.0, 0.0, 0.0]], d=DIAMETER, rho=RHO_S, mu=100.0)
     still = analytic.linear(np.zeros((3, 3)))

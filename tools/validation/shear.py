@@ -41,7 +41,7 @@ def _limit(Ca: Floats, end: float, traction: str = "roscoe", stokes: float = 2e-
 
 
 def steady(quick: bool) -> Outcome:
-    """Steady shape, orientation and tank-treading in simple shear."""
+    """Steady shape in shear."""
     Ca = np.array([0.01, 0.1, 0.4] if quick else [0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0])
     ours = _limit(Ca, 20.0 if quick else 60.0)
     if not quick:
@@ -127,16 +127,16 @@ def steady(quick: bool) -> Outcome:
         ),
     ]
     remarks = [
-        "The inertialess limit is reached with the paper's integrator by extrapolation from shape Stokes "
-        "numbers 2e-3 and 1e-3. For small Ca the deformation is 5/4 Ca; the paper, after Gao et al., "
-        "rounds this to Ca. With Jeffery's traction alone there is no steady shape above a capillary "
-        "number of about 0.5."
+        "The inertialess limit of the paper's integrator is extrapolated from shape Stokes numbers 2e-3 "
+        "and 1e-3. For small Ca the deformation is 5/4 Ca; the paper, after Gao et al., rounds this to "
+        "Ca. With Jeffery's traction alone there is no steady shape above a capillary number of about "
+        "0.5."
     ]
     return Outcome(rows, figures, remarks)
 
 
 def formulas(quick: bool) -> Outcome:
-    """The references for simple shear against each other, elastic and viscoelastic."""
+    """References for shear."""
     pairs = (
         [(0.1, 0.0), (0.4, 0.0), (0.4, 0.5)]
         if quick
@@ -155,15 +155,15 @@ def formulas(quick: bool) -> Outcome:
                 Row(f"Ca = {Ca:g}: {NAMES[k]}", algebra[k], shape[k], TABLE, (1e-5, 1e-5, 1e-5, 1e-3)[k])
             )
     remarks = [
-        "“Ours” is here the reference solution by solve_ivp, or Roscoe's algebra where it is compared "
-        "with the table: this case uses nothing of foamprb but its references. Roscoe's formulas as "
-        "restated agree with both to all digits; nothing in them needs correction."
+        "“Ours” denotes the reference solution by solve_ivp, or Roscoe's algebra in comparisons with the "
+        "table: this case uses only the references. Roscoe's formulas agree with both to all digits; they "
+        "need no correction."
     ]
     return Outcome(rows, [], remarks)
 
 
 def transient(quick: bool) -> Outcome:
-    """Transient shape in simple shear at Ca = 0.4."""
+    """Transient shape in shear."""
     times = np.linspace(0.2, 3.0 if quick else 10.0, 15 if quick else 50)
     found = []
     for s in (2e-3, 1e-3):
@@ -225,7 +225,7 @@ def transient(quick: bool) -> Outcome:
 
 
 def tank_treading(quick: bool) -> Outcome:
-    """Tank-treading of a marked material point at Ca = 0.3."""
+    """Tank-treading."""
     Ca = 0.3
     end = 45.0 if quick else 90.0
     times = np.arange(0.05, end, 0.05)

@@ -39,7 +39,7 @@ def _rows(cloud: Cloud, F: Floats, end: float, where: str) -> list[Row]:
 
 
 def strides(quick: bool) -> Outcome:
-    """Error at the end of a run whose steps are longer than Δt."""
+    """Steps longer than Δt."""
     rows: list[Row] = []
     for Ca in CAPILLARY[1:2] if quick else CAPILLARY:
         own = inertialess_history(SHEAR, Ca, np.array([_SHEAR_END]))[-1]

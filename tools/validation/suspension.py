@@ -70,7 +70,8 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
             curves.append(Curve(times[::4], np.array(closed)[::4], "closed form", "reference", i))
     figure = Figure(
         "stresslet",
-        "Rigid spheroids that tumble in the plane of shear: what each adds to the shear stress, per volume.",
+        "Rigid spheroids that tumble in the plane of shear: contribution of each to the shear stress, per "
+        "volume.",
         [Panel("γ̇t", "S₁₂/(μ_f γ̇ V)", curves)],
     )
     return rows, figure
@@ -102,7 +103,7 @@ def _average(quick: bool) -> list[Row]:
 
 
 def stress(quick: bool) -> Outcome:
-    """Intrinsic viscosity and normal stresses of dilute suspensions."""
+    """Stress of dilute suspensions."""
     rows = []
     models = Models(integrator="stokes", tolerance=1e-6)
     stiff = unit_cloud(analytic.shear(1.0), STIFF, 1e-6, 0.02, models)
@@ -188,16 +189,16 @@ def stress(quick: bool) -> Outcome:
 
 
 _REMARKS = [
-    "The suspension is dilute: each particle sees the undisturbed flow, and the stress is −p I + 2 μ_f d_f + "
-    "n S with n particles per volume, V n = φ. foamprb computes S from the fluid's side, as the strength of "
-    "Jeffery's far field; the reference for soft spheres has it from the solid's side, as the stress in "
-    "Roscoe's ellipsoid and the motion of its material, with no integral of the flow in between.",
+    "The suspension is dilute: each particle is in the undisturbed flow, and the stress is −p I + 2 μ_f "
+    "d_f + n S with n particles per volume, V n = φ. foamprb computes S on the fluid's side, as the "
+    "strength of Jeffery's far field. The reference for soft spheres computes it on the solid's side, "
+    "from the stress in Roscoe's ellipsoid and the motion of its material, without integrals of the flow.",
     "To first order in the strain a soft sphere is a corotational Kelvin–Voigt element, S/(V μ_f) = 5 E "
-    "(1 − i Ca)/(1 + 3/2 i Ca) with i a quarter turn in the plane of strain: [η] = 5/2 and N₁ = 25/2 Ca for "
-    "small Ca. Soft suspensions thin with the shear rate, and beyond Ca of about 0.9 elastic spheres lower "
+    "(1 − i Ca)/(1 + 3/2 i Ca) with i a quarter turn in the plane of strain: [η] = 5/2 and N₁ = 25/2 Ca "
+    "for small Ca. Soft suspensions are shear-thinning, and beyond Ca of about 0.9 elastic spheres lower "
     "the viscosity below that of the fluid; Gao, Hu & Ponte Castañeda (2012) report a negative intrinsic "
     "viscosity of sufficiently soft particles.",
-    "The stress of a stiff body is its strain over Ca, so that an error ε of a step is one of ε/Ca in S. "
-    f"What is shown of rigid spheroids is of Ca = {STIFF:g} with steps of 0.008/γ̇; the difference that "
-    "remains is that of so little elasticity, proportional to Ca, and no shorter step changes it.",
+    "The stress of a stiff body is its strain over Ca, so an error ε of a step is one of ε/Ca in S. The "
+    f"rigid spheroids have Ca = {STIFF:g} and steps of 0.008/γ̇; the remaining difference is that of this "
+    "small elasticity, proportional to Ca, and independent of the step.",
 ]

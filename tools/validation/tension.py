@@ -70,7 +70,7 @@ def _shear_shape(number: float, ratio: float) -> Floats:
 
 
 def drops(quick: bool) -> Outcome:
-    """Bodies with surface tension."""
+    """Surface tension."""
     rows: list[Row] = []
     for integrator in ("stokes", "rosenbrock"):
         for ratio in (0.0, 2.0) if quick else (0.0, 1.0, 5.0):
@@ -131,11 +131,10 @@ def drops(quick: bool) -> Outcome:
 
 
 _REMARKS = [
-    f"The solid below the surface is as soft as Ca = {WEAK:g} (1e6 for the rates of relaxation), so that the "
-    "tension decides.",
-    "This is a solid with a tension on its surface, not a drop: its interior deforms affinely, as that of a "
-    "drop does not. To first order both are ellipsoids of the same surface energy, but the body relaxes at "
-    "the rate (8/5)/(3 + 2λ) γ/(μ_f R), λ = η_s/μ_f, a drop at 40 (λ + 1)/((2λ + 3)(19λ + 16)); and in shear "
-    "D is 25/16 μ_f γ̇ R/γ, that of a drop (19λ + 16)/(16λ + 16) μ_f γ̇ R/γ (Taylor 1934). The rows without an "
-    "allowed difference show how far that is.",
+    f"The solid has Ca = {WEAK:g} (1e6 for the rates of relaxation), so that the tension dominates.",
+    "This is a solid with surface tension, not a drop: its interior deforms affinely, that of a drop does "
+    "not. To first order both are ellipsoids of the same surface energy. The body relaxes at the rate "
+    "(8/5)/(3 + 2λ) γ/(μ_f R), λ = η_s/μ_f, a drop at 40 (λ + 1)/((2λ + 3)(19λ + 16)); in shear D is "
+    "25/16 μ_f γ̇ R/γ, that of a drop (19λ + 16)/(16λ + 16) μ_f γ̇ R/γ (Taylor 1934). The rows without an "
+    "allowed difference show the differences.",
 ]

@@ -142,7 +142,7 @@ def _histories(quick: bool) -> tuple[list[Row], list[Curve], list[Curve]]:
 
 
 def regimes(quick: bool) -> Outcome:
-    """Tumbling, trembling and swinging of soft prolate bodies."""
+    """Tumbling, trembling, swinging."""
     ratios = np.array([2.0]) if quick else RATIOS
     found = transitions(ratios)
     rows = []
@@ -207,19 +207,19 @@ def _checked(rows: list[Row]) -> list[Curve]:
 
 
 _REMARKS = [
-    "The axis lies in the plane of shear. θ is the angle of the longest axis of the body's section by that "
-    "plane to the flow. Tumbling: θ falls through half turn after half turn, like a rigid body's. "
-    "Trembling: θ swings to both sides of the flow without turning round. Swinging (an oscillating "
-    "tank-treading): θ swings and stays positive. The vector (b₁₁ − b₂₂, 2 b₁₂), b = F·Fᵀ, of length a² − b² "
-    "at the angle 2θ, draws a closed curve: in tumbling round the origin, in trembling beside it and across "
-    "the flow's direction, in swinging above it. So at Ca₁ the body passes through a circular section, and "
-    "at Ca₂ its axis comes down to the flow but not below.",
+    "The axis lies in the plane of shear. θ is the angle between the flow and the longest axis of the "
+    "body's section by that plane. Tumbling: θ decreases through half turn after half turn, as for a "
+    "rigid body. Trembling: θ oscillates to both sides of the flow without full turns. Swinging (an "
+    "oscillating tank-treading): θ oscillates and stays positive. The vector (b₁₁ − b₂₂, 2 b₁₂), b = "
+    "F·Fᵀ, of length a² − b² at the angle 2θ, describes a closed curve: around the origin in tumbling, "
+    "beside it and across the flow's direction in trembling, above it in swinging. At Ca₁ the section is "
+    "circular at one instant; at Ca₂ its axis touches the flow direction.",
     "Gao, Hu & Ponte Castañeda (Phys. Rev. Lett. 108, 058302, 2012), who found the trembling of elastic "
-    "particles, call tumbling what turns round and trembling what does not; their boundary is Ca₁. To set "
-    "swinging apart is the custom for capsules and red cells (Abkarian, Faivre & Viallat, Phys. Rev. Lett. "
-    "98, 188302, 2007). The boundaries that these papers, and that of Sanagavarapu, Subramanian & Nott (J. "
-    "Fluid Mech., 2022) on the same bodies, print were not at hand and are not compared here: what stands "
-    "behind the numbers above is an integration that shares nothing with foamprb but the model.",
-    "A body whose shape at rest is no sphere never comes to a steady shape in shear: the shape at rest goes "
-    "round with the material.",
+    "particles, distinguish tumbling and trembling by full turns; their boundary is Ca₁. Swinging is "
+    "distinguished for capsules and red cells (Abkarian, Faivre & Viallat, Phys. Rev. Lett. 98, 188302, "
+    "2007). The boundaries printed in these papers, and in that of Sanagavarapu, Subramanian & Nott (J. "
+    "Fluid Mech., 2022) on the same bodies, were not available for comparison. The reference for the "
+    "numbers above is an integration that shares only the model with foamprb.",
+    "A body whose rest shape is no sphere has no steady shape in shear: the rest shape rotates with the "
+    "material.",
 ]

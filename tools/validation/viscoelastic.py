@@ -28,7 +28,7 @@ def _steady(integrator: str, Ca: Floats, ratio: float, end: float) -> Floats:
 
 
 def steady(quick: bool) -> Outcome:
-    """Viscoelastic spheres in simple shear."""
+    """Viscoelastic spheres in shear."""
     rows = []
     angles: list[Curve] = []
     shapes: list[Curve] = []

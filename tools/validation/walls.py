@@ -21,7 +21,7 @@ R, RATE, MU_F, RHO = 1e-6, 100.0, 1e-3, 1000.0
 
 
 def lift(quick: bool) -> Outcome:
-    """Deformable spheres above a wall in shear."""
+    """Wall lift in shear."""
     numbers = np.array([0.01, 0.1, 0.2, 0.4, 1.0])
     far = _carried(np.full(len(numbers), 50.0), numbers, 1200)
     rows = []
@@ -58,14 +58,14 @@ def lift(quick: bool) -> Outcome:
     panel = Panel("h/R", "v h²/(γ̇ R³)", curves)
     figure = Figure("wallLift", "Lift on soft spheres in shear over a wall", [panel])
     remark = (
-        "The body deforms affinely. Computed capsules lose up to 30 % of the far lift by becoming asymmetric "
-        "(Nix et al. 2014), which no ellipsoid can."
+        "The body deforms affinely. Computed capsules lose up to 30 % of the far lift by asymmetry (Nix "
+        "et al. 2014), which an ellipsoid cannot have."
     )
     return Outcome(rows, [figure], [remark])
 
 
 def mobility(quick: bool) -> Outcome:
-    """A stiff sphere settling near a wall."""
+    """Mobility near walls."""
     rows = []
     speed = 2.0 / 9.0 * R**2 * RHO * 9.81 / MU_F
     for h in (10.0, 1.5) if quick else (10.0, 3.0, 1.5, 1.1):
