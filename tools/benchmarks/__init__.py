@@ -1,1 +1,1 @@
-"""What ``tools/benchmark`` measures: one module a part, each with a function ``measure``."""
+"""Parts of ``tools/benchmark``: one module each, with a function ``measure``."""

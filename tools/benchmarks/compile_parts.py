@@ -1,4 +1,4 @@
-"""What each part of ``foamprb/compile/internals.py`` gains: compilation and speed of a loop without it.
+"""Gain of each part of ``foamprb/compile/internals.py``: compilation and speed of a loop without it.
 
 Each measurement is a process of its own with an empty cache, on one core, that compiles the particle loop of
 a steady flow on a mesh and then carries particles. The table has user CPU seconds of the compilation and µs
@@ -26,7 +26,7 @@ ALL, NONE = "all parts", "no part"
 
 
 def measure(integrator: str) -> tuple[float, float]:
-    """User CPU seconds of this process to compile a loop, and µs to carry a particle through a step."""
+    """Measure the CPU seconds to compile a loop, and µs per particle-step."""
     import numpy as np
     import pyvista
 
@@ -53,7 +53,7 @@ def measure(integrator: str) -> tuple[float, float]:
 
 
 def measured(integrator: str, without: str) -> tuple[float, float]:
-    """As :func:`measure`, in a process of its own that goes without some parts."""
+    """Run :func:`measure` in its own process without some parts."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.pathsep.join(filter(None, (str(ROOT), os.environ.get("PYTHONPATH", ""))))
         environment = {**os.environ, "FOAMPRB_CACHE_DIR": folder, SWITCH: without, "PYTHONPATH": path}

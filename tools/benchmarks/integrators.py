@@ -1,4 +1,4 @@
-"""A 5 µm particle in water: what each integrator costs for the same time and the same error."""
+"""A 5 µm particle in water: cost of each integrator for the same time and error."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _FINER = 1.15
 
 
 def fewest_steps(integrator: str, exact: np.ndarray, largest: float) -> int:
-    """Steps of fixed size, to a seventh, that keep the error of F below ``largest`` for the study's time."""
+    """Return the number of fixed steps, to a seventh, with an error of F below ``largest``."""
     tau = relaxation_time(study.WATER.rho_s, study.D / 2, study.WATER.mu)
     n = 8.0 if integrator != "paper" else 0.4 * study.WATER.time / tau
     while True:
@@ -32,7 +32,7 @@ def _cost(cloud, steps: int) -> float:
 
 
 def measure(options: Options) -> list[Row]:
-    """Steps, CPU per step and CPU per particle."""
+    """Measure steps, CPU per step and CPU per particle."""
     n, repeats = (2000, 2) if options.quick else (50_000, 5)
     flow = foamprb.read_case(pipe.case("40k"))
     exact = study.run(study.WATER, "rosenbrock", 1 << (14 if options.quick else 17))

@@ -43,7 +43,7 @@ CSV = "performance.csv"
 
 
 def measure(part: str, quick: bool, large: bool) -> list[Row]:
-    """Rows of one part: what its module measures."""
+    """Return the rows of one part."""
     rows: list[Row] = importlib.import_module(f"benchmarks.{part}").measure(Options(quick, large))
     return rows
 

@@ -1,4 +1,4 @@
-"""A million particles: memory of each, and whether many cost more than few."""
+"""A million particles: memory of each, and cost against the number of particles."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NEEDED = 18e9
 
 
 def throughput(n: int, steps: int, repeats: int) -> dict[str, float]:
-    """CPU per particle-step of n particles, μs, and the memory that they took, bytes."""
+    """Return CPU per particle-step of n particles, μs, and their memory, bytes."""
     import foamprb
     from benchmarks.records import cpu_of
 
@@ -39,7 +39,7 @@ def throughput(n: int, steps: int, repeats: int) -> dict[str, float]:
 
 
 def whole_run(case: str, n: int) -> None:
-    """A run of n particles with output; its memory is of interest."""
+    """Run n particles with output, for the peak memory."""
     from foamprb import execute, prepare
 
     folder = Path(case)
@@ -48,7 +48,7 @@ def whole_run(case: str, n: int) -> None:
 
 
 def measure(options: Options) -> list[Row]:
-    """Memory and CPU per particle."""
+    """Measure memory and CPU per particle."""
     few, many, steps, repeats = (10_000, 100_000, 5, 1) if options.quick else (100_000, 1_000_000, 20, 3)
     found = []
     results = {n: isolated(throughput, n, steps, repeats).result for n in (few, many)}

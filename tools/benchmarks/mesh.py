@@ -1,4 +1,4 @@
-"""Large meshes: time until particles can move against VTK's reading alone, memory, and cost of a step."""
+"""Large meshes: time until the first step against VTK's reading alone, memory, and cost of a step."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NEEDED = 21e9
 
 
 def vtk_reads(grid: str) -> float:
-    """Seconds of CPU in which VTK's reader reads mesh and U."""
+    """Return the CPU seconds of VTK's reader for mesh and U."""
     import vtkmodules.util.numpy_support
     from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
@@ -44,7 +44,7 @@ def vtk_reads(grid: str) -> float:
 
 
 def ready(grid: str) -> dict[str, float]:
-    """Seconds of CPU until a particle can make a step, and the memory kept for it."""
+    """Return the CPU seconds until the first step of a particle, and the memory kept for it."""
     import foamprb
 
     small = foamprb.read_case(pipe.case("5k"))
@@ -59,7 +59,7 @@ def ready(grid: str) -> dict[str, float]:
 
 
 def costs(grids: list[str], n: int, steps: int, repeats: int) -> dict[str, float]:
-    """CPU per particle-step on each mesh, μs."""
+    """Return CPU per particle-step on each mesh, μs."""
     import foamprb
     from benchmarks.tracker import Tracker
 

@@ -1,4 +1,4 @@
-"""Time and memory to make a mesh ready for tracking: connectivity, tetrahedra, nodal u and ∇u, cell tree.
+"""Time and memory to prepare a mesh for tracking: connectivity, tetrahedra, nodal u and ∇u, cell tree.
 
 A block of N³ hexahedra with displaced points, one core; the time to build the mesh in VTK itself is not
 counted.
@@ -21,7 +21,7 @@ from foamprb.flow.reconstruct import Reconstruction
 
 
 def block(n: int) -> pyvista.UnstructuredGrid:
-    """A cube of n³ hexahedra whose inner points are displaced by up to a tenth of a cell."""
+    """Return a cube of n³ hexahedra with inner points displaced by up to a tenth of a cell."""
     grid = pyvista.ImageData(dimensions=(n + 1,) * 3, spacing=(1.0 / n,) * 3).cast_to_structured_grid()
     points = grid.points.astype(float)
     inside = ((points > 1e-9) & (points < 1 - 1e-9)).all(axis=1)

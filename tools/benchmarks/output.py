@@ -30,7 +30,7 @@ def _to_disk(path: Path, data: bytes) -> None:
 
 
 def _vtk_writes(path: Path, data: pyvista.PolyData, compressor: str) -> None:
-    """What VTK's writer alone takes, nothing flushed."""
+    """Return the time of VTK's writer alone, without flushing."""
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetDataModeToAppended()
@@ -41,7 +41,7 @@ def _vtk_writes(path: Path, data: pyvista.PolyData, compressor: str) -> None:
 
 
 def measure(options: Options) -> list[Row]:
-    """Megabytes of a snapshot's arrays that go in a second of wall time, by each way."""
+    """Measure the throughput of a snapshot's arrays, MB per second of wall time, by each way."""
     n, repeats = (50_000, 2) if options.quick else (1_000_000, 5)
     flow = foamprb.read_case(pipe.case("40k"))
     cloud = pipe.soft_cloud(flow, n, 2e-5)

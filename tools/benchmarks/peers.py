@@ -1,4 +1,4 @@
-"""Other trackers of points on the same mesh, and the paper's scheme in plain numpy, in turns with foamprb."""
+"""Other point trackers on the same mesh, and the paper's scheme in plain numpy, alternating with foamprb."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _CELL_LENGTHS = 0.1
 
 
 def grid_of(case: Any) -> pyvista.UnstructuredGrid:
-    """Mesh and U at the points, as VTK reads them, with what Matida's model needs to know of the fluid."""
+    """Return mesh and U at the points by VTK's reader, with the fluid properties of Matida's model."""
     reader = pyvista.POpenFOAMReader(str(case / "system" / "controlDict"))
     reader.cell_to_point_creation = True
     reader.skip_zero_time = False
@@ -41,7 +41,7 @@ def grid_of(case: Any) -> pyvista.UnstructuredGrid:
 
 
 def seeds(n: int) -> pyvista.PolyData:
-    """The same places as foamprb's particles."""
+    """Return the places of foamprb's particles."""
     x = pipe.positions(n)
     points = pyvista.PolyData(x)
     points.point_data["velocity"] = pipe.poiseuille(x)
@@ -51,7 +51,7 @@ def seeds(n: int) -> pyvista.PolyData:
 
 
 def streamlines(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, order: int, steps: int) -> float:
-    """Microseconds of CPU per step of pyvista's streamlines: massless points."""
+    """Measure CPU µs per step of pyvista's streamlines: massless points."""
     lines = []
 
     def work() -> None:
@@ -74,7 +74,7 @@ def streamlines(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, order: 
 
 
 def matida(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, steps: int) -> float:
-    """Microseconds of CPU per step of VTK's Lagrangian tracker: rigid spheres with drag and gravity."""
+    """Measure CPU µs per step of VTK's Lagrangian tracker: rigid spheres with drag and gravity."""
     model = vtkLagrangianMatidaIntegrationModel()
     model.SetLocator(vtkCellLocator())
     points = vtkDataObject.FIELD_ASSOCIATION_POINTS
@@ -118,7 +118,7 @@ class _Steady(VTKPythonAlgorithmBase):
 
 
 def particle_tracer(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, steps: int) -> float:
-    """Microseconds of CPU per point and Δt of ParaView's and VTK's filter Particle Tracer: massless points.
+    """Measure CPU µs per point and Δt of VTK's filter Particle Tracer: massless points.
 
     It is told that mesh and seeds do not change, and takes one step or more between two times of the flow.
     """
@@ -136,12 +136,12 @@ def particle_tracer(grid: pyvista.UnstructuredGrid, start: pyvista.PolyData, ste
 
 
 def plain_numpy(x: pipe.Floats, steps: int) -> float:
-    """Microseconds of CPU per particle-step of the paper's scheme in plain numpy, without a mesh."""
+    """Measure CPU µs per particle-step of the paper's scheme in plain numpy, without a mesh."""
     return 1e6 * cpu_of(lambda: plain.carry(x, steps, STEP["paper"])) / (steps * len(x))
 
 
 def measure(options: Options) -> list[Row]:
-    """Microseconds of CPU per particle-step, and the same over foamprb's."""
+    """Measure CPU µs per particle-step, and the ratio to foamprb's."""
     n, steps, repeats = (500, 20, 1) if options.quick else (10_000, 50, 5)
     case = pipe.case("40k")
     grid, start = grid_of(case), seeds(n)

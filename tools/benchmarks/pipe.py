@@ -1,4 +1,4 @@
-"""The pipe on which all is measured: O-grid meshes of any size in OpenFOAM's format, with the exact flow.
+"""Pipe of all measurements: O-grid meshes of any size in OpenFOAM's format, with the exact flow.
 
 The pipe is 4.2 mm wide and 60 mm long, with the wall shear rate of the paper's (923.8 1/s); the velocity of
 Poiseuille's flow is written at the means of the cells' vertices. No mesher and no solver is needed.
@@ -215,7 +215,7 @@ def write_dictionaries(folder: Path, nu: float, rho: float) -> None:
 
 
 def poiseuille(x: Floats) -> Floats:
-    """Velocity at the points (n, 3), m/s."""
+    """Return the velocity at the points (n, 3), m/s."""
     u = np.zeros_like(x)
     u[:, 0] = 2.0 * MEAN * (1.0 - (x[:, 1] ** 2 + x[:, 2] ** 2) / RADIUS**2)
     return u
@@ -313,7 +313,7 @@ def write_default_cloud(
 
 
 def positions(n: int, seed: int = 0, reach: float = 0.95) -> Floats:
-    """Places spread evenly over the first third of the pipe, to ``reach`` radii from the axis, (n, 3)."""
+    """Return places uniformly distributed over the first third of the pipe, to ``reach`` radii, (n, 3)."""
     random = np.random.default_rng(seed)
     r, angle = reach * RADIUS * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
     x = LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
@@ -332,7 +332,7 @@ def soft_cloud(
     tolerance: float = np.inf,
     stride: int = 1,
 ) -> Any:
-    """n active particles that move with the flow; without tolerance in steps of fixed size, as OpenFOAM's."""
+    """Return n active particles moving with the flow; without tolerance the steps have a fixed size."""
     import foamprb
 
     x = positions(n, reach=reach)
@@ -345,13 +345,13 @@ def soft_cloud(
 
 
 def particle_steps(cloud: Any) -> float:
-    """Particle-steps of size Δt that a cloud has done."""
+    """Return the number of particle-steps of size Δt that a cloud has taken."""
     p = cloud.particles
     return float((p.t - p.t0).sum() / cloud.dt)
 
 
 def cache_folder(scratch: Path, grid: str) -> Path:
-    """The case of a grid, written once."""
+    """Return the case of a grid, written once."""
     folder = scratch / grid
     if not (folder / "0" / "U").exists():
         write_case(folder, GRIDS[grid])
@@ -359,12 +359,12 @@ def cache_folder(scratch: Path, grid: str) -> Path:
 
 
 def scratch_folder() -> Path:
-    """Where the cases are, ``$FOAMPRB_BENCHMARK_DIR``: the main process makes and removes it."""
+    """Return the folder of the cases, ``$FOAMPRB_BENCHMARK_DIR``; the main process makes and removes it."""
     return Path(os.environ["FOAMPRB_BENCHMARK_DIR"])
 
 
 def case(grid: str) -> Path:
-    """The case of one of :data:`GRIDS`."""
+    """Return the case of one of :data:`GRIDS`."""
     return cache_folder(scratch_folder(), grid)
 
 

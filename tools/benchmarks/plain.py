@@ -50,7 +50,7 @@ class State(NamedTuple):
 
 
 def at_rest(x: Floats) -> State:
-    """Spheres that move with the flow, at the places (n, 3)."""
+    """Return spheres moving with the flow, at the places (n, 3)."""
 
     def each(values: tuple[float, ...]) -> Tensor:
         return tuple(np.full(len(x), value) for value in values)  # type: ignore[return-value]
@@ -60,7 +60,7 @@ def at_rest(x: Floats) -> State:
 
 
 def step(s: State, dt: float, Ca: float, poissons_ratio: float, fluid: pipe.Fluid = pipe.AIR) -> State:
-    """One step of the paper, (46) to (50) and (36) to (43), as its integrator takes it."""
+    """Take one step of the paper's scheme, (46) to (50) and (36) to (43), like its integrator."""
     mu_f, R = fluid.rho * fluid.nu, pipe.D / 2
     mu = mu_f * pipe.WALL_RATE / Ca
     zero = np.zeros_like(s.x[0])

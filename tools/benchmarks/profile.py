@@ -1,4 +1,4 @@
-"""Where the time goes: each compiled stage of the loop alone, on blocks as they occur in a run."""
+"""Profile: each compiled stage of the loop alone, on blocks of a run."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def _repeat_gap(flow: Any, hosts: Any, x: Any, F: Any, R: Any, times: int, out: 
 
 
 def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
-    """Some of the blocks that a run would make of a cloud: rows of the particles, and the filled block."""
+    """Return some of the blocks of a run of a cloud: rows of the particles, and the filled block."""
     p = cloud.particles
     rows_of = in_blocks(p, np.flatnonzero(p.status == foamprb.Status.ACTIVE))
     starts = np.linspace(0, len(rows_of) - LANES, number).astype(int)
@@ -130,7 +130,7 @@ def blocks_of(cloud: Any, number: int) -> list[tuple[Any, Any]]:
 
 
 def filled(cloud: Any, members: Any) -> Any:
-    """A block with the state of the particles, the flow around them and their frame."""
+    """Return a block with the state of the particles, the flow around them and their frame."""
     scratch = block.new_scratch(cloud.tracker.integrator.layout.rows)
     data = scratch.block
     data[:] = 0.0
@@ -158,7 +158,7 @@ def _timed(run: Any, times: int, blocks: int) -> float:
 
 
 def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
-    """For each stage a function that goes so many times through each block."""
+    """Return a function per stage that runs it repeatedly on each block."""
     chosen = blocks_of(cloud, number)
     p = cloud.particles
     runs: dict[str, Any] = {}
@@ -188,7 +188,7 @@ def contestants(cloud: Any, integrator: str, number: int) -> dict[str, Any]:
 
 
 def share_of_use(flow: Any, n: int, Ca: float, steps: int = 8 * STRIDE) -> float:
-    """Share of the lanes' steps of a default run that carry a particle, at least.
+    """Return the least share of the lanes' steps of a default run that carry a particle.
 
     It is that of lanes that would wait for the slowest of their block, and not take another particle.
     Particles of Ca at the wall are up to the wall, and blocks are filled anew after ``steps`` tracking steps.
@@ -209,7 +209,7 @@ def share_of_use(flow: Any, n: int, Ca: float, steps: int = 8 * STRIDE) -> float
 
 
 def gap_cost(flow: Any, width: float, n: int, repeats: int) -> float:
-    """Microseconds of CPU to find the gap between wall and a sphere that is so many cells wide.
+    """Measure CPU µs for the gap between wall and a sphere of a given width in cells.
 
     Its centre is at 0.985 radii from the axis, or as near to the wall as 1.5 of its own radii.
     """
@@ -229,7 +229,7 @@ def gap_cost(flow: Any, width: float, n: int, repeats: int) -> float:
 
 
 def measure(options: Options) -> list[Row]:
-    """CPU per particle-step of each stage, and of the whole loop with many steps a call and with one."""
+    """Measure CPU per particle-step of each stage, and of the loop with many steps a call and with one."""
     n, number, times, repeats = (6400, 10, 20, 3) if options.quick else (100_000, 50, 100, 7)
     flow = foamprb.read_case(pipe.case("40k"))
     found = []

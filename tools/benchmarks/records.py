@@ -1,4 +1,4 @@
-"""What the parts of the benchmark return, and the clocks and processes that they use."""
+"""Results of the benchmark's parts, clocks and processes."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Results:
         self.rows = tuple(rows)
 
     def get(self, quantity: str, subject: str = "", size: float | None = None) -> float | None:
-        """The value of the first row that fits, or None."""
+        """Return the value of the first matching row, or None."""
         for row in self.rows:
             if (
                 row.quantity == quantity
@@ -68,29 +68,29 @@ class Results:
         return None
 
     def curve(self, quantity: str, subject: str) -> list[tuple[float, float]]:
-        """(size, value) of the rows that fit, sizes rising."""
+        """Return (size, value) of the matching rows, in rising size."""
         return sorted((r.size, r.value) for r in self.rows if (r.quantity, r.subject) == (quantity, subject))
 
     def subjects(self, quantity: str) -> list[str]:
-        """Subjects of a quantity, in order of appearance."""
+        """Return subjects of a quantity, in order of appearance."""
         return list(dict.fromkeys(row.subject for row in self.rows if row.quantity == quantity))
 
     def part(self, name: str) -> list[Row]:
-        """Rows of one part."""
+        """Return rows of one part."""
         return [row for row in self.rows if row.part == name]
 
     def newest(self) -> Results:
-        """Of each part the rows of the processor that comes first."""
+        """Return the rows of the first processor of each part."""
         first = {row.part: row.processor for row in reversed(self.rows)}
         return Results(row for row in self.rows if row.processor == first[row.part])
 
     def on(self, processor: str) -> Results:
-        """What was measured on a processor."""
+        """Return the rows of a processor."""
         return Results(row for row in self.rows if row.processor == processor)
 
 
 def read_rows(path: Path) -> list[Row]:
-    """Rows of a file that :func:`foamprb.results.tables.write_table` wrote, none if it is absent."""
+    """Return the rows of a file of :func:`foamprb.results.tables.write_table`; [] if it is absent."""
     if not path.is_file():
         return []
     with path.open(encoding="utf-8", newline="") as file:
@@ -109,13 +109,13 @@ def read_rows(path: Path) -> list[Row]:
 
 
 def processor() -> str:
-    """Model of the processor."""
+    """Return the model of the processor."""
     names = re.findall(r"model name\s*:\s*(.+)", _text("/proc/cpuinfo"))
     return names[0] if names else platform.processor() or platform.machine()
 
 
 def machine() -> str:
-    """The processor, versions of what the speed depends on, and the date."""
+    """Return the processor, versions relevant for speed, and the date."""
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("numba", "numpy", "vtk"))
     processors = len(os.sched_getaffinity(0))
     python = f"Python {platform.python_version()}"
@@ -123,7 +123,7 @@ def machine() -> str:
 
 
 def load(seconds: float = 2.0) -> float:
-    """Processors that others keep busy while this process sleeps: above 0.5, times are in doubt."""
+    """Return the number of processors busy while this process sleeps: above 0.5, times are unreliable."""
     idle, whole = _processor_time()
     time.sleep(seconds)
     idle_now, whole_now = _processor_time()
@@ -131,24 +131,24 @@ def load(seconds: float = 2.0) -> float:
 
 
 def _processor_time() -> tuple[float, float]:
-    """What all processors together have spent idle, and altogether, in the kernel's ticks."""
+    """Return idle and total time of all processors, in the kernel's ticks."""
     ticks = [float(word) for word in _text("/proc/stat").split("\n", 1)[0].split()[1:9]]
     return ticks[3] + ticks[4], sum(ticks)
 
 
 def available_memory() -> float:
-    """Memory that a new process may take, bytes."""
+    """Return the memory available to a new process, bytes."""
     return 1024.0 * float(re.findall(r"MemAvailable:\s*(\d+)", _text("/proc/meminfo"))[0])
 
 
 def peak_memory() -> float:
-    """Largest resident size of this process so far, bytes."""
+    """Return the largest resident size of this process so far, bytes."""
     # ru_maxrss would count the parent's memory in.
     return 1024.0 * float(re.findall(r"VmHWM:\s*(\d+)", _text("/proc/self/status"))[0])
 
 
 def resident_memory() -> float:
-    """Resident size of this process, bytes."""
+    """Return the resident size of this process, bytes."""
     gc.collect()
     return 1024.0 * float(re.findall(r"VmRSS:\s*(\d+)", _text("/proc/self/status"))[0])
 
@@ -161,21 +161,21 @@ def _text(path: str) -> str:
 
 
 def cpu_of(work: Callable[[], Any]) -> float:
-    """CPU seconds of this process for a piece of work."""
+    """Return the CPU seconds of this process for a function."""
     start = time.process_time()
     work()
     return time.process_time() - start
 
 
 def wall_of(work: Callable[[], Any]) -> float:
-    """Seconds on the wall for a piece of work."""
+    """Return the wall seconds of a function."""
     start = time.perf_counter()
     work()
     return time.perf_counter() - start
 
 
 def interleaved(contestants: Mapping[str, Callable[[], float]], repeats: int) -> dict[str, float]:
-    """Medians of what each contestant returns, called in turn so that the machine's moods meet all alike."""
+    """Return medians of each contestant's results, called in turn to share fluctuations of the machine."""
     found: dict[str, list[float]] = {name: [] for name in contestants}
     for _ in range(repeats):
         for name, contestant in contestants.items():
@@ -228,12 +228,12 @@ def _serve(call: str) -> None:
 
 
 def rows(part: str, quantity: str, values: Mapping[str, float], unit: str, size: float = 0.0) -> list[Row]:
-    """A row for each subject."""
+    """Return a row for each subject."""
     return [Row(part, quantity, subject, size, value, unit) for subject, value in values.items()]
 
 
 def as_rows(values: Sequence[Sequence[Any]]) -> list[Row]:
-    """Rows that have been through JSON."""
+    """Return rows from their JSON form."""
     return [Row(*value) for value in values]
 
 

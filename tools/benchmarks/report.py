@@ -37,7 +37,7 @@ class Target(NamedTuple):
     least: bool = False
 
     def met(self, value: float) -> bool:
-        """Whether the value is good enough."""
+        """Return whether the value meets the target."""
         return value >= self.limit if self.least else value <= self.limit
 
 
@@ -64,7 +64,7 @@ def _compiled(results: Results) -> float | None:
 
 
 def _written(results: Results) -> float | None:
-    """Bytes per second of a snapshot of a million particles, over what disk or compressor do alone."""
+    """Return bytes per second of a snapshot of a million particles, over the rate of disk or compressor."""
     alone = [results.get("throughput", name, 1e6) for name in ("disk, with fsync", "zlib alone, level 1")]
     known = [rate for rate in alone if rate is not None]
     return _quotient(results.get("throughput", "snapshot to file", 1e6), min(known)) if known else None
@@ -126,7 +126,7 @@ TARGETS = (
 
 
 def table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
-    """A table in Markdown, its columns aligned for those who read the source."""
+    """Return a table in Markdown with aligned columns."""
     widths = [max(len(line[k]) for line in (head, *lines)) for k in range(len(head))]
     rule = ["-" * width for width in widths]
     return "\n".join(
@@ -136,12 +136,12 @@ def table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
 
 
 def number(value: float) -> str:
-    """Three digits."""
+    """Return three significant digits."""
     return f"{value:.3g}" if abs(value) < 1e4 else f"{value:.2e}"
 
 
 def written_table(results: Results) -> str:
-    """Every target with what was measured."""
+    """Return every target with its measured value."""
     lines = []
     for target in TARGETS:
         value = target.value(results)
@@ -177,7 +177,7 @@ def _rows_table(results: Results, part: str, without: Sequence[str] = ()) -> str
 
 
 def _profile(results: Results) -> str:
-    """Stages of each integrator with their share of the whole."""
+    """Return the stages of each integrator with their share of the whole."""
     texts = []
     for integrator in ("paper", "stokes", "rosenbrock"):
         whole = results.get("cost", f"foamprb {integrator}, whole loop")
@@ -212,7 +212,7 @@ def _profile(results: Results) -> str:
 
 
 def _by_processor(results: Results) -> str:
-    """What a step costs over OpenFOAM's, on every processor on which it was measured."""
+    """Return the cost of a step over OpenFOAM's, on every processor measured."""
     ratios = ("cost over OpenFOAM's", "default run over OpenFOAM's")
     chosen = [row for row in results.rows if row.quantity in ratios]
     columns = list(dict.fromkeys((row.quantity, row.subject) for row in chosen))

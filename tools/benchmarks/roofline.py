@@ -58,7 +58,7 @@ class Counting:
     __radd__, __rmul__ = __add__, __mul__
 
     def sqrt(self) -> Counting:
-        """What ``np.sqrt`` calls."""
+        """Count a square root called by ``np.sqrt``."""
         return self._make("sqrt", math.sqrt(self.value))
 
     def __neg__(self) -> Counting:
@@ -84,7 +84,7 @@ class Counting:
 
 
 def operations(stage: Any, numbers: Any, medium: Any) -> collections.Counter[str]:
-    """Operations of one lane in a stage, by kind: its plain text is run on a block of counting numbers."""
+    """Count the operations of one lane in a stage, by kind, by running its text on counting numbers."""
     Counting.done.clear()
     arguments = {"": (), "medium": (medium,), "judging": (medium, Models().tolerance)}
     stage.function(numbers, *arguments[stage.takes])
@@ -104,7 +104,7 @@ def _multiply_add(data: Any, b: float, c: float, times: int) -> None:
 
 
 def peak(repeats: int) -> float:
-    """Most additions and multiplications in a second that a compiled loop on one core was seen to do."""
+    """Return the peak rate of additions and multiplications of a compiled loop on one core."""
     data, times = np.full(1024, 0.5), 20_000
     _multiply_add(data, 0.5, 0.25, 1)
     best = math.inf
@@ -116,7 +116,7 @@ def peak(repeats: int) -> float:
 
 
 def operations_by_stage(integrator: str) -> dict[str, collections.Counter[str]]:
-    """Operations of a particle-step in the stages of an integrator, by kind."""
+    """Return the operations of a particle-step in the stages of an integrator, by kind."""
     flow = foamprb.analytic.pipe(pipe.RADIUS, pipe.MEAN, pipe.LENGTH)
     cloud = pipe.soft_cloud(flow, LANES, STEP[integrator], integrator)
     cloud.advance(20)
@@ -130,7 +130,7 @@ def operations_by_stage(integrator: str) -> dict[str, collections.Counter[str]]:
 
 
 def measure(options: Options) -> list[Row]:
-    """Operations of each stage and of the stages together, and the peak."""
+    """Measure operations of each stage and of all stages, and the peak."""
     found = []
     for integrator in STAGES:
         counts = operations_by_stage(integrator)

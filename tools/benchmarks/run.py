@@ -35,7 +35,7 @@ SCHEMES = {
 
 
 def with_output(case: str) -> dict[str, float]:
-    """What ``foamprb run`` does: its seconds on the wall, and those in which it waited for output."""
+    """Run the program; return wall seconds, and seconds of waiting for output."""
     from foamprb import execute, prepare
     from foamprb.cloud.cloud import Cloud
     from foamprb.results.background import Writer
@@ -64,7 +64,7 @@ def with_output(case: str) -> dict[str, float]:
 
 
 def alone(case: str, steps: int) -> dict[str, float]:
-    """The same steps in one call, without output."""
+    """Run the same steps in one call, without output."""
     from foamprb import prepare
 
     cloud = prepare(case).cloud
@@ -74,7 +74,7 @@ def alone(case: str, steps: int) -> dict[str, float]:
 
 
 def measure(options: Options) -> list[Row]:
-    """Seconds on the wall with all threads."""
+    """Measure wall seconds with all threads."""
     n, steps, repeats = (20_000, 100, 1) if options.quick else (1_000_000, 1000, 3)
     case = Path(pipe.case("40k"))
     results = case / "postProcessing" / "softCloud"

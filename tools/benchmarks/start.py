@@ -1,4 +1,4 @@
-"""How long the program takes to start: help, the first run with compilation, a later one, ``info`` of a mesh.
+"""Start-up time of the program: help, the first run with compilation, a later one, ``info`` of a mesh.
 
 The run has the settings that a user has by default, with the integrator that takes most to compile.
 """
@@ -46,7 +46,7 @@ def _foamprb(cache: str, *arguments: str) -> Start:
 
 
 def measure(options: Options) -> list[Row]:
-    """Medians of seconds on the wall and of CPU; 1 if the first runs say that they compile."""
+    """Measure medians of wall and CPU seconds; 1 if the first runs report compilation."""
     repeats = 3
     case = Path(pipe.case("5k"))
     pipe.write_positions(case / "constant" / "softCloudPositions", pipe.positions(100))

@@ -1,4 +1,4 @@
-"""What models of a particle's surroundings cost: walls near and far, molecules, curved flows."""
+"""Cost of models of a particle's surroundings: walls near and far, molecules, curved flows."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PLACES = {
 
 
 def particles(n: int, d: float, low: float, high: float) -> foamprb.Particles:
-    """n stiff particles as dense as the fluid in the first third of the pipe."""
+    """Return n stiff particles of the fluid's density in the first third of the pipe."""
     random = np.random.default_rng(0)
     r = pipe.RADIUS * np.sqrt(low**2 + (high**2 - low**2) * random.random(n))
     angle, x = 2.0 * np.pi * random.random(n), pipe.LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
@@ -45,7 +45,7 @@ class Contestant:
         self.cloud.advance(3)
 
     def cost(self) -> float:
-        """Microseconds of CPU per particle-step, without the lists of walls, which a run makes once."""
+        """Measure CPU µs per particle-step, without the lists of walls, made once per run."""
         self.cloud.make_ready()
         before = pipe.particle_steps(self.cloud)
         spent = cpu_of(lambda: self.cloud.advance(self.steps))
@@ -53,7 +53,7 @@ class Contestant:
 
 
 def measure(options: Options) -> list[Row]:
-    """Cost per particle-step without and with each model, and the ratio, by where the particles are."""
+    """Measure cost per particle-step without and with each model, and the ratio, by place."""
     n, steps, repeats = (2000, 10, 3) if options.quick else (50_000, 20, 7)
     flow = foamprb.read_case(pipe.case("40k"))
     found = []

@@ -1,4 +1,4 @@
-"""Speed-up by threads, and the same answer to the last bit whatever their number and the order in memory.
+"""Speed-up by threads, and equal results to the last bit for any number of threads and order in memory.
 
 Beside them stand as many processes of one thread, which share nothing but the machine: threads cannot be
 expected to do better than they, where processors share their clocks, their caches, or a host with others.
@@ -37,19 +37,19 @@ def _go_on(steps: int) -> float:
 
 
 def _shuffled(cloud, order, threads: int):
-    """The same particles in another order."""
+    """Return the same particles in another order."""
     rest = (cloud.flow, cloud.medium, cloud.interactions, cloud.dt, cloud.models, threads)
     return foamprb.Cloud(cloud.particles.take(order), *rest)
 
 
 def _same(a, b) -> bool:
-    """Whether two clouds are in the same state, but for how a cloud numbers its particles."""
+    """Return whether two clouds are in the same state, except for particle indices."""
     a = a._replace(number=b.number)
     return all(x.tobytes() == y.tobytes() for x, y in zip(a, b, strict=True))
 
 
 def measure(options: Options) -> list[Row]:
-    """Wall time per particle-step with 1, 2, 4, … threads, and processes; 1 where runs agree bit by bit."""
+    """Measure wall time per particle-step with 1, 2, 4, … threads, and processes; 1 for equal bits."""
     n, dt, steps, repeats = (20_000, 2e-5, 20, 2) if options.quick else (100_000, 2e-5, 100, 9)
     flow = foamprb.read_case(pipe.case("40k"))
     counts = [1]

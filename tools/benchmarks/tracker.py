@@ -27,20 +27,20 @@ class Tracker:
         self.cloud.advance(warm_up)
 
     def cost(self) -> float:
-        """Microseconds of CPU per particle-step."""
+        """Measure CPU µs per particle-step."""
         before = pipe.particle_steps(self.cloud)
         spent = cpu_of(lambda: self.cloud.advance(self.steps))
         return 1e6 * spent / (pipe.particle_steps(self.cloud) - before)
 
 
 def openfoam_environment() -> dict[str, str]:
-    """Variables under which OpenFOAM's programs start; Debian's need one that Debian does not set."""
+    """Return the environment for OpenFOAM's programs, including Debian's missing variable."""
     debian = Path("/usr/share/openfoam")
     return ({"WM_PROJECT_DIR": str(debian)} if debian.is_dir() else {}) | os.environ
 
 
 def openfoam_cost(case: Path, n: int, steps: int, dt: float = OPENFOAM_STEP, left: float = 0.99) -> float:
-    """Microseconds of CPU per parcel-step of OpenFOAM's solver, start and injection left out.
+    """Measure CPU µs per parcel-step of OpenFOAM's solver, without start and injection.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def openfoam_cost(case: Path, n: int, steps: int, dt: float = OPENFOAM_STEP, lef
 
 
 def measure(options: Options) -> list[Row]:
-    """Cost per particle-step of all integrators and of OpenFOAM, and how it depends on their number."""
+    """Measure cost per particle-step of all integrators and of OpenFOAM, and by number of particles."""
     n, steps, repeats = (10_000, 10, 2) if options.quick else (100_000, 40, 5)
     case = pipe.case("40k")
     flow = foamprb.read_case(case)

@@ -1,4 +1,4 @@
-"""What a default run costs in flows that were not made for it: OpenFOAM's tutorials, solved by OpenFOAM.
+"""Cost of a default run in flows of OpenFOAM's tutorials, solved by OpenFOAM.
 
 The cloud is what ``foamprb init`` writes, but for places all over the mesh, as often as there is volume.
 
@@ -69,7 +69,7 @@ def _sh(case: Path, *words: str) -> str:
 
 
 def solve(name: str, folder: Path) -> Path:
-    """The tutorial's case with its last time as time 0, for parcels; computed once."""
+    """Return the tutorial's case with its last time as time 0, for parcels; computed once."""
     if (folder / "0" / "U").exists():
         return folder
     tutorial, work = TUTORIALS[name], folder.with_name(f"{folder.name}.solver")
@@ -97,7 +97,7 @@ def solve(name: str, folder: Path) -> Path:
 
 
 def places(case: Path, n: int) -> pipe.Floats:
-    """Random places in the mesh, (n, 3)."""
+    """Return random places in the mesh, (n, 3)."""
     mesh, random = foamprb.read_case(case).mesh, np.random.default_rng(0)
     corners = mesh.nodes[mesh.tets]
     volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
@@ -121,7 +121,7 @@ class Settings(NamedTuple):
 
 
 def first_settings(case: Path) -> Settings:
-    """The properties that ``foamprb init`` writes, with particles from a list and nothing that looks on."""
+    """Return the settings of ``foamprb init`` with listed particles and without cloud functions."""
     file = case / "constant" / "softCloudProperties"
     file.unlink(missing_ok=True)
     _sh(case, sys.executable, "-m", "foamprb", "init")
@@ -156,14 +156,14 @@ def write_cloud(case: Path, settings: Settings, Ca: float, steps: int) -> Path:
 
 
 def patches_of(case: Path) -> str:
-    """As :data:`benchmarks.pipe.PATCHES`: walls are sticky, and who reaches an opening is out."""
+    """Return interactions like :data:`benchmarks.pipe.PATCHES`: sticky walls, escape at openings."""
     kinds = {"wall": "stick", "patch": "escape"}
     flow = foamprb.read_case(case)
     return " ".join(f"{p.name} {{ type {kinds[p.type]}; }}" for p in flow.patches if p.type in kinds)
 
 
 def our_places(case: str, dictionary: str, steps: int, tolerance: float | None = None) -> list[list[float]]:
-    """Where particles released at rest are after so many steps; where they began if they have ended."""
+    """Return places of particles released at rest after some steps; the start for ended ones."""
     from foamprb import Status, prepare
 
     job = prepare(case, dictionary=Path(dictionary))
@@ -180,7 +180,7 @@ def our_places(case: str, dictionary: str, steps: int, tolerance: float | None =
 
 
 def their_places(case: Path, n: int, dt: float, time: float) -> pipe.Floats:
-    """The same of OpenFOAM's parcels after a time, s, in steps of ``dt``."""
+    """Return places of OpenFOAM's parcels after a time, s, in steps of ``dt``."""
     # Its parcels take one step more, before the start.
     pipe.write_control(case, dt, time - dt, round(time / dt) - 1)
     _sh(case, SOLVER)
@@ -197,7 +197,7 @@ def their_places(case: Path, n: int, dt: float, time: float) -> pipe.Floats:
 
 
 def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[str, float]:
-    """Medians of what the places are off by over the way, by the subjects of :func:`compare`."""
+    """Return medians of the relative errors of places, by the subjects of :func:`compare`."""
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
     pipe.write_parcels(case, x, settings.d, settings.rho, patches_of(case))
 
@@ -222,7 +222,7 @@ def errors(case: Path, name: str, settings: Settings, x: pipe.Floats) -> dict[st
 
 
 def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
-    """Cost per particle-step in one tutorial's flow, and over OpenFOAM's, also at equal error."""
+    """Return cost per particle-step in one tutorial's flow, and over OpenFOAM's, also at equal error."""
     case = solve(name, pipe.scratch_folder() / f"tutorial_{name}")
     settings, x = first_settings(case), places(case, n)
     pipe.write_positions(case / "constant" / "softCloudPositions", x)
@@ -253,7 +253,7 @@ def compare(name: str, n: int, steps: int, repeats: int) -> list[Row]:
 
 
 def measure(options: Options) -> list[Row]:
-    """Cost per particle-step in all of them; nothing without OpenFOAM and its tutorials."""
+    """Measure cost per particle-step in all tutorials; [] without OpenFOAM and its tutorials."""
     if not (shutil.which(SOLVER) and EXAMPLES.is_dir()):
         return []
     n, steps, repeats = (5_000, 20, 1) if options.quick else (100_000, 100, 5)

@@ -1,4 +1,4 @@
-"""What a user's run costs: ``foamprb run`` with its default settings, against OpenFOAM's rigid point spheres.
+"""Cost of ``foamprb run`` with default settings, against OpenFOAM's rigid point spheres.
 
 Automatic integrator, error control, touching ellipsoids, checkpoints, particles up to the wall. Runs that
 differ in length only are subtracted, so that start, injection and output fall away.
@@ -40,7 +40,7 @@ def run(case: str, dictionary: str) -> dict[str, Any]:
 
 
 def costs(case: Path, lengths: tuple[int, ...], write: Callable[[int], Path]) -> list[float]:
-    """Microseconds of CPU per particle-step between runs of some lengths and the next longer, and in all.
+    """Measure CPU µs per particle-step between runs of successive lengths, and in total.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def costs(case: Path, lengths: tuple[int, ...], write: Callable[[int], Path]) ->
 
 
 def measure(options: Options) -> list[Row]:
-    """Cost per particle-step by stiffness, and over OpenFOAM's at the same Δt."""
+    """Measure cost per particle-step by stiffness, and over OpenFOAM's at the same Δt."""
     n, steps, repeats = (10_000, 40, 2) if options.quick else (100_000, 100, 5)
     case = pipe.case("40k")
     x = pipe.positions(n, reach=REACH)

@@ -138,7 +138,7 @@ def show(
 
 
 def read_walls(case: Path) -> Any:
-    """Boundary faces of the case's walls (of all patches if none is a wall), or None without a mesh."""
+    """Return boundary faces of the case's walls (of all patches without walls), or None without a mesh."""
     patches = patch_types(mesh_folder(case))
     if not (case / "system" / "controlDict").is_file() or not patches:
         say(f"{case}: no system/controlDict or no mesh; the walls are not shown.")
@@ -151,7 +151,7 @@ def read_walls(case: Path) -> Any:
 
 
 def read_patches(case: Path, names: list[str], title: str) -> Any:
-    """Boundary faces of some patches of the case's mesh."""
+    """Return the boundary faces of some patches of the case's mesh."""
     # The reader takes controlDict for the case, so that no .foam file has to be left there.
     patches = simple.OpenFOAMReader(registrationName=title, FileName=str(case / "system" / "controlDict"))
     patches.CaseType = "Decomposed Case" if is_decomposed(case) else "Reconstructed Case"
@@ -162,17 +162,17 @@ def read_patches(case: Path, names: list[str], title: str) -> Any:
 
 
 def is_decomposed(case: Path) -> bool:
-    """Whether the mesh is in the processors' folders alone."""
+    """Return whether the mesh is in processor folders only."""
     return not (case / "constant" / "polyMesh").is_dir()
 
 
 def mesh_folder(case: Path) -> Path:
-    """Folder of the mesh, or of the first processor's part of it."""
+    """Return the folder of the mesh, or of the first processor's part of it."""
     return case / ("processor0" if is_decomposed(case) else "") / "constant" / "polyMesh"
 
 
 def plane_normal(case: Path) -> Vector | None:
-    """Unit normal of a two-dimensional case, from its ``empty`` or ``wedge`` patches; of another None."""
+    """Return the normal of a two-dimensional case by its ``empty`` or ``wedge`` patches, else None."""
     names = [name for name, kind in patch_types(mesh_folder(case)).items() if kind in ("empty", "wedge")]
     if not names or not (case / "system" / "controlDict").is_file():
         return None
@@ -191,7 +191,7 @@ def plane_normal(case: Path) -> Vector | None:
 
 
 def patch_types(mesh: Path) -> dict[str, str]:
-    """Type of each patch by name, as ``polyMesh/boundary`` has them; empty without that file."""
+    """Return the type of each patch by name, by ``polyMesh/boundary``; {} without that file."""
     for file, opener in ((mesh / "boundary", open), (mesh / "boundary.gz", gzip.open)):
         if file.is_file():
             with opener(file, "rt", encoding="utf-8", errors="replace") as stream:
@@ -205,7 +205,7 @@ def patch_types(mesh: Path) -> dict[str, str]:
 
 
 def read_cloud(case: Path, name: str) -> Any:
-    """The time series of a cloud, or None if there is none yet."""
+    """Return the time series of a cloud, or None without results."""
     folder = case / "postProcessing" / name
     pvd = folder / f"{name}.pvd"
     if not pvd.is_file():
@@ -231,19 +231,19 @@ def select_time(cloud: Any, time: float | None) -> None:
 
 
 def positions(cloud: Any) -> Vector:
-    """Positions of the particles that a source gives, shape (n, 3), m."""
+    """Return positions of the particles of a source, shape (n, 3), m."""
     points = servermanager.Fetch(cloud).GetPoints()
     return vtk_to_numpy(points.GetData()) if points and points.GetNumberOfPoints() else NO_POINTS
 
 
 def point_array(cloud: Any, name: str) -> Vector:
-    """Point array of the particles that a source gives, shape (n,)."""
+    """Return a point array of the particles of a source, shape (n,)."""
     array = servermanager.Fetch(cloud).GetPointData().GetArray(name)
     return vtk_to_numpy(array) if array and array.GetNumberOfTuples() else np.empty(0)
 
 
 def automatic_scale(diameters: Vector, corners: Vector) -> float:
-    """A round magnification: bodies at rest are seen in the box, and mostly not in each other."""
+    """Return a round magnification: bodies at rest are visible and mostly do not overlap."""
     sides = np.sort(np.linalg.norm(corners[[4, 2, 1]] - corners[0], axis=1))
     if len(diameters) == 0 or not sides[0] > 0:
         return 1.0
@@ -252,19 +252,19 @@ def automatic_scale(diameters: Vector, corners: Vector) -> float:
 
 
 def round_down(value: float) -> float:
-    """The largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not above a positive value."""
+    """Return the largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten not above a positive value."""
     power = 10.0 ** math.floor(math.log10(value))
     return max(digit for digit in (1, 2, 3, 4, 5, 6, 8) if digit * power <= value * (1 + 1e-12)) * power
 
 
 def round_up(value: float) -> float:
-    """The least multiple of a power of ten, of one digit, that is not below a positive value."""
+    """Return the least one-digit multiple of a power of ten not below a positive value."""
     power = 10.0 ** math.floor(math.log10(value))
     return math.ceil(value / power * (1 - 1e-12)) * power
 
 
 def draw_bodies(cloud: Any, scale: float, count: int) -> Any:
-    """The deformed bodies: the unit sphere under R F, whose columns ``glyph`` holds, and enlarged."""
+    """Return the deformed, enlarged bodies: the unit sphere under R F, whose columns ``glyph`` holds."""
     bodies = simple.TensorGlyph(
         registrationName="bodies",
         Input=cloud,
@@ -293,7 +293,7 @@ def show_as_copies(display: Any, scale: float, count: int) -> None:
 
 
 def resolution(count: int) -> tuple[int, int]:
-    """Facets of a body around and along its axis, fewer for many of them."""
+    """Return facets of a body around and along its axis, fewer for many bodies."""
     return (16, 9) if count > MANY_BODIES else (48, 25)
 
 
@@ -363,7 +363,7 @@ def show_walls(walls: Any, view: Any) -> None:
 
 
 def smooth(walls: Any) -> Any:
-    """The walls with normals for smooth shading, by the filter's name in this version of ParaView."""
+    """Return the walls with normals for smooth shading, by the filter's name in this ParaView."""
     normals = getattr(simple, "SurfaceNormals", None) or simple.GenerateSurfaceNormals
     return normals(registrationName="far side", Input=walls)
 
@@ -388,7 +388,7 @@ def style_text(display: Any, where: str) -> None:
 
 
 def caption(scale: float, count: int) -> str:
-    """Say how many bodies there are and how they are drawn."""
+    """Return the number of bodies and the scale of the drawing as text."""
     bodies = f"{count} {'body' if count == 1 else 'bodies'}"
     return f"{bodies}, drawn {scale:g} times larger" if scale != 1.0 else f"{bodies}, drawn to scale"
 
@@ -445,7 +445,7 @@ def look_at(case: Path, walls: Any, points: Vector, view: Any, camera: Camera) -
 
 
 def outline(walls: Any, points: Vector) -> Vector:
-    """The eight corners of a box around the walls, or around the points without walls; shape (8, 3), m.
+    """Return the eight corners of a box around the walls, or else the points; shape (8, 3), m.
 
     Its sides are parallel to the coordinate axes, unless the walls fit much better into another box.
     """
@@ -473,7 +473,7 @@ def outline(walls: Any, points: Vector) -> Vector:
 
 
 def camera_frame(corners: Vector, up: Vector) -> tuple[Vector, Vector, Vector]:
-    """Unit vectors to the right, up and towards the camera: the long side horizontal if gravity lets it.
+    """Return unit vectors to the right, up and towards the camera: long side horizontal if possible.
 
     Parameters
     ----------
@@ -493,7 +493,7 @@ def camera_frame(corners: Vector, up: Vector) -> tuple[Vector, Vector, Vector]:
 
 
 def upright(up: Vector, towards: Vector) -> Vector:
-    """The unit vector upwards in the picture: ``up``, or y, or z where one looks along it."""
+    """Return the unit vector upwards in the picture: ``up``, or y, or z when looking along it."""
     for choice in (up, np.eye(3)[1], np.eye(3)[2]):
         across = choice - (choice @ towards) * towards
         if np.linalg.norm(across) > 0.3:
@@ -502,7 +502,7 @@ def upright(up: Vector, towards: Vector) -> Vector:
 
 
 def gravity(case: Path) -> Vector:
-    """Gravity from ``constant/g``, m/s2; along −z where there is none."""
+    """Return gravity from ``constant/g``, m/s2; along −z without the file."""
     file = case / "constant" / "g"
     text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
     found = re.search(r"\bvalue\s*\(\s*(\S+)\s+(\S+)\s+([^\s)]+)\s*\)", text)
@@ -514,7 +514,7 @@ def gravity(case: Path) -> Vector:
 
 
 def densest(places: Vector, window: float, ends: Vector) -> float:
-    """Middle of the stretch of length ``window`` between the ends that holds most of the places."""
+    """Return the centre of the interval of length ``window`` that contains most of the places."""
     low, high = ends.min() + window / 2, ends.max() - window / 2
     if len(places) == 0 or high <= low:
         return float(ends.mean())
@@ -529,7 +529,7 @@ def say(message: str) -> None:
 
 
 def case_of_active_source() -> Path:
-    """Case that the active source of ParaView's window was read from; else the working folder."""
+    """Return the case of the active source of ParaView's window; else the working folder."""
     source = simple.GetActiveSource()
     file = getattr(source, "FileName", None) if source else None
     for folder in Path(str(file)).resolve().parents if file else ():

@@ -1,4 +1,4 @@
-"""What a validation case returns: rows of a table, figures as data, and remarks."""
+"""Result of a validation case: rows of a table, figures as data, and remarks."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ class Row(NamedTuple):
 
     @property
     def difference(self) -> float | None:
-        """|ours − reference|, or that over |reference|."""
+        """Return |ours − reference|, or that over |reference|."""
         if self.ours is None or self.reference is None:
             return None
         return abs(self.ours - self.reference) / (abs(self.reference) if self.relative else 1.0)
 
     @property
     def passed(self) -> bool | None:
-        """Whether the difference is allowed; None for a row for information only."""
+        """Return whether the difference is allowed; None for a row for information only."""
         if self.allowed is None:
             return None
         # A number that is not finite must fail.
@@ -91,7 +91,7 @@ class Case(NamedTuple):
 
     @property
     def title(self) -> str:
-        """What the case shows."""
+        """Return the title of the case."""
         return (self.run.__doc__ or "").partition("\n")[0].rstrip(".")
 
 
@@ -104,7 +104,7 @@ def worst(
     scale: float = 1.0,
     note: str = "",
 ) -> Row:
-    """The row of the largest difference between two curves (n,), both divided by ``scale``."""
+    """Return the row of the largest difference between two curves (n,), both divided by ``scale``."""
     miss = np.abs(np.asarray(ours) - reference)
     k = int(np.argmax(np.where(np.isfinite(miss), miss, np.inf)))
     return Row(quantity, float(ours[k] / scale), float(reference[k] / scale), source, allowed, note=note)

@@ -1,4 +1,4 @@
-"""What a particle costs (Appendix F)."""
+"""Cost of a particle (Appendix F)."""
 
 from __future__ import annotations
 

@@ -51,14 +51,14 @@ class Axis(NamedTuple):
 
 
 def read_axis(mesh: str) -> Axis:
-    """The table of a mesh."""
+    """Return the table of a mesh."""
     table = np.genfromtxt(TABLE, delimiter=",", names=True, deletechars="")
     x = table["x"]
     return Axis(float(x[0]), float(x[1] - x[0]), table[f"u_{mesh}"], table[f"rate_{mesh}"])
 
 
 def sample_axis(flow: Axis, _host: int, x: Vector, _t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²: linear between points, symmetric about x."""
+    """Return velocity, m/s, gradient, 1/s, and ∂u/∂t = 0, m/s²: linear between points, axisymmetric."""
     place = (x[0] - flow.start) / flow.spacing
     i = min(max(int(place), 0), len(flow.u) - 2)
     f = place - i
@@ -70,7 +70,7 @@ def sample_axis(flow: Axis, _host: int, x: Vector, _t: float) -> tuple[Vector, T
 
 
 def axis_flow(table: Axis) -> AnalyticFlow:
-    """The flow near the axis."""
+    """Return the flow near the axis."""
     kernels: dict[str, Callable[..., Any]] = {
         "sample": sample_axis,
         "walk": walk_free,
@@ -121,7 +121,7 @@ def _at(x: Floats, table: Axis) -> tuple[float, float]:
 
 
 def nonlinear(table: Axis, mu: float, times: Floats) -> Floats:
-    """D (m,) at times (m,), s, of an incompressible neo-Hooke sphere that moves with the liquid."""
+    """Return D (m,) at times (m,), s, of an incompressible neo-Hooke sphere moving with the liquid."""
     body = soft.Body(MU_F / mu)
 
     def rate(_t: float, y: Floats) -> Floats:
@@ -142,7 +142,7 @@ def nonlinear(table: Axis, mu: float, times: Floats) -> Floats:
 
 
 def small(table: Axis, mu: float, times: Floats) -> Floats:
-    """D (m,) at times (m,), s, to first order in the strain ε along the axis.
+    """Return D (m,) at times (m,), s, to first order in the strain ε along the axis.
 
     Its rate of strain is 5/3 d_f − σ′/(3 μ_f), σ′ = 2 μ ε, so that ε relaxes towards (5/2)(μ_f/μ) ∂u/∂x with
     the time constant (3/2) μ_f/μ; D = 3/4 ε.
@@ -167,7 +167,7 @@ def small(table: Axis, mu: float, times: Floats) -> Floats:
 
 
 def _largest(x: Floats, D: Floats) -> float:
-    """The largest D of a bead, by a cubic spline through where it was (m,)."""
+    """Return the largest D of a bead, by a cubic spline through its places (m,)."""
     spline = CubicSpline(x, D)
     at = spline.derivative().roots(extrapolate=False)
     return float(spline(at).max())

@@ -35,7 +35,7 @@ class EddyArrays(NamedTuple):
 
 
 def turbulence(flow: EddyArrays, host: int, x: Vector, t: float) -> Turbulence:  # noqa: ARG001
-    """k, ε, ∇k and ∇(k²/3ε)."""
+    """Return k, ε, ∇k and ∇(k²/3ε)."""
     k = K * np.exp(-flow.decay * x[0])
     slope = -flow.decay * k
     return k, k / LIFE, (slope, 0.0, 0.0), (LIFE / 3.0 * slope, 0.0, 0.0)
@@ -112,7 +112,7 @@ def dispersion(quick: bool) -> Outcome:
 
 
 def _taylor(t: Floats) -> Floats:
-    """⟨x²⟩ of eddies of life T, one after the other: σ² (m T² + (t − m T)²), m = ⌊t/T⌋."""
+    """Return ⟨x²⟩ of successive eddies of lifetime T: σ² (m T² + (t − m T)²), m = ⌊t/T⌋."""
     whole = np.floor(t / LIFE + 1e-9)
     spread: Floats = SIGMA**2 * (whole * LIFE**2 + (t - whole * LIFE) ** 2)
     return spread
@@ -121,7 +121,7 @@ def _taylor(t: Floats) -> Floats:
 def _released(
     n: int, dt: float, *, settling: float = 0.0, decay: float = 0.0, model: Any = None
 ) -> tuple[Particles, Cloud]:
-    """Spheres at the origin; with a settling speed those that have it, else tracers."""
+    """Return spheres at the origin: settling ones if a speed is given, else tracers."""
     flow = EddyArrays(np.zeros(3), np.zeros(9), decay)
     kernels: dict[str, Any] = {**analytic.linear(np.zeros((3, 3))).kernels, "turbulence": turbulence}
     heavier = 9.0 * _MU_F * settling / (2.0 * _G * _R**2)

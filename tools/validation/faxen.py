@@ -49,7 +49,7 @@ def _bodies(mu: float) -> Particles:
 
 
 def _lags(p: Particles) -> list[float]:
-    """By how much they are slower than the fluid at their centres, m/s."""
+    """Return the lags of the bodies behind the fluid at their centres, m/s."""
     _advance(p, 1e-7, 1)
     u, _ = analytic.pipe(RADIUS, MEAN).sample(p.x, p.host, 0.0)
     return [float(slower) for slower in u[:, 0] - p.v[:, 0]]
@@ -63,7 +63,7 @@ def _advance(p: Particles, dt: float, steps: int) -> None:
 
 
 def _lag_around(axes: np.ndarray) -> float:
-    """Lag over u_max (R/a)² of a body with these semi-axes along x, y and z, in units of R."""
+    """Return the lag over u_max (R/a)² of a body with semi-axes along x, y and z, in units of R."""
     body = ref.Ellipsoid(np.diag(axes), np.inf)
     u = np.zeros_like(body.x)
     # The lag is that of the quadratic part of the profile, which is the same everywhere.

@@ -36,7 +36,7 @@ class Swing(NamedTuple):
 
 
 def sample_swing(flow: Swing, _host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
+    """Return the velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
     c, s = np.cos(flow.omega * t), np.sin(flow.omega * t)
     u = flow.speed + flow.rate * x[1]
     l = (0.0, flow.rate * c, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -51,7 +51,7 @@ def _swing(flow: Swing) -> analytic.AnalyticFlow:
 def sphere_path(
     kernel: tuple[float, float], rho: float, flow: object, start: Floats, times: Floats, g: Floats
 ) -> Floats:
-    """Position and velocity, (m, 6), of a rigid sphere at times (m,), s.
+    """Return position and velocity, (m, 6), of a rigid sphere at times (m,), s.
 
     (m + C m_f) dv/dt = (m − m_f) g + (p + C) m_f Du/Dt + 3π μ_f d (u − v), with Du/Dt taken at the sphere.
 
@@ -83,7 +83,7 @@ def sphere_path(
 
 
 def _forces(p: float, C: float) -> tuple[Force, ...]:
-    """Gravity, and those whose coefficient is not zero."""
+    """Return gravity, and forces with a non-zero coefficient."""
     more = ((p, PressureGradient()), (C, VirtualMass(Cvm=C)))
     return (Gravity(), *(force for coefficient, force in more if coefficient))
 
@@ -92,7 +92,7 @@ def _run(
     flow: analytic.AnalyticFlow, rho: float, kernel: tuple[float, float], integrator: str, dt: float,
     start: Floats, times: Floats, g: Floats,
 ) -> Floats:  # fmt: skip
-    """Position and velocity (m, 6) of a quasi-rigid sphere."""
+    """Return the position and velocity (m, 6) of a quasi-rigid sphere."""
     p = spheres(start[None, :3], d=DIAMETER, rho=rho, mu=1e3)
     p.v[:] = start[3:]
     medium = Medium(MU_F, RHO_F, (float(g[0]), float(g[1]), float(g[2])))

@@ -25,7 +25,7 @@ TURN = Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix()
 
 
 def _paths(integrator: str, end: float) -> tuple[Floats, Floats, Floats]:
-    """Times (m,), semi-axes (m, n, 3) and axes (m, n, 3, 3) of all bodies, as rows in rising order of length.
+    """Return times (m,), semi-axes (m, n, 3) and axes (m, n, 3, 3), as rows in rising order of length.
 
     First the spheroids with their axis along the flow, then turned, then the triaxial bodies, turned.
     """
@@ -48,12 +48,12 @@ def _paths(integrator: str, end: float) -> tuple[Floats, Floats, Floats]:
 
 
 def _symmetry_axis(ratio: float, axes: Floats) -> Floats:
-    """The axis of a spheroid, (m, 3), among rows in rising order of length (m, 3, 3)."""
+    """Return the axis of a spheroid, (m, 3), among rows in rising order of length (m, 3, 3)."""
     return axes[:, 2 if ratio > 1.0 else 0]
 
 
 def _period(times: Floats, axis: Floats) -> float:
-    """Twice the mean time between half turns in the plane of shear of an axis (m, 3)."""
+    """Return twice the mean time between half turns of an axis (m, 3) in the plane of shear."""
     turned = -np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]), period=np.pi)
     turned -= turned[0]
     halves = np.arange(1, int(turned[-1] / np.pi) + 1)

@@ -21,7 +21,7 @@ from validation.runs import (
 
 
 def _with_inertia(name: str, steps: Floats) -> Floats:
-    """Error of x/d and F against the reference in the pipe after 2 ms, for each step, s."""
+    """Return the error of x/d and F in the pipe after 2 ms, for each step, s."""
     end, Ca = 2e-3, 0.5
     own = soft_in_pipe(Ca, np.array([0.0, end]))
     errors = []
@@ -34,7 +34,7 @@ def _with_inertia(name: str, steps: Floats) -> Floats:
 
 
 def _without_inertia(name: str, steps: Floats) -> Floats:
-    """Error of F against the inertialess reference in simple shear at γ̇t = 2, for each step in 1/γ̇."""
+    """Return the error of F in simple shear at γ̇t = 2 without inertia, for each step in 1/γ̇."""
     own = inertialess_history(SHEAR, 0.4, np.array([2.0]))[-1]
     errors = []
     for dt in steps:

@@ -141,7 +141,7 @@ def _spin(F: Floats, A: Floats) -> Floats:
 def _landing(
     Ca: Floats, drag: str, dt: float, flow: Flow | None = None, integrator: str = "paper"
 ) -> tuple[Floats, Floats, Floats]:
-    """Distance over diameter, time (s) and |ω_s3| (1/s) of the landing, each (n,)."""
+    """Return the distance over diameter, time (s) and |ω_s3| (1/s) of the landing, each (n,)."""
     cloud = pipe_cloud(Ca, dt, _models(drag, integrator), flow)
     cloud.advance(round(_END / dt))
     p = cloud.particles
@@ -263,7 +263,7 @@ def soft(quick: bool) -> Outcome:
 
 
 def _of_third_order() -> list[Row]:
-    """Landing distances with the integrators of order 3(2)."""
+    """Compare landing distances of the integrators of order 3(2)."""
     rows = []
     Ca = np.array([1e-4, *SHOWN])
     for integrator in ("rosenbrock", "stokes"):
@@ -292,7 +292,7 @@ def _of_third_order() -> list[Row]:
 
 
 def _soft_start() -> Outcome:
-    """The first 4 ms of the particle with Ca = 0.5."""
+    """Compute the first 4 ms of the particle with Ca = 0.5."""
     end = 4e-3
     own = _soft(0.5, "oberbeck", end)
     found = []

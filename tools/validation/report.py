@@ -40,7 +40,7 @@ class Section(NamedTuple):
 
 
 def choose(cases: Mapping[str, Case], names: Sequence[str]) -> dict[str, Case]:
-    """The cases of the given names in the order of the registry; all when none is given.
+    """Return the cases of the given names in the order of the registry; all without names.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def choose(cases: Mapping[str, Case], names: Sequence[str]) -> dict[str, Case]:
 
 
 def pyplot() -> Any:
-    """Matplotlib's pyplot, drawing to files."""
+    """Return matplotlib's pyplot, drawing to files."""
     import matplotlib as mpl
 
     mpl.use("Agg")
@@ -98,7 +98,7 @@ def validate(cases: Mapping[str, Case], folder: Path, quick: bool) -> bool:
 
 
 def cells(row: Row) -> tuple[str, ...]:
-    """A row's entries in the order of :data:`COLUMNS`."""
+    """Return a row's entries in the order of :data:`COLUMNS`."""
     percent = row.relative
     return (
         row.quantity,
@@ -125,7 +125,7 @@ def _difference(value: float | None, relative: bool) -> str:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Rows as aligned text under a heading."""
+    """Return rows as aligned text under a heading."""
     lines = [COLUMNS, *(cells(row) for row in rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(COLUMNS))]
     return "\n".join(
@@ -163,7 +163,7 @@ def _introduction(sections: Sequence[Section], quick: bool) -> list[str]:
 
 
 def markdown(sections: Sequence[Section], quick: bool) -> str:
-    """The report as Markdown, its figures beside it."""
+    """Return the report as Markdown, its figures beside it."""
     parts = ["# Validation", *_introduction(sections, quick)]
     for name, case, outcome in sections:
         parts += [f"## {case.title}", f"`{name}`; {case.section}."]
@@ -189,7 +189,7 @@ img { max-width: 100%; } figure { margin: 1em 0; } figcaption { color: #555; }
 
 
 def page(sections: Sequence[Section], folder: Path, quick: bool) -> str:
-    """The report as one HTML page with the figures of ``folder`` in it."""
+    """Return the report as one HTML page with the figures of ``folder``."""
     parts = ["<h1>Validation</h1>", *(f"<p>{_inline(text)}</p>" for text in _introduction(sections, quick))]
     for name, case, outcome in sections:
         parts.append(f"<h2>{_inline(case.title)}</h2><p><code>{name}</code>; {_inline(case.section)}.</p>")
@@ -212,7 +212,7 @@ def page(sections: Sequence[Section], folder: Path, quick: bool) -> str:
 
 
 def _inline(text: str) -> str:
-    """Escaped text, with what stands between backquotes as code."""
+    """Return escaped text with backquoted parts as code."""
     pieces = html.escape(text).split("`")
     return "".join(f"<code>{p}</code>" if k % 2 else p for k, p in enumerate(pieces))
 

@@ -1,4 +1,4 @@
-"""Rotating zones: soft spheres in Couette's flow between cylinders, seen from a frame that turns."""
+"""Rotating zones: soft spheres in Couette flow between cylinders, in a rotating frame."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class CouetteArrays(NamedTuple):
 
 
 def sample(flow: CouetteArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
-    """Velocity relative to the frame, m/s, its gradient, 1/s, and ∂u/∂t = 0."""
+    """Return the velocity relative to the frame, m/s, its gradient, 1/s, and ∂u/∂t = 0."""
     square = x[0] * x[0] + x[1] * x[1]
     f = A + B / square - flow.omega
     fx, fy = -2.0 * B * x[0] / (square * square), -2.0 * B * x[1] / (square * square)
@@ -41,12 +41,12 @@ def sample(flow: CouetteArrays, host: int, x: Vector, t: float) -> tuple[Vector,
 
 
 def rotation_at(flow: CouetteArrays, host: int) -> tuple[Vector, Vector]:  # noqa: ARG001
-    """Ω, and a point of the axis."""
+    """Return Ω, and a point of the axis."""
     return (0.0, 0.0, flow.omega), (0.0, 0.0, 0.0)
 
 
 def carried(omega: float, rho: float, steps: int = 200) -> Particles:
-    """Soft spheres at several radii, after they were carried in the frame that turns with ω."""
+    """Return soft spheres at several radii after motion in the frame that rotates with ω."""
     kernels: dict[str, Any] = {
         **analytic.linear(np.zeros((3, 3))).kernels,
         "sample": sample,
@@ -66,13 +66,13 @@ def carried(omega: float, rho: float, steps: int = 200) -> Particles:
 
 
 def turned(angle: float) -> Floats:
-    """The rotation about z by an angle."""
+    """Return the rotation about z by an angle."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def differences(rho: float, steps: int = 200) -> tuple[float, float]:
-    """Largest differences of places, m, and of F between both frames, after turning back."""
+    """Return the largest differences of places, m, and of F between both frames, after rotation back."""
     room, rotor = carried(0.0, rho, steps), carried(OMEGA, rho, steps)
     R = turned(OMEGA * END)
     F = np.einsum("ij,njk->nik", R, rotor.F.reshape(-1, 3, 3)) - room.F.reshape(-1, 3, 3)

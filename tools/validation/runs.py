@@ -1,4 +1,4 @@
-"""Runs of the cloud that the cases share."""
+"""Cloud runs shared by the cases."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def unit_cloud(
     eta: ArrayLike = 0.0,
     tension: ArrayLike = 0.0,
 ) -> Cloud:
-    """Bodies of the volume of a sphere of radius 1 at the origin in a fluid of viscosity 1 without gravity.
+    """Return a cloud of bodies of the volume of a unit sphere at the origin, fluid viscosity 1, no gravity.
 
     Parameters
     ----------
@@ -80,36 +80,36 @@ def advance_to(cloud: Cloud, t: float) -> None:
 
 
 def gradients(p: Particles) -> tuple[Floats, Floats]:
-    """Deformation gradients F and velocity gradients l_s = A·F⁻¹ (1/s), each (n, 3, 3)."""
+    """Return deformation gradients F and velocity gradients l_s = A·F⁻¹ (1/s), each (n, 3, 3)."""
     F = p.F.reshape(-1, 3, 3)
     return F, p.A.reshape(-1, 3, 3) @ np.linalg.inv(F)
 
 
 def principal_axes(p: Particles) -> tuple[Floats, Floats]:
-    """Semi-axes over R in rising order, (n, 3), and their directions as rows, (n, 3, 3)."""
+    """Return Semi-axes over R in rising order, (n, 3), and their directions as rows, (n, 3, 3)."""
     F = p.F.reshape(-1, 3, 3)
     squares, vectors = np.linalg.eigh(F @ F.transpose(0, 2, 1))
     return np.sqrt(squares), vectors.transpose(0, 2, 1)
 
 
 def shear_shapes(cloud: Cloud) -> Floats:
-    """Rows (n, 5) of what :func:`shear_shape` gives, of particles in a shear of rate 1."""
+    """Return rows (n, 5) of :func:`shear_shape` for particles in a shear of rate 1."""
     F, l_s = gradients(cloud.particles)
     return np.array([shear_shape(f, g) for f, g in zip(F, l_s, strict=True)])
 
 
 def without_inertia(coarse: Floats, fine: Floats) -> Floats:
-    """The limit of zero shape Stokes number, from two runs of which the second has half of it."""
+    """Return the limit of zero shape Stokes number, from two runs, the second with half of it."""
     return 2.0 * fine - coarse
 
 
 def measures(cloud: Cloud) -> dict[str, Any]:
-    """All measures of a cloud, by name."""
+    """Return all measures of a cloud, by name."""
     return measure(context(cloud.particles, cloud.flow, cloud.medium.mu, cloud.time))
 
 
 def torque(cloud: Cloud) -> Floats:
-    """Torque of the traction about the barycentre, (n, 3), N m.
+    """Return the torque of the traction about the barycentre, (n, 3), N m.
 
     ∫ x × σ̃·n dA of the uniform σ̃ over the ellipsoid is M_i = ε_ijk σ̃_kj vol.
     """
@@ -135,7 +135,7 @@ POISSONS_RATIO = 0.499
 
 
 def pipe_cloud(Ca: ArrayLike, dt: float, models: Models, flow: Flow | None = None) -> Cloud:
-    """The particles of Sect. 5.4 in the exact pipe, or in a given flow."""
+    """Return the particles of Sect. 5.4 in the exact pipe, or in a given flow."""
     flow = flow or analytic.pipe(PIPE_RADIUS, MEAN_VELOCITY)
     Ca = np.atleast_1d(np.asarray(Ca, dtype=float))
     p = spheres(
@@ -150,7 +150,7 @@ def pipe_cloud(Ca: ArrayLike, dt: float, models: Models, flow: Flow | None = Non
 
 
 def air_around() -> Surroundings:
-    """The air in the exact pipe, for the references."""
+    """Return the air in the exact pipe, for the references."""
     flow = poiseuille(PIPE_RADIUS, MEAN_VELOCITY)
     return Surroundings(MU_F, RHO_F, np.array([0.0, -GRAVITY, 0.0]), flow)
 
@@ -162,7 +162,7 @@ def soft_in_pipe(
     floor: float | None = None,
     tolerance: float = 1e-9,
 ) -> SoftHistory:
-    """The reference for the paper's particle in the exact pipe, released at rest, at ``times`` (m,), s.
+    """Return the reference for the paper's particle in the exact pipe, from rest, at ``times`` (m,), s.
 
     ``Ca`` is that at the wall; the rest as of :func:`validation.references.inertia.soft_sphere`.
     """

@@ -39,7 +39,7 @@ ORIENTATIONS = 8
 
 
 def _terminal(integrator: str, ratios: Floats, axes: Floats) -> Floats:
-    """Velocities (n, 3) over those of spheres of the same volume, after 30 times the sphere's response."""
+    """Return velocities (n, 3) over those of spheres of equal volume, after 30 response times."""
     n = len(axes)
     p = spheres(np.zeros((n, 3)), d=DIAMETER, rho=RHO_S, mu=100.0)
     set_rest_shape(p, ratios, axes)
@@ -53,13 +53,13 @@ def _terminal(integrator: str, ratios: Floats, axes: Floats) -> Floats:
 
 
 def _expected(resistances: Floats, axes: Floats) -> Floats:
-    """The same from resistances (n, 3) in units of the sphere's radius: v = Σ e_a e_a·f_G/(μ_f K_a)."""
+    """Return the expected ones by resistances (n, 3) over the radius: v = Σ e_a e_a·f_G/(μ_f K_a)."""
     along = np.einsum("naj,j->na", axes, np.array([0.0, -6.0 * np.pi, 0.0]))
     return np.asarray(np.einsum("na,naj->nj", along / resistances, axes))
 
 
 def _ellipsoids(quick: bool) -> tuple[list[Row], list[Figure]]:
-    """Ellipsoids at rest in every orientation, and the oblique drift of spheroids."""
+    """Compare ellipsoids at rest in every orientation, and the oblique drift of spheroids."""
     rows: list[Row] = []
     turns = Rotation.random(ORIENTATIONS * len(SHAPES), rng=np.random.default_rng(20)).as_matrix()
     ratios = np.repeat(np.array(SHAPES), ORIENTATIONS, axis=0)

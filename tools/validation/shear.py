@@ -31,7 +31,7 @@ ALLOWED = (1e-4, 1e-4, 1e-4, 0.01, 1e-4)
 
 
 def _limit(Ca: Floats, end: float, traction: str = "roscoe", stokes: float = 2e-3) -> Floats:
-    """Shapes (n, 5) at the time ``end`` in the limit of no inertia, with the paper's integrator."""
+    """Return shapes (n, 5) at the time ``end`` in the limit of no inertia, with the paper's integrator."""
     found = []
     for s in (stokes, stokes / 2):
         cloud = unit_cloud(analytic.shear(1.0), Ca, s, 0.2 * s, Models(traction=traction, integrator="paper"))
@@ -294,7 +294,7 @@ def tank_treading(quick: bool) -> Outcome:
 
 
 def _period(times: Floats, path: Floats) -> float:
-    """Mean time between downward passages of x₂ = 0 of a path (m, 2), once the shape is steady."""
+    """Return the mean time between downward passages of x₂ = 0 of a path (m, 2) of a steady shape."""
     y = path[:, 1]
     k = np.flatnonzero((y[:-1] > 0.0) & (y[1:] <= 0.0) & (times[:-1] > 12.0))
     passages = []

@@ -1,4 +1,4 @@
-"""Steps that go through several tracking steps, as a run takes them by default."""
+"""Steps longer than a tracking step, the default of a run."""
 
 from __future__ import annotations
 

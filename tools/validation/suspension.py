@@ -25,14 +25,14 @@ VOLUME = 4.0 / 3.0 * np.pi
 
 
 def stresslets(cloud: Cloud) -> Floats:
-    """Stresslets over μ_f and the volume, (n, 3, 3), 1/s."""
+    """Return stresslets over μ_f and the volume, (n, 3, 3), 1/s."""
     xx, yy, zz, xy, yz, xz = measures(cloud)["stresslet"].T
     S = np.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], axis=1).reshape(-1, 3, 3)
     return np.asarray(S / (VOLUME * cloud.medium.mu))
 
 
 def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
-    """Rigid spheroids on Jeffery orbits."""
+    """Compare rigid spheroids on Jeffery orbits."""
     rows: list[Row] = []
     curves: list[Curve] = []
     ratios = np.array([2.0, 5.0, 10.0])
@@ -78,7 +78,7 @@ def _spheroids(quick: bool) -> tuple[list[Row], Figure]:
 
 
 def _average(quick: bool) -> list[Row]:
-    """Intrinsic viscosity of a tumbling rigid spheroid, averaged over its period."""
+    """Compare the intrinsic viscosity of a tumbling rigid spheroid, averaged over its period."""
     rows = []
     for r in (2.0,) if quick else (2.0, 5.0):
         period = rigid.jeffery_period(r)

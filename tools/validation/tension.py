@@ -26,7 +26,7 @@ def _models(integrator: str) -> Models:
 
 
 def _relaxation(integrator: str, ratio: float) -> float:
-    """Rate, in γ/(μ_f R), at which a slightly stretched sphere without elasticity becomes round."""
+    """Return the rate, in γ/(μ_f R), at which a slightly stretched inelastic sphere becomes round."""
     still = analytic.linear(np.zeros((3, 3)))
     cloud = unit_cloud(still, 1e6, 1e-6, 0.01, _models(integrator), eta=ratio, tension=1.0)
     cloud.particles.F[:] = np.diag(np.exp([1e-3, -0.5e-3, -0.5e-3])).ravel()
@@ -39,7 +39,7 @@ def _relaxation(integrator: str, ratio: float) -> float:
 
 
 def _recovery(quick: bool) -> tuple[list[Row], list[Curve]]:
-    """A long drop-like body becomes round."""
+    """Compare an elongated body that becomes round."""
     still = np.zeros((3, 3))
     times = 0.25 * np.arange(1.0, 7.0 if quick else 17.0)
     start = soft.stretched((3.0, 1.5, 1.0))
@@ -63,7 +63,7 @@ def _recovery(quick: bool) -> tuple[list[Row], list[Curve]]:
 
 
 def _shear_shape(number: float, ratio: float) -> Floats:
-    """D, b/a, c/a and θ of the steady reference at μ_f γ̇ R/γ = ``number``."""
+    """Return D, b/a, c/a and θ of the steady reference at μ_f γ̇ R/γ = ``number``."""
     body = soft.Body(WEAK, viscosity_ratio=ratio, tension=1.0 / number)
     F = soft.steady(SHEAR, body)
     return np.array(shear_shape(F, np.zeros((3, 3))))[:4]

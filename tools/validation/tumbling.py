@@ -34,7 +34,7 @@ class Transitions(NamedTuple):
 
 
 def small_deformation(ratio: Floats) -> Floats:
-    """Ca₁ = Ca₂ of a nearly spherical, nearly rigid body.
+    """Return Ca₁ = Ca₂ of a nearly spherical, nearly rigid body.
 
     To first order its deformation in the plane is the sum of 5/4 Ca at 45°, which the flow holds, and of the
     shape at rest, (r − 1)/(r + 1), which turns with the material. It turns with the longer of the two.
@@ -45,7 +45,7 @@ def small_deformation(ratio: Floats) -> Floats:
 def _paths(
     ratio: Floats, Ca: Floats, end: float = END, tolerance: float = 2e-6
 ) -> tuple[Floats, Floats, Floats]:
-    """Times (m,), and the curves (m, n) of :func:`references.soft.in_plane`; released along the flow."""
+    """Return times (m,), and curves (m, n) of :func:`references.soft.in_plane`; released along the flow."""
     shapes = np.column_stack([ratio, np.ones_like(ratio), np.ones_like(ratio)])
     models = Models(integrator="stokes", tolerance=tolerance)
     cloud = unit_cloud(analytic.shear(1.0), Ca, 1e-6, _STEP, models, ratios=shapes)
@@ -59,7 +59,7 @@ def _paths(
 
 
 def _passages(times: Floats, along: Floats, across: Floats) -> soft.Passages:
-    """As :func:`references.soft.passages`, of the curve of one body, (m,) each."""
+    """Return :func:`references.soft.passages` of the curve of one body, (m,) each."""
     late = times > 0.5 * END
     t, x, y = times[late], CubicSpline(times[late], along[late]), CubicSpline(times[late], across[late])
     k = int(np.argmin(np.hypot(along[late], across[late])[1:-1])) + 1
@@ -73,13 +73,13 @@ def _passages(times: Floats, along: Floats, across: Floats) -> soft.Passages:
 
 
 def _root(Ca: Floats, values: Floats) -> float:
-    """Where values that rise with Ca pass through zero, by a cubic spline."""
+    """Return the zero of values that rise with Ca, by a cubic spline."""
     roots = CubicSpline(Ca, values).roots(extrapolate=False)
     return float(roots[0]) if len(roots) else np.nan
 
 
 def transitions(ratios: Floats) -> Transitions:
-    """Ca₁ and Ca₂ of each aspect ratio: sought among 12 capillary numbers, then among 6 around each."""
+    """Return Ca₁ and Ca₂ of each aspect ratio: a search among 12 values of Ca, then among 6 around each."""
     guess = small_deformation(ratios)
     first = guess[:, None] * np.linspace(0.7, 1.8, 12)
     coarse = _search(ratios, first)
@@ -92,7 +92,7 @@ def transitions(ratios: Floats) -> Transitions:
 
 
 def _search(ratios: Floats, Ca: Floats) -> Transitions:
-    """The transitions among the given capillary numbers, (n, k)."""
+    """Return the transitions among the given capillary numbers, (n, k)."""
     n, k = Ca.shape
     times, along, across = _paths(np.repeat(ratios, k), Ca.ravel())
     found = [_passages(times, along[:, j], across[:, j]) for j in range(n * k)]
@@ -107,12 +107,12 @@ def _search(ratios: Floats, Ca: Floats) -> Transitions:
 
 
 def _angles(along: Floats, across: Floats) -> Floats:
-    """θ, degrees, followed through its turns."""
+    """Return θ, degrees, continuous through turns."""
     return np.asarray(np.degrees(0.5 * np.unwrap(np.arctan2(across, along), axis=0)))
 
 
 def _histories(quick: bool) -> tuple[list[Row], list[Curve], list[Curve]]:
-    """One body of aspect ratio 2 in each regime, against the reference."""
+    """Compare one body of aspect ratio 2 in each regime with the reference."""
     rows: list[Row] = []
     angles: list[Curve] = []
     lengths: list[Curve] = []
@@ -197,7 +197,7 @@ def regimes(quick: bool) -> Outcome:
 
 
 def _checked(rows: list[Row]) -> list[Curve]:
-    """The reference's transitions among the rows."""
+    """Return the reference's transitions among the rows."""
     curves = []
     for colour, word in enumerate(("tumbling to", "trembling to")):
         at = np.array([[r, row.reference] for r in CHECKED for row in rows

@@ -20,7 +20,7 @@ CAPILLARY = np.array([0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
 
 
 def _steady(integrator: str, Ca: Floats, ratio: float, end: float) -> Floats:
-    """Shapes (n, 5) at the time ``end``; γ̇ τ_s = 1e-6."""
+    """Return shapes (n, 5) at the time ``end``; γ̇ τ_s = 1e-6."""
     models = Models(integrator=integrator, tolerance=1e-6)
     cloud = unit_cloud(analytic.shear(1.0), Ca, 1e-6, 0.05, models, eta=ratio)
     advance_to(cloud, end)

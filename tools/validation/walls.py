@@ -93,7 +93,7 @@ def mobility(quick: bool) -> Outcome:
 
 
 def _onto_slope(number: float) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Places (x, z) of a stiff sphere that falls from rest at 4R until it should be at 1.1R, ours and theirs.
+    """Return places (x, z) of a stiff sphere falling from 4R to 1.1R, ours and the reference.
 
     Lengths are in radii R, times in τ, in which drag stops it far from walls; it falls ``number`` of them.
     """
@@ -127,7 +127,7 @@ def _coefficients(p: Particles) -> Floats:
 
 
 def _carried(heights: Floats, Ca: Floats, steps: int, dt: float = 0.02 / RATE) -> Particles:
-    """Spheres after steps in shear over the wall z = 0, from heights in radii."""
+    """Return spheres after steps in shear over the wall z = 0, from heights in radii."""
     x = np.stack([0.0 * heights, 0.0 * heights, R * heights], axis=1)
     p = spheres(x, d=2.0 * R, rho=RHO, mu=MU_F * RATE / Ca, poissons_ratio=0.4999)
     _advance(p, analytic.shear_over_wall(RATE), (0.0, 0.0, 0.0), dt, steps)
@@ -135,7 +135,7 @@ def _carried(heights: Floats, Ca: Floats, steps: int, dt: float = 0.02 / RATE) -
 
 
 def _settling(h: float, g: tuple[float, float, float], height: float = np.inf) -> Floats:
-    """Velocity of a stiff sphere of twice the fluid's density in a fluid at rest, m/s.
+    """Return the velocity of a stiff sphere of twice the fluid's density in a fluid at rest, m/s.
 
     The upper wall is ``height`` radii above the lower one, if there is one.
     """

@@ -1,4 +1,4 @@
-"""What the validation compares with: closed forms and solutions by scipy, independent of foamprb's own code.
+"""References of the validation: closed forms and solutions by scipy, independent of foamprb's own code.
 
 Nothing here uses the code that it checks: the integrals are Gauss–Legendre sums, the differential equations
 are solved by :func:`scipy.integrate.solve_ivp`, the steady states by root finding.

@@ -31,7 +31,7 @@ class Integrals(NamedTuple):
 
 
 def integrals(axes: Floats) -> Integrals:
-    """Jeffery's integrals by quadrature.
+    """Return Jeffery's integrals by quadrature.
 
     With λ = g²(1 − s²)/s², g³ = abc, each is a smooth integral over s in (0, 1); 160 Gauss–Legendre nodes
     give it to 1e-12 for axis ratios up to 30.
@@ -55,13 +55,13 @@ def integrals(axes: Floats) -> Integrals:
 
 
 def resistances(axes: Floats) -> Floats:
-    """Principal resistances of an ellipsoid in units of length, K_a = 16π/(χ + α_a r_a²) (Oberbeck 1876)."""
+    """Return principal resistances of an ellipsoid as lengths, K_a = 16π/(χ + α_a r_a²) (Oberbeck 1876)."""
     g = integrals(axes)
     return 16.0 * np.pi / (g.chi + g.first * axes**2)
 
 
 def prolate_resistances(axes: Floats) -> Floats:
-    """π r_min k of the paper's (D.1), (D.2), with λ the ratio of the longest to the shortest semi-axis.
+    """Return π r_min k of the paper's (D.1), (D.2), λ the ratio of longest to shortest semi-axis.
 
     Below λ = 1.01 the printed forms lose their digits; there the spheroid's exact resistances are taken.
     """
@@ -81,14 +81,14 @@ def prolate_resistances(axes: Floats) -> Floats:
 
 
 def diagonal_response(axes: Floats) -> Floats:
-    """The matrix M, (3, 3), of s̃_aa = Σ_b M_ab d_bb for unit viscosity (B.3), (B.5)."""
+    """Return the matrix M, (3, 3), of s̃_aa = Σ_b M_ab d_bb for unit viscosity (B.3), (B.5)."""
     x, y, z = integrals(axes).star
     n = 8.0 / (6.0 * (x * y + y * z + z * x) * np.prod(axes))
     return np.asarray(n * np.array([[2 * x, -y, -z], [-x, 2 * y, -z], [-x, -y, 2 * z]]))
 
 
 def traction_stress(F: Floats, l_f: Floats, l_s: Floats, traction: str = "roscoe") -> Floats:
-    """Roscoe's (or Jeffery's) σ̃/μ_f of a body with deformation gradient F, p = 0, inertial frame.
+    """Return Roscoe's (or Jeffery's) σ̃/μ_f of a body with deformation gradient F, p = 0, inertial frame.
 
     (25) to (27) and Appendix B, with 2 dev d_s − 4/3 tr(d_s) I for the printed 2 d_s.
 
@@ -119,5 +119,5 @@ def traction_stress(F: Floats, l_f: Floats, l_s: Floats, traction: str = "roscoe
 
 
 def symmetric_and_skew(l: Floats) -> tuple[Floats, Floats]:
-    """The symmetric and the skew part of a tensor (3, 3)."""
+    """Return the symmetric and the skew part of a tensor (3, 3)."""
     return 0.5 * (l + l.T), 0.5 * (l - l.T)

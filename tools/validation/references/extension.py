@@ -1,4 +1,4 @@
-"""Steady shapes of a soft sphere in an extension, by root finding; and how it settles there."""
+"""Steady shapes of a soft sphere in extension, by root finding, and its settling."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ EXTENSIONS = {
 
 
 def steady_extension(rates: Floats, Ca: float) -> Floats:
-    """Steady semi-axes (3,) of an incompressible neo-Hooke sphere in an extension.
+    """Return steady semi-axes (3,) of an incompressible neo-Hooke sphere in an extension.
 
     The body is at rest, d_s = 0, and along each principal axis −p + s̃_aa(d_f) = λ_a²/Ca. The branch that
     starts from the sphere is followed in Ca.
@@ -53,7 +53,7 @@ def _balanced(rates: Floats, Ca: float, start: Floats) -> Floats:
 
 
 def steady_compressible_extension(rates: Floats, Ca: float, poissons_ratio: float) -> Floats:
-    """As :func:`steady_extension` for the quasi-incompressible solid (24) of the given Poisson's ratio.
+    """Return :func:`steady_extension` of the quasi-incompressible solid (24) of a Poisson's ratio.
 
     p̃ is 4 (α₀A + β₀B + γ₀C) with p = 0, so that the volume follows from the balance.
     """
@@ -73,7 +73,7 @@ def steady_compressible_extension(rates: Floats, Ca: float, poissons_ratio: floa
 def settling_in_extension(
     K: Floats, mass: float, mu_f: float, rates: Floats, acceleration: Floats, t: float
 ) -> tuple[Floats, Floats]:
-    """Position and velocity (3,) of a body of steady shape released at the origin of u = diag(rates)·x.
+    """Return position and velocity (3,) of a steady body released at the origin of u = diag(rates)·x.
 
     Along each axis x″ + k x′ − k ε̇ x = a with k = μ_f K/m has the solution
     x = a/(k ε̇) · [(r₁ e^{r₂t} − r₂ e^{r₁t})/(r₁ − r₂) − 1], r² + k r − k ε̇ = 0.

@@ -28,7 +28,7 @@ class Surroundings(NamedTuple):
 
 
 def poiseuille(radius: float, mean_velocity: float) -> FlowAt:
-    """u₁ = 2U (1 − r²/a²) in a pipe along x₁."""
+    """Return the flow u₁ = 2U (1 − r²/a²) in a pipe along x₁."""
 
     def flow(x: Floats) -> tuple[Floats, Floats]:
         k = 2.0 * mean_velocity / radius**2
@@ -40,12 +40,12 @@ def poiseuille(radius: float, mean_velocity: float) -> FlowAt:
 
 
 def uniform_gradient(gradient: Floats) -> FlowAt:
-    """u = l·x."""
+    """Return the flow u = l·x."""
     return lambda x: (gradient @ x, gradient)
 
 
 def relaxation_time(R: float, rho: float, mu_f: float) -> float:
-    """ρ_s R²/(15 μ_f), s: of the spin of a rigid sphere, m (2/5) R² over 8π μ_f R³."""
+    """Return ρ_s R²/(15 μ_f), s, the relaxation time of the spin: m (2/5) R² over 8π μ_f R³."""
     return rho * R * R / (15.0 * mu_f)
 
 
@@ -69,7 +69,7 @@ class RigidHistory(NamedTuple):
 def rigid_sphere(
     R: float, rho: float, around: Surroundings, start: Floats, times: Floats, floor: float | None = None
 ) -> RigidHistory:
-    """A rigid sphere released at rest: Stokes drag, weight less buoyancy, and the torque of Stokes flow.
+    """Solve for a rigid sphere released at rest: Stokes drag, weight less buoyancy, Stokes torque.
 
     m dv/dt = 6π μ_f R (u − v) + (ρ_s − ρ_f) vol g, (2/5) m R² dω/dt = 8π μ_f R³ (½ rot u − ω), in a plane.
 
@@ -112,7 +112,7 @@ def _solve(
     rtol: float,
     atol: Floats,
 ) -> tuple[Floats, Floats]:
-    """Times (n,) and states (n, m), up to the landing if there is a floor."""
+    """Return times (n,) and states (n, m), up to the landing if there is a floor."""
 
     def height(_t: float, y: Floats) -> float:
         return float(y[1] - (-np.inf if floor is None else floor))
@@ -163,7 +163,7 @@ def soft_sphere(
     floor: float | None = None,
     tolerance: float = 1e-7,
 ) -> SoftHistory:
-    """A soft sphere with all its inertia, released at rest: the equations of motion (33), implicitly.
+    """Solve implicitly for a soft sphere with inertia, released at rest: equations of motion (33).
 
     Parameters
     ----------

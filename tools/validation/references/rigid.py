@@ -1,4 +1,4 @@
-"""What rigid ellipsoids do in Stokes flow, in closed form or by scipy: independent of foamprb's own code.
+"""Rigid ellipsoids in Stokes flow, in closed form or by scipy: independent of foamprb's own code.
 
 Lengths are in any unit; the shear flow is u₁ = γ̇ x₂ with γ̇ = 1. Vectors are arrays (3,), tensors (3, 3).
 """
@@ -17,12 +17,12 @@ from validation.references import Floats
 
 
 def jeffery_period(ratio: float) -> float:
-    """Period 2π (r + 1/r)/γ̇ of a spheroid's axis in shear, r its aspect ratio (Jeffery 1922)."""
+    """Return the period 2π (r + 1/r)/γ̇ of a spheroid's axis in shear, r its aspect ratio (Jeffery 1922)."""
     return 2.0 * math.pi * (ratio + 1.0 / ratio)
 
 
 def orbit_constant(axis: Floats, ratio: float) -> Floats:
-    """C = tan θ √(cos²φ + sin²φ/r²) of axes (..., 3); θ from the vorticity, φ from the velocity's gradient.
+    """Return C = tan θ √(cos²φ + sin²φ/r²) of axes (..., 3); θ from vorticity, φ from the gradient.
 
     Jeffery's κ as Leal & Hinch (1971) write it; infinite for an axis in the plane of shear.
     """
@@ -32,7 +32,7 @@ def orbit_constant(axis: Floats, ratio: float) -> Floats:
 
 
 def jeffery_axis(start: Floats, ratio: float, times: Floats) -> Floats:
-    """Direction (n, 3) of a spheroid's axis at times (n,) in units of 1/γ̇, from ``start`` at time 0.
+    """Return the direction (n, 3) of a spheroid's axis at times (n,), unit 1/γ̇, from ``start`` at time 0.
 
     p ∝ (r K sin ψ, K cos ψ, p₃), ψ = ψ₀ + t/(r + 1/r): Jeffery's tan φ = r tan ψ with tan θ of his orbit.
     """
@@ -43,7 +43,7 @@ def jeffery_axis(start: Floats, ratio: float, times: Floats) -> Floats:
 
 
 def rigid_axes(semi_axes: Floats, axes: Floats, gradient: Floats, times: Floats) -> Floats:
-    """Axes of a rigid ellipsoid free of torque at times (n,), from time 0, as rows, (n, 3, 3).
+    """Return axes of a rigid ellipsoid free of torque at times (n,), from time 0, as rows, (n, 3, 3).
 
     In its axes the body turns with Ω_ij = w_ij + (a_j² − a_i²)/(a_j² + a_i²) d_ij (Jeffery 1922; for three
     different axes Hinch & Leal 1979), ∂u_i/∂x_j of the rotation being Ω.
@@ -87,7 +87,7 @@ class SpheroidFunctions(NamedTuple):
 
 
 def spheroid_functions(ratio: float) -> SpheroidFunctions:
-    """X^M, Y^M, Z^M, Y^H and Y^C of a prolate spheroid of aspect ratio above 1 (Kim & Karrila 1991).
+    """Return X^M, Y^M, Z^M, Y^H and Y^C of a prolate spheroid of aspect ratio above 1 (Kim & Karrila 1991).
 
     In terms of its eccentricity e and L = ln((1 + e)/(1 − e)).
     """
@@ -106,7 +106,7 @@ def spheroid_functions(ratio: float) -> SpheroidFunctions:
 
 
 def spheroid_stresslet(ratio: float, axis: Floats, gradient: Floats) -> Floats:
-    """Stresslet of a rigid prolate spheroid free of torque, over the viscosity and its volume, (3, 3).
+    """Return the stresslet of a torque-free rigid prolate spheroid over viscosity and volume, (3, 3).
 
     S = (20/3) π μ a³ (X^M E₀ + Y^M E₁ + Z^M E₂) for a spheroid that does not turn against the fluid; free,
     it does, with the spin (Y^H/Y^C) p × (E·p), which takes 4π μ a³ (Y^H)²/Y^C E₁ away. E₀, E₁ and E₂ are the

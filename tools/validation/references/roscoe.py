@@ -24,7 +24,7 @@ class Roscoe(NamedTuple):
 
 
 def _roscoe_integrals(axes: Floats) -> tuple[float, float, float]:
-    """I, J and K of Roscoe (1967) from g₁″, g₂″, g₃″ and g₃′."""
+    """Return I, J and K of Roscoe (1967) from g₁″, g₂″, g₃″ and g₃′."""
     g = integrals(axes)
     g1, g2, g3 = g.star
     n = g2 * g3 + g3 * g1 + g1 * g2
@@ -33,7 +33,7 @@ def _roscoe_integrals(axes: Floats) -> tuple[float, float, float]:
 
 
 def roscoe(a1: float, viscosity_ratio: float = 0.0) -> Roscoe:
-    """Roscoe's solution for the longest semi-axis a₁ > 1, by his algebraic equations.
+    """Return Roscoe's solution for the longest semi-axis a₁ > 1, by his algebraic equations.
 
     R. Roscoe, On the rheology of a suspension of viscoelastic spheres in a viscous liquid, J. Fluid Mech. 28
     (1967) 273–293, as restated for semi-axes of product 1.
@@ -65,7 +65,7 @@ def roscoe(a1: float, viscosity_ratio: float = 0.0) -> Roscoe:
 
 
 def roscoe_at(Ca: float, viscosity_ratio: float = 0.0) -> ShearShape:
-    """Roscoe's solution at a capillary number η₀γ̇/μ₁.
+    """Return Roscoe's solution at a capillary number η₀γ̇/μ₁.
 
     The spin follows from his ν: the steady l_s carries the ellipse into itself, so that in its axes it has
     the components l₁₂ = ν a/b and l₂₁ = −ν b/a, and |ω_s3| = ν (a² + b²)/(2ab).
@@ -83,7 +83,7 @@ def roscoe_at(Ca: float, viscosity_ratio: float = 0.0) -> ShearShape:
 
 
 def roscoe_frequency(a: float, b: float, angle: float) -> float:
-    """Roscoe's ν/γ̇ = (a² + b²)/(2ab) · [1 − (a² − b²)/(a² + b²) cos 2θ]/2, θ in degrees."""
+    """Return Roscoe's ν/γ̇ = (a² + b²)/(2ab) · [1 − (a² − b²)/(a² + b²) cos 2θ]/2, θ in degrees."""
     a2, b2 = a * a, b * b
     return float(
         (a2 + b2) / (2 * a * b) * (1.0 - (a2 - b2) / (a2 + b2) * np.cos(2 * np.radians(angle))) / 2.0

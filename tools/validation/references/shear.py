@@ -16,7 +16,7 @@ from validation.references.ellipsoid import diagonal_response, integrals, symmet
 
 
 def inertialess_rate(F: Floats, l_f: Floats, Ca: float, viscosity_ratio: float = 0.0) -> Floats:
-    """Velocity gradient l_s/γ̇ of an incompressible neo-Hooke body without inertia, (3, 3).
+    """Return the velocity gradient l_s/γ̇ of an incompressible neo-Hooke body without inertia, (3, 3).
 
     The balance σ̃(F, l_s; l_f) = σ(F) solved in the particle frame, where it decouples; a Kelvin–Voigt solid
     adds 2 η_s d_s to its stress.
@@ -58,7 +58,7 @@ def inertialess_rate(F: Floats, l_f: Floats, Ca: float, viscosity_ratio: float =
 def inertialess_history(
     l_f: Floats, Ca: float, times: Floats, viscosity_ratio: float = 0.0, tolerance: float = 1e-11
 ) -> Floats:
-    """Deformation gradients (n, 3, 3) at rising times in units of 1/γ̇, from a sphere at time 0."""
+    """Return deformation gradients (n, 3, 3) at rising times in units of 1/γ̇, from a sphere at time 0."""
 
     def rate(_t: float, y: Floats) -> Floats:
         F = y.reshape(3, 3)
@@ -85,7 +85,7 @@ class ShearShape(NamedTuple):
 
 
 def shear_shape(F: Floats, l_s: Floats) -> ShearShape:
-    """Shape of a body with deformation gradient F and velocity gradient l_s in units of γ̇, each (3, 3)."""
+    """Return the shape of a body with F and velocity gradient l_s in units of γ̇, each (3, 3)."""
     values, vectors = np.linalg.eigh((F @ F.T)[:2, :2])
     b, a = np.sqrt(values)
     c = np.linalg.norm(F[2])
@@ -110,12 +110,12 @@ TRANSIENT_SHAPES = {1.0: (0.4494, 0.6927, 34.86), 3.0: (0.3833, 0.6410, 29.62)}
 
 
 def steady_shear(Ca: float, viscosity_ratio: float = 0.0) -> ShearShape:
-    """Steady shape in simple shear: the end of a long transient of :func:`inertialess_history`."""
+    """Return steady shape in simple shear: the end of a long transient of :func:`inertialess_history`."""
     end = 30.0 + 120.0 * Ca * (1.0 + viscosity_ratio)
     F = inertialess_history(SHEAR, Ca, np.array([end]), viscosity_ratio)
     return shear_shape(F[-1], inertialess_rate(F[-1], SHEAR, Ca, viscosity_ratio))
 
 
 def tank_treading_rate(l_s: Floats) -> float:
-    """Roscoe's ν/γ̇ of a steady body: the eigenvalues of l_s in the plane are ±iν."""
+    """Return Roscoe's ν/γ̇ of a steady body: the eigenvalues of l_s in the plane are ±iν."""
     return float(np.sqrt(np.linalg.det(l_s[:2, :2])))

@@ -35,18 +35,18 @@ class Body(NamedTuple):
 
 
 def stretched(ratios: tuple[float, float, float]) -> Floats:
-    """F₀ of an ellipsoid of unit volume ratio with axes along the coordinates', (3, 3)."""
+    """Return F₀ of an ellipsoid of unit volume ratio with axes along the coordinate axes, (3, 3)."""
     a = np.array(ratios, dtype=float)
     return np.diag(a / np.cbrt(a.prod()))
 
 
 def semi_axes(F: Floats) -> Floats:
-    """Semi-axes (..., 3), in falling order, of what deformation gradients (..., 3, 3) make of the sphere."""
+    """Return semi-axes (..., 3), in falling order, of the images of the sphere under F (..., 3, 3)."""
     return np.asarray(np.linalg.svd(F, compute_uv=False), dtype=np.float64)
 
 
 def disturbance(axes: Floats, g: Integrals) -> Floats:
-    """s̃_ij = T_ijkl l_kl of (B.5) to (B.8) in the particle frame, for unit viscosity, (3, 3, 3, 3).
+    """Return s̃_ij = T_ijkl l_kl of (B.5) to (B.8) in the particle frame, for unit viscosity, (3, 3, 3, 3).
 
     l is the velocity gradient of the fluid relative to the body.
     """
@@ -71,7 +71,7 @@ _ANGLES = 2.0 * np.pi * np.arange(48) / 48
 
 
 def _unit_sphere() -> tuple[Floats, Floats]:
-    """Points (m, 3) and weights (m,), of sum 4π, of a quadrature over the unit sphere."""
+    """Return points (m, 3) and weights (m,), of sum 4π, of a quadrature over the unit sphere."""
     z, phi = np.meshgrid(_COSINES, _ANGLES, indexing="ij")
     r = np.sqrt(1.0 - z**2)
     points = np.stack([r * np.cos(phi), r * np.sin(phi), z], axis=-1).reshape(-1, 3)
@@ -82,7 +82,7 @@ _POINTS, _SOLID_ANGLES = _unit_sphere()
 
 
 def surface_stress(F: Floats) -> Floats:
-    """(R/vol) ∫(I − n n) dA over the surface of the ellipsoid F makes of the unit sphere, (3, 3).
+    """Return (R/vol) ∫(I − n n) dA over the image of the unit sphere under F, (3, 3).
 
     Times γ/R it is the mean Cauchy stress that a tension γ of the surface holds in the body (Batchelor 1970);
     n dA = cof F·ξ dω, by Gauss–Legendre and trapezoidal quadrature.
@@ -95,7 +95,7 @@ def surface_stress(F: Floats) -> Floats:
 
 
 def velocity_gradient(F: Floats, l_f: Floats, body: Body) -> Floats:
-    """Velocity gradient l_s/γ̇ of the body, (3, 3).
+    """Return the velocity gradient l_s/γ̇ of the body, (3, 3).
 
     The nine balances s̃(l_f − l_s) + 2 (1 − η_s/μ_f) d_s − p I = σ, torque included, and tr l_s = 0 are ten
     linear equations for l_s and p.
@@ -126,7 +126,7 @@ def velocity_gradient(F: Floats, l_f: Floats, body: Body) -> Floats:
 def deformation(
     l_f: Floats, body: Body, times: Floats, F: Floats | None = None, tolerance: float = 1e-10
 ) -> Floats:
-    """Deformation gradients (n, 3, 3) at rising times in units of 1/γ̇, from F, or rest, at time 0."""
+    """Return F (n, 3, 3) at rising times in units of 1/γ̇, from F, or rest, at time 0."""
 
     def rate(_t: float, y: Floats) -> Floats:
         G = y.reshape(3, 3)
@@ -140,7 +140,7 @@ def deformation(
 
 
 def steady(l_f: Floats, body: Body, relaxations: float = 25.0) -> Floats:
-    """Deformation gradient of a body that has come to a steady shape, the end of a long transient."""
+    """Return the deformation gradient of a steady body, the end of a long transient."""
     stiffness = 1.0 / body.Ca + 0.8 * body.tension
     end = relaxations * (1.5 + body.viscosity_ratio) / stiffness
     return np.asarray(deformation(l_f, body, np.array([end]))[-1])
@@ -150,7 +150,7 @@ def steady(l_f: Floats, body: Body, relaxations: float = 25.0) -> Floats:
 
 
 def in_plane(F: Floats) -> tuple[Floats, Floats]:
-    """b₁₁ − b₂₂ and 2 b₁₂ of deformation gradients (..., 3, 3): a vector at 2θ, θ the angle to the flow."""
+    """Return b₁₁ − b₂₂ and 2 b₁₂ of F (..., 3, 3): a vector at 2θ, θ the angle to the flow."""
     b = F[..., :2, :] @ np.swapaxes(F[..., :2, :], -1, -2)
     return b[..., 0, 0] - b[..., 1, 1], 2.0 * b[..., 0, 1]
 
@@ -165,7 +165,7 @@ class Passages(NamedTuple):
 
 
 def signed_distance(at: tuple[float, float], slope: tuple[float, float]) -> float:
-    """Distance from the origin of the line through a point, negative if it passes clockwise."""
+    """Return the distance from the origin of the line through a point, negative if it passes clockwise."""
     return float((at[0] * slope[1] - at[1] * slope[0]) / np.hypot(*slope))
 
 
@@ -204,7 +204,7 @@ def passages(Ca: float, ratio: float, end: float = 44.0) -> Passages:
 
 
 def transition(of: Callable[[Passages], float], ratio: float, low: float, high: float) -> float:
-    """Ca between two at which a passage is through zero; NaN if it is not between them."""
+    """Return the Ca between two at which a passage is through zero; NaN if there is none."""
     ends = of(passages(low, ratio)), of(passages(high, ratio))
     if not ends[0] * ends[1] < 0.0:
         return np.nan
@@ -215,7 +215,7 @@ def transition(of: Callable[[Passages], float], ratio: float, low: float, high: 
 
 
 def particle_stress(F: Floats, l_f: Floats, body: Body) -> Floats:
-    """Stresslet over μ_f γ̇ and the volume, from the solid's side: dev σ + 2 (η_s/μ_f − 1) d_s, (3, 3).
+    """Return the stresslet over μ_f γ̇ V on the solid's side: dev σ + 2 (η_s/μ_f − 1) d_s, (3, 3).
 
     Batchelor (1970): ∫(σ·n x − μ_f (u n + n u)) dA over the surface of the particle. In a body of uniform
     stress without inertia the first term is its own stress, and u is that of the solid.
@@ -240,12 +240,12 @@ class Rheology(NamedTuple):
 
 
 def rheology(S: Floats) -> Rheology:
-    """What a stresslet over μ_f γ̇ and the volume, (3, 3), adds to the stress."""
+    """Return the contribution of a stresslet over μ_f γ̇ and the volume, (3, 3), to the stress."""
     return Rheology(float(S[0, 1]), float(S[0, 0] - S[1, 1]), float(S[1, 1] - S[2, 2]))
 
 
 def roscoe_rheology(Ca: float, viscosity_ratio: float = 0.0) -> Rheology:
-    """Steady suspension of viscoelastic spheres, from Roscoe's (1967) algebraic solution alone.
+    """Return steady suspension of viscoelastic spheres, from Roscoe's (1967) algebraic solution alone.
 
     His ellipsoid of semi-axes a₁, a₂, a₃ at the angle θ carries the stress of its stretch, a_i²/Ca, and its
     material goes round with l₁₂ = ν a₁/a₂, l₂₁ = −ν a₂/a₁ in its axes.

@@ -1,4 +1,4 @@
-"""Bodies near a plane no-slip wall, and molecules' pushes: independent of foamprb's own code.
+"""Bodies near a plane no-slip wall, and Brownian motion: independent of foamprb's own code.
 
 The wall is the plane x₃ = 0 with the fluid above it; the fluid's viscosity is 1, and so is, where not said
 otherwise, the radius of the sphere of the body's volume. Vectors are arrays (3,), tensors (3, 3).
@@ -25,7 +25,7 @@ GOLDMAN_COX_BRENNER = ((10.0677, 1.0591), (3.7622, 1.1738), (2.3524, 1.3079), (1
 
 
 def brenner_drag(h: float, terms: int = 200) -> float:
-    """Drag on a sphere that moves towards the wall, over 6πμRU, by the series of Brenner (1961).
+    """Return the drag on a sphere moving towards the wall, over 6πμRU, by Brenner's (1961) series.
 
     (4/3) sinh α Σ n(n+1)/((2n−1)(2n+3)) [(2 sinh mα + m sinh 2α)/(4 sinh²(mα/2) − m² sinh²α) − 1], m = 2n+1,
     with cosh α = h/R.
@@ -50,7 +50,7 @@ the nearer wall (Faxén 1922; Happel & Brenner 1965, 7-4.27 and 7-4.28)."""
 
 
 def slit_mobility(place: str, e: float) -> float:
-    """Mobility of a sphere along two walls over that without, for e = R/h; a place of :data:`SLIT_DRAG`."""
+    """Return the relative mobility of a sphere along two walls, e = R/h, at a place of :data:`SLIT_DRAG`."""
     return 1.0 + float(sum(c * e ** (k + 1) for k, c in enumerate(SLIT_DRAG[place])))
 
 
@@ -58,7 +58,7 @@ def slit_mobility(place: str, e: float) -> float:
 
 
 def lift_coefficient(Ca: float) -> float:
-    """k = v₃ h²/(γ̇ R³) of a neo-Hooke body in steady shear, far above the wall.
+    """Return k = v₃ h²/(γ̇ R³) of a neo-Hooke body in steady shear, far above the wall.
 
     −9 S₃₃/(64π μ γ̇ R³) (Smart & Leighton 1991) with the stresslet of the solid's side
     (:func:`validation.references.soft.particle_stress`).
@@ -69,7 +69,7 @@ def lift_coefficient(Ca: float) -> float:
 
 
 def lifted_height(start: float, k: float, t: float) -> float:
-    """Distance from the wall after γ̇t, (h₀³ + 3 k γ̇t)^{1/3}, of a body that the point stresslet lifts."""
+    """Return the wall distance after γ̇t, (h₀³ + 3 k γ̇t)^{1/3}, of a body lifted by the point stresslet."""
     return float(np.cbrt(start**3 + 3.0 * k * t))
 
 
@@ -77,13 +77,13 @@ def lifted_height(start: float, k: float, t: float) -> float:
 
 
 def stokeslet(r: Floats) -> Floats:
-    """Velocity u_i at r from a unit force along j at the origin, (..., 3, 3), without walls."""
+    """Return the velocity u_i at r from a unit force along j at the origin, (..., 3, 3), without walls."""
     d = np.linalg.norm(r, axis=-1)[..., None, None]
     return np.asarray((IDENTITY / d + r[..., :, None] * r[..., None, :] / d**3) / (8.0 * np.pi))
 
 
 def image(x: Floats, y: Floats) -> Floats:
-    """What the wall adds at x to the Stokeslet at y, (..., 3, 3) (Blake 1971).
+    """Return the image of the Stokeslet at y behind the wall, at x, (..., 3, 3) (Blake 1971).
 
     A Stokeslet at the mirror point turned round, and a source doublet and a Stokes doublet there, of the
     strengths 2h² and 2h, h = y₃.
@@ -145,11 +145,11 @@ class Ellipsoid:
         return f.sum(axis=0), f.T @ self._y
 
     def resistance(self) -> Floats:
-        """Force on the fluid for unit velocities of the body, that does not turn, (3, 3)."""
+        """Return the force on the fluid for unit velocities of the body without rotation, (3, 3)."""
         return np.stack([self.moments(np.tile(e, (len(self.x), 1)))[0] for e in IDENTITY], axis=1)
 
     def free_motion(self, stress: Floats | None, gradient: Floats, force: Floats | None = None) -> Motion:
-        """How the body moves and deforms in the flow u = l·(x − wall), free of torque.
+        """Return motion and deformation of the body in the flow u = l·(x − wall), free of torque.
 
         It deforms affinely, keeps its volume, and carries the stress of its solid: S = V (dev σ − 2 d_s).
 
@@ -193,7 +193,7 @@ def _stresslet(moment: Floats) -> Floats:
 
 
 def _modes() -> list[tuple[Floats, Floats]]:
-    """Velocity and velocity gradient of three translations, three rotations and five strains."""
+    """Return velocity and gradient of three translations, three rotations and five strains."""
     zero = np.zeros((3, 3))
     modes = [(e, zero) for e in IDENTITY]
     pairs = ((2, 1), (0, 2), (1, 0))
@@ -210,7 +210,7 @@ _MODES = _modes()
 
 
 def _even_points(n: int) -> Floats:
-    """Points (n, 3) spread over the unit sphere along a spiral (Fibonacci's)."""
+    """Return points (n, 3) distributed over the unit sphere along a Fibonacci spiral."""
     k = np.arange(n) + 0.5
     z, phi = 1.0 - 2.0 * k / n, np.pi * (1.0 + np.sqrt(5.0)) * k
     r = np.sqrt(1.0 - z * z)
@@ -221,7 +221,7 @@ def _even_points(n: int) -> Floats:
 
 
 def perrin_translation(ratio: float) -> tuple[float, float]:
-    """Resistance of a spheroid along and across its axis, over that of its volume's sphere (Perrin 1936).
+    """Return the relative resistance of a spheroid along and across its axis (Perrin 1936).
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def perrin_translation(ratio: float) -> tuple[float, float]:
 
 
 def perrin_rotation(ratio: float) -> tuple[float, float]:
-    """The same of its rotation about the axis, and about one across (Perrin 1934)."""
+    """Return the relative resistance to rotation about the axis, and about one across (Perrin 1934)."""
     S, b = _perrin(ratio)
     a = ratio * b
     about = 32.0 / 3.0 * (a * a - b * b) * b * b / (2.0 * a - b * b * S)
@@ -245,7 +245,7 @@ def perrin_rotation(ratio: float) -> tuple[float, float]:
 
 
 def _perrin(ratio: float) -> tuple[float, float]:
-    """Perrin's integral S and the semi-axis across, of a spheroid with the volume of the unit sphere."""
+    """Return Perrin's integral S and the semi-axis across, for a spheroid of the unit sphere's volume."""
     b = ratio ** (-1.0 / 3.0)
     a = ratio * b
     e = np.sqrt(abs(a * a - b * b))
@@ -254,7 +254,7 @@ def _perrin(ratio: float) -> tuple[float, float]:
 
 
 def mean_shape_energy(kT: float) -> float:
-    """Mean stored energy, over kT, of an incompressible neo-Hooke body whose shape fluctuates.
+    """Return the mean stored energy over kT of a fluctuating incompressible neo-Hooke body.
 
     The mean of w = ½(λ₁² + λ₂² + λ₃² − 3) over all F of det F = 1 with the weight exp(−w/kT); the measure of
     the stretches is Π |λ_i² − λ_j²| dln λ₁ dln λ₂.
