@@ -155,7 +155,7 @@ def test_spheroids_diffuse_with_perrins_factors(ratio):
 # --- Motion -------------------------------------------------------------------------------------------------
 
 
-def test_ellipsoids_diffuse_along_their_axes_as_einstein_says():
+def test_ellipsoids_diffuse_along_their_axes_with_einsteins_coefficients():
     """⟨Δx²⟩ = 2 kT Δt/(μ K_a) of water's molecules at 293 K, a body of half a micrometre."""
     n, dt, mu, T = 40_000, 1e-3, 1e-3, 293.0
     axes = (0.5e-6, 0.3e-6, 0.2e-6)
@@ -194,7 +194,7 @@ def settle(n, steps, dt, weight, drifting=True):
     return h
 
 
-def test_heights_over_a_wall_are_distributed_as_boltzmann_says():
+def test_heights_over_a_wall_have_boltzmanns_distribution():
     """P(h) ∝ exp(−W (h − R)/kT), although the mobility vanishes at the wall."""
     weight, n = 1.0, 3000
     h = settle(n, 2500, 4e-3, weight)
@@ -205,7 +205,7 @@ def test_heights_over_a_wall_are_distributed_as_boltzmann_says():
 
 
 def test_without_the_drift_particles_gather_at_the_wall():
-    """What the previous test would see of a step with the mobility of its start."""
+    """A step with the mobility of its start, against the previous test."""
     n = 1000
     assert settle(n, 1000, 1e-2, 1.0, drifting=False).mean() - 1.0 < 0.8
 

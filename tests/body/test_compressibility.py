@@ -16,7 +16,7 @@ from foamprb.run.job import prepare
 
 
 @given(st.floats(1e-3, 1e6), st.floats(-0.9, 0.4999))
-def test_bulk_modulus_and_poissons_ratio_say_the_same(mu, ratio):
+def test_bulk_modulus_and_poissons_ratio_are_equivalent(mu, ratio):
     bulk = own.bulk_modulus(mu, ratio)
     assert own.lame_from_bulk_modulus(bulk, mu) == pytest.approx(lame_parameter(mu, ratio), abs=1e-9 * bulk)
 
@@ -39,7 +39,7 @@ def test_the_softest_body_keeps_its_volume(integrator):
     np.testing.assert_allclose(np.linalg.det(p.F.reshape(-1, 3, 3)), 1.0, atol=2e-4)
 
 
-def test_a_solid_that_says_nothing_of_pressure_hardly_yields_to_it(tmp_path):
+def test_default_bulk_modulus_keeps_the_volume(tmp_path):
     case = copy_of_pipe(tmp_path)
     edit(case, r"poissonsRatio\s+\S+;", "")
     edit(case, r"\bCa\s+0.5;", "Ca 20;")

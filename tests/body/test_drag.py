@@ -67,7 +67,7 @@ def test_resistance_grows_with_the_body_and_lies_between_spheres(axes):
 
 
 @given(stretches)
-def test_brenner_prolate_takes_the_body_for_smaller_than_it_is(axes):
+def test_brenner_prolate_underestimates_the_size(axes):
     longest = int(np.argmax(axes))
     exact, surrogate = resistances(oberbeck, *axes), resistances(brenner_prolate, *axes)
     assert surrogate[longest] <= exact[longest] * (1 + 1e-12)

@@ -24,7 +24,7 @@ def test_strain_by_is_the_change_of_b(R, stretch, Omega):
 
 
 @given(st.floats(1e-5, 0.3), st.floats(1e-8, 1e-4))
-def test_an_error_counts_by_the_share_of_the_strain_that_it_is(strain, error):
+def test_an_error_is_relative_to_the_strain(strain, error):
     """b_e = diag(1 + s, 1, 1): an error ε of ln λ₁ is one of 2ε of b_e, over s; a turn by ε counts as ε."""
     b_e = (1.0 + strain, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
     scale = control.strain_scale(b_e, (0.0,) * 9)
@@ -58,7 +58,7 @@ def test_path_errors_are_those_of_the_chord_and_of_the_parabola():
     )
 
 
-def test_the_parabola_is_charged_with_what_velocity_and_acceleration_disagree_by():
+def test_parabola_error_includes_an_inconsistent_acceleration():
     """v = t with an acceleration of 1 + δ: the parabola gives h²/2 + δ h²/6, the chord is exact."""
     h, way, delta = 0.1, 0.02, 0.3
     wrong = (0.0, 0.0, 1.0 + delta)
@@ -111,7 +111,7 @@ def test_next_size():
     stretch=st.integers(1, 32),
     share=st.floats(1e-3, 1.0),
 )
-def test_a_stretch_is_soon_cut_no_more_than_its_errors_ask_for(stretch, share):
+def test_a_stretch_is_soon_limited_by_its_errors_only(stretch, share):
     """Whatever the size was, where nothing speaks against a step as long as all that is left."""
     longest, size = stretch / np.ceil(stretch * share), 1e-3
     for _ in range(40):
@@ -120,7 +120,7 @@ def test_a_stretch_is_soon_cut_no_more_than_its_errors_ask_for(stretch, share):
     assert np.ceil(stretch / size - 1e-9) == np.ceil(stretch / longest - 1e-9)
 
 
-def test_what_counts_after_a_step_of_order_three_is_what_it_found():
+def test_learned_share_follows_from_the_difference_of_orders():
     share = control.learned_share(np.array([0.1, 1.0, 4.0, 9.0, np.inf]), 10.0)
     np.testing.assert_allclose(share, [0.25, 0.25, 0.6, 1.0, 1.0])
 
@@ -158,7 +158,7 @@ def test_the_difference_of_the_two_solutions_is_the_error_of_the_first():
         assert (third < off * second).all()
 
 
-def test_what_is_accepted_has_an_error_below_the_tolerance():
+def test_accepted_steps_have_errors_below_the_tolerance():
     """Steps from far too short to far too long; those that are accepted, with two evaluations or three."""
     shares = []
     for h in (0.02, 0.1, 0.2, 0.4):

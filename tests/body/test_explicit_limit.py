@@ -1,4 +1,4 @@
-"""The longest stable step of the paper's scheme: what it does not depend on."""
+"""The longest stable step of the paper's scheme."""
 
 from __future__ import annotations
 

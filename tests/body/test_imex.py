@@ -78,7 +78,7 @@ def test_newton_with_the_full_tangent_converges_quadratically():
 
 
 @given(st.integers(0, 10_000), st.sampled_from([1e-4, 1e-3, 1e-2, 0.1]))
-def test_fast_step_comes_as_near_to_the_solution_as_it_says(seed, kappa):
+def test_fast_step_error_is_below_its_estimate(seed, kappa):
     random = np.random.default_rng(seed)
     stretch = random.uniform(0.6, 1.6, 3)
     stretch /= np.cbrt(stretch.prod())

@@ -1,4 +1,4 @@
-"""The step with inertia: its rational functions, and what they are functions of."""
+"""The step with inertia: its rational functions and their arguments."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def test_stiff_rate_is_that_of_the_traction(stretch, Y, c, eta):
 
 
 @given(mild_stretches, tensors, tensors, tensors, st.floats(0.1, 10.0), st.floats(0.0, 20.0))
-def test_fluid_changes_what_roscoes_traction_says(stretch, l_f, dl_f, l_s, c, eta):
+def test_fluid_change_is_that_of_roscoes_traction(stretch, l_f, dl_f, l_s, c, eta):
     n, _ = stiffness(stretch, c, eta)
     g = integrals(stretch)
     before, after = (square(roscoe(stretch, g, l, l_s)) for l in (l_f, tuple(np.add(l_f, dl_f))))
@@ -139,7 +139,7 @@ def test_a_slope_counts_for_its_sum_or_a_little_more():
 
 
 @given(mild_stretches, tensors, tensors, st.floats(1e-3, 10.0))
-def test_what_is_resolved_is_what_the_resolvent_is_the_inverse_of(stretch, X, Y, h):
+def test_resolve_inverts_one_less_the_stiff_rate(stretch, X, Y, h):
     n, _ = stiffness(stretch)
     whole = own.resolvent(n, h)
     s = own.resolve(n, whole, (X, Y))

@@ -142,7 +142,7 @@ def test_surface_tension_stress_is_the_derivative_of_the_surface(stretch):
 
 
 def test_surface_tension_of_a_sphere_is_laplaces_pressure():
-    """Without what is taken as part of the rest, τ = 2γ/R I."""
+    """Without the subtracted pressure at rest, τ = 2γ/R I."""
     x, y, z = surface_tension.laplace_stress((1.0, 1.0, 1.0), 3.0)
     np.testing.assert_allclose((x, y, z), 0.0, atol=1e-14)
     # d(γS)/dV = 2γ/R: a sphere of radius λR holds 2γ/(λR), which does work on the volume λ³.
@@ -150,7 +150,7 @@ def test_surface_tension_of_a_sphere_is_laplaces_pressure():
     np.testing.assert_allclose(np.array(swollen) + 6.0, 2 * 3.0 / 1.1 * 1.1**3, rtol=1e-13)
 
 
-def test_surface_tension_stiffens_a_sphere_as_its_elasticity_says():
+def test_surface_tension_stiffens_a_sphere_by_its_elasticity():
     e, h = elasticity((1.0, 1.0, 1.0), 3.0), 1e-4
     bare = elasticity((1.0, 1.0, 1.0))
     for a in range(3):

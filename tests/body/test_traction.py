@@ -54,7 +54,7 @@ def test_linearity_in_the_velocity_gradients(name, axes, a, b, c, d):
 
 
 @given(mild_stretches, tensors)
-def test_a_body_that_moves_with_the_fluid_feels_the_fluids_own_stress(axes, gradient):
+def test_a_body_that_moves_with_the_fluid_has_the_fluids_own_stress(axes, gradient):
     """With l_s = l_f, traceless, the particle disturbs nothing: σ̃ = 2 μ d."""
     d = dev(gradient)
     np.testing.assert_allclose(roscoe(axes, integrals(axes), d, d), 2.0 * np.array(sym(d)), atol=1e-12)
@@ -76,7 +76,7 @@ def test_torque_on_a_rotating_sphere():
 
 
 @pytest.mark.parametrize("r", [1.2, 2.0, 5.0])
-def test_free_rigid_spheroid_turns_as_jeffery_says(r):
+def test_free_rigid_spheroid_follows_jefferys_orbit(r):
     """Zero torque at w_s12 − w_f12 = −(a²−b²)/(a²+b²) d_f12."""
     beta = (r * r - 1) / (r * r + 1)
     gamma = 1.3

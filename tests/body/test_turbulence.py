@@ -25,7 +25,7 @@ def test_a_slip_takes_a_particle_through_the_length_of_an_eddy():
     assert eddy_time(0.0, 0.0) == 0.0
 
 
-def test_what_an_eddy_disperses_does_not_depend_on_the_step():
+def test_dispersion_by_an_eddy_does_not_depend_on_the_step():
     for ratio in (0.01, 0.4, 1.0, 1.4, 2.6, 100.3):
         n, share = lasting(ratio, 1.0)
         assert n == max(1, round(ratio))

@@ -16,7 +16,7 @@ MU_F = 0.7
 
 
 def velocity_gradient(F, M, mu, l_f):
-    """l_s in the inertial frame, and what it was made of."""
+    """l_s in the inertial frame, and its ingredients."""
     Q, axes = principal_frame(flat(F))
     g, R = integrals(axes), square(Q)
     m = stokes.mobility(axes, g, 0.0)

@@ -231,7 +231,7 @@ def test_a_rigid_sphere_lags_and_is_not_lifted():
 
 
 def test_a_body_that_shapes_itself_near_a_wall_has_a_larger_stresslet():
-    """As computed for capsules (Nix et al. 2014): what lacks in the lift is partly made up by the shape."""
+    """As computed for capsules (Nix et al. 2014): the shape partly compensates the smaller lift."""
     Ca, h = 0.1, 2.0
 
     def rate(_t, y):
@@ -348,7 +348,7 @@ def test_ellipsoids_are_hindered_nearly_as_by_the_stokes_flow_around_them(lean, 
     assert abs(found - exact).max() < miss * exact[2, 2]
 
 
-def test_far_from_walls_nothing_is_left_of_them():
+def test_walls_far_away_have_no_effect():
     F = np.diag([1.2, 1.0, 0.9])
     np.testing.assert_allclose(
         resistance_near_wall(F, 1e6), ref.Ellipsoid(F, np.inf).resistance(), rtol=1e-4, atol=1e-3
