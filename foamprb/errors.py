@@ -1,4 +1,4 @@
-"""What foamprb raises for what a user gave, and for a run that ends early."""
+"""Exceptions for mistakes in the input and for runs that end early; suggestions for misspelt words."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from collections.abc import Iterable
 
 
 class InputError(Exception):
-    """A mistake in what the user gave: its message is all that the user needs to see."""
+    """Mistake in the input; its message is complete for the user, without a traceback."""
 
 
 class FailedParticlesWarning(UserWarning):
-    """Particles of a cloud failed: its message says how many, and why the last of them.
+    """Failure of particles of a cloud; the message gives their number and the last reason.
 
-    ``warnings.simplefilter("error", FailedParticlesWarning)`` makes an exception of it.
+    ``warnings.simplefilter("error", FailedParticlesWarning)`` turns it into an exception.
     """
 
 
 class RunStopped(Exception):  # noqa: N818
-    """A run that ended before its end time: its message says why, and how to go on."""
+    """End of a run before its end time; the message gives the reason, and how to continue."""
 
 
 class RunInterrupted(RunStopped):
-    """A run that a signal ended before its end time.
+    """End of a run by a signal before its end time.
 
     Parameters
     ----------
     message
-        Why it ended, and how to go on.
+        Reason, and how to continue.
     signal
-        The number of the signal.
+        Number of the signal.
     """
 
     def __init__(self, message: str, signal: int) -> None:
@@ -41,7 +41,7 @@ class RunInterrupted(RunStopped):
 
 
 class RankError(Exception):
-    """What went wrong on one of the processes of a parallel run; ``trace`` is its traceback, a text."""
+    """Error on one of the processes of a parallel run; ``trace`` is its traceback as text."""
 
     def __init__(self, message: str, trace: str) -> None:
         super().__init__(message)
@@ -52,7 +52,7 @@ class RankError(Exception):
 
 
 def closest(found: str, allowed: Iterable[str]) -> str | None:
-    """Return which of the allowed words was probably meant, None if none is close."""
+    """Return the closest allowed word, or None without a close one."""
     names = sorted(allowed)
     same = [name for name in names if name.lower() == found.lower()]
     close = same or difflib.get_close_matches(found, names, n=1, cutoff=0.6)
@@ -60,12 +60,7 @@ def closest(found: str, allowed: Iterable[str]) -> str | None:
 
 
 def suggestion(found: str, allowed: Iterable[str]) -> str:
-    """Say what is allowed, and which of it was probably meant.
-
-    Returns
-    -------
-    ``"Did you mean 'x'? Allowed: a, x, z."``, without the question when nothing is close.
-    """
+    """Return ``"Did you mean 'x'? Allowed: a, x, z."``, without the question if no word is close."""
     names = sorted(allowed)
     meant = closest(found, names)
     question = f"Did you mean '{meant}'? " if meant else ""

@@ -1,4 +1,4 @@
-"""Memory: how much there is, what asks for it, and what is said where it runs out."""
+"""Memory: available amount, announced needs, and the message on exhaustion."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from pathlib import Path
 __all__ = ["OutOfMemory", "forget", "memory", "ran_out", "require", "require_start", "spoken", "wants"]
 
 START = 1e9
-"""Address space of a run with next to no particles and cells, bytes; a third of it is ever used.
+"""Address space of a run with few particles and cells, bytes; at most a third of it is used.
 
-With much less the libraries cannot be loaded, and what they do then is not for sure.
+With much less the libraries cannot be loaded, and may fail in unpredictable ways.
 """
 
 _wanted: dict[str, tuple[int, float]] = {}
-"""What was asked for last: a number, and bytes of each."""
+"""Announced needs: a number, and bytes of each, by name."""
 
 
 class OutOfMemory(MemoryError):  # noqa: N818
-    """There is not enough memory: the message says for what, how much it needs, and how much there is."""
+    """Memory exhaustion; the message gives the purpose, the need and the available amount."""
 
 
 def memory() -> float:
@@ -32,22 +32,22 @@ def memory() -> float:
 
 
 def wants(what: str, number: int, each: float) -> None:
-    """Say what is about to be asked for, so that a message can name it where memory runs out.
+    """Announce a need for memory, so that a message can name it on exhaustion.
 
     Parameters
     ----------
     what
-        In the plural: ``"particles"``.
+        Name in the plural: ``"particles"``.
     number
-        How many they are.
+        Their number.
     each
-        Bytes for each of them, all in all.
+        Bytes for each of them in total.
     """
     _wanted[what] = number, each
 
 
 def forget() -> None:
-    """Forget what was asked for: another command begins."""
+    """Forget announced needs, at the start of another command."""
     _wanted.clear()
 
 
@@ -62,9 +62,9 @@ def require_start() -> None:
 
 
 def require(size: float) -> None:
-    """Raise OutOfMemory if so many bytes are more than the limit of this process' address space has left.
+    """Raise OutOfMemory if the limit of this process' address space leaves fewer bytes.
 
-    A library that is denied memory may end the process by itself, which cannot be told afterwards.
+    A library that fails to allocate memory may end the process itself, without a message.
     """
     limit = _limit(resource.RLIMIT_AS)
     if limit and size > limit - _taken():
@@ -72,7 +72,7 @@ def require(size: float) -> None:
 
 
 def ran_out(error: BaseException | None) -> OutOfMemory | None:
-    """Return what is to be said of an error if its reason is that memory ran out, else None."""
+    """Return the OutOfMemory for an error caused by memory exhaustion, else None."""
     seen: list[BaseException] = []
     while error is not None and error not in seen:
         if isinstance(error, OutOfMemory):
@@ -85,7 +85,7 @@ def ran_out(error: BaseException | None) -> OutOfMemory | None:
 
 
 def spoken(size: float) -> str:
-    """A size in bytes, with its unit."""
+    """Return a size in bytes as text with a unit."""
     for unit, factor in (("TB", 1e12), ("GB", 1e9)):
         if size >= factor:
             return f"{size / factor:.3g} {unit}"
@@ -98,7 +98,7 @@ def _message() -> str:
     need = sum(number * each for number, each in _wanted.values())
     if _limit(resource.RLIMIT_AS):
         need += START
-    # Others may have taken some of what there is.
+    # Other processes may use part of the memory.
     needs = f"about {spoken(need)}" if need > there else f"more than {spoken(there)}"
     return (
         f"not enough memory for {names}; needs {needs}, and there are {spoken(there)}."
@@ -108,7 +108,7 @@ def _message() -> str:
 
 
 def _taken() -> float:
-    """Address space of this process, bytes; 0 where the system does not say."""
+    """Return the address space of this process, bytes; 0 if unknown."""
     with suppress(OSError):
         pages = Path("/proc/self/statm").read_text().split()[0]
         return float(int(pages) * os.sysconf("SC_PAGE_SIZE"))
@@ -116,7 +116,7 @@ def _taken() -> float:
 
 
 def _limit(kind: int) -> float:
-    """A limit of this process, 0 for none."""
+    """Return a limit of this process, 0 without a limit."""
     limit, _ = resource.getrlimit(kind)
     return 0.0 if limit == resource.RLIM_INFINITY else float(limit)
 
@@ -125,10 +125,10 @@ def _is_of_memory(error: BaseException) -> bool:
     if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return True
     if isinstance(error, SystemError) and _limit(resource.RLIMIT_AS):
-        # Python could not even make the exception.
+        # Python could not allocate the exception itself.
         return True
     text = str(error)
-    # Of the loader of shared libraries, and of Python's threads.
+    # Messages of the loader of shared libraries and of Python's threads.
     return (isinstance(error, ImportError | OSError) and "failed to map segment" in text) or (
         isinstance(error, RuntimeError) and "can't start new thread" in text
     )

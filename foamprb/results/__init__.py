@@ -1,1 +1,1 @@
-"""What a run leaves on disk: clouds for ParaView and tables."""
+"""Results of a run on disk: clouds for ParaView and tables."""

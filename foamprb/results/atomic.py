@@ -1,4 +1,4 @@
-"""Files that are written in one step: they exist whole or not at all."""
+"""Atomic writing of files: a file exists completely or not at all."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """Give a temporary file to write; when the context ends without an error it becomes ``path`` in one step.
+    """Yield a temporary file, renamed to ``path`` if the context ends without an error.
 
-    Even after a full disk or a killed process ``path`` holds either what it held before or all of what was
-    written. The folder of ``path`` is made if it is absent. An error inside the context removes the temporary
-    file; a killed process leaves it behind, and :func:`remove_unfinished` removes it.
+    Even after a full disk or a killed process ``path`` has either its previous contents or all of the new
+    ones. The folder of ``path`` is made if absent. An error inside the context removes the temporary file;
+    after a killed process :func:`remove_unfinished` removes it.
 
     Yields
     ------
-    The temporary file, empty, in the folder of ``path``: on one file system, where renaming is one step.
+    The empty temporary file in the folder of ``path``: on one file system, where renaming is atomic.
 
     Raises
     ------
@@ -40,22 +40,21 @@ def atomic_write(path: Path) -> Iterator[Path]:
         yield temporary
         _flush(temporary, os.O_RDWR)
         temporary.replace(path)
-        # Without this the new name itself may be lost when the power fails.
+        # Without this a power failure may lose the new name itself.
         _flush(path.parent, os.O_RDONLY)
     except BaseException as error:
         temporary.unlink(missing_ok=True)
         if isinstance(error, OSError) and error.errno and error.filename in (None, temporary, str(temporary)):
-            # A write does not know its file, and the temporary one means nothing to the user.
+            # The error of a write names no file, and the temporary one is of no use to the user.
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
 
 def forget(path: Path) -> None:
-    """Let the operating system give up its copy in memory of a file that is on disk.
+    """Drop a file from the page cache of the operating system.
 
-    Before the next file of a series is written, this is where its memory comes from: to take memory that was
-    not in use can cost several times what the copy does. Advice, which not all file systems take; a file that
-    is not there has no copy.
+    The next file of a series reuses this memory; allocation of unused memory can cost several times as much
+    as the copy. This is advice, ignored by some file systems. A missing file is ignored.
     """
     with suppress(OSError):
         descriptor = os.open(path, os.O_RDONLY)
@@ -66,7 +65,7 @@ def forget(path: Path) -> None:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove the temporary files that killed processes left in a folder, if there is one."""
+    """Remove the temporary files of killed processes in a folder, if it exists."""
     for file in tuple(folder.iterdir()) if folder.is_dir() else ():
         if _TEMPORARY.fullmatch(file.name):
             file.unlink(missing_ok=True)
@@ -74,14 +73,14 @@ def remove_unfinished(folder: Path) -> None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Lock a folder, which is made if it is absent, for this process; the lock ends with the process.
+    """Lock a folder, made if absent, for this process; the lock ends with the process.
 
     Raises
     ------
     InputError
         If another process has locked the folder.
     OSError
-        If there can be no such folder.
+        If the folder cannot be made.
     """
     folder.mkdir(parents=True, exist_ok=True)
     descriptor = os.open(folder, os.O_RDONLY)
@@ -91,7 +90,7 @@ def only_writer(folder: Path) -> Iterator[None]:
         except BlockingIOError as error:
             raise InputError(f"{folder}: another run is writing here.") from error
         except OSError:
-            # Some network file systems have no locks; the run is as good without.
+            # Some network file systems have no locks; the run continues without.
             pass
         yield
     finally:

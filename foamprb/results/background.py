@@ -1,4 +1,4 @@
-"""Files that are written in a second thread while the particles advance."""
+"""Background thread for output during the run."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Self
 
 
 class Writer:
-    """A thread that does one piece of work at a time, in the order in which they come.
+    """Thread that executes one task at a time, in order of submission.
 
-    Never more than one piece is unfinished, which bounds the memory that they need: :meth:`begin` waits for
-    the piece before. An error in the thread is raised by the next call of any method, once.
+    At most one task is unfinished, which bounds the memory: :meth:`begin` waits for the previous task. The
+    next call of any method raises an error of the thread, once.
 
-    It is a context: at its end the last piece is finished, or its error raised; if the context ends with an
-    error of its own, that one is raised.
+    At the end of the context the last task is finished, or its error raised; an error of the context itself
+    takes precedence.
     """
 
     def __init__(self) -> None:
@@ -23,17 +23,17 @@ class Writer:
         self._unfinished: Future[object] | None = None
 
     def begin(self, work: Callable[[], object]) -> None:
-        """Begin a piece of work, once the one before is done."""
+        """Start a task after the previous one."""
         self.finish()
         self._unfinished = self._thread.submit(work)
 
     def check(self) -> None:
-        """Raise the error of the last piece if there was one, without waiting."""
+        """Raise the error of the last task, if any, without waiting."""
         if self._unfinished is not None and self._unfinished.done():
             self.finish()
 
     def finish(self) -> None:
-        """Wait until the last piece is done."""
+        """Wait for the last task."""
         if self._unfinished is not None:
             unfinished, self._unfinished = self._unfinished, None
             unfinished.result()
@@ -48,5 +48,5 @@ class Writer:
             if error is None:
                 self.finish()
         finally:
-            # After the run no thread may write to its folder.
+            # No thread may write to the folder after the run.
             self._thread.shutdown(wait=True)

@@ -1,10 +1,9 @@
 """Checkpoints: files of a header and arrays, with a checksum.
 
-A file is one line that names format and version, the header as one line of JSON, the arrays as numpy's
-``.npy`` one after the other in the order of the header's ``arrays``, and XXH3, of 64 bits, of all that. Where
-all rows of an array are alike, as in many of a cloud's, the file has one of them, and the header's ``rows``
-says how many there are. The last two files stay on disk, so that a run can resume when one of them is
-damaged.
+A file contains one line with format and version, the header as one line of JSON, the arrays as numpy's
+``.npy`` in the order of the header's ``arrays``, and the 64-bit XXH3 checksum of all this. If all rows of an
+array are equal, the file has one of them, and the header's ``rows`` their number. The last two files stay on
+disk, so that a run can resume if one of them is damaged.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ log = logging.getLogger("foamprb")
 
 VERSION = 7
 MOST_FILES = 2
-"""Checkpoints that stay on disk."""
+"""Number of checkpoints on disk."""
 
 _FORMAT = b"foamprb checkpoint "
 _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
@@ -37,13 +36,13 @@ _SUM_BYTES = 8
 _LONGEST_VERSION = 8
 # Bytes copied at a time.
 _CHUNK = 1 << 20
-# Rows that are compared before all are.
+# Rows compared first, before all rows are.
 _FIRST = 1000
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A state at a time, s: a header of what JSON can hold, and arrays by name."""
+    """State at a time, s: a header of JSON values, and arrays by name."""
 
     time: float
     header: Mapping[str, Any]
@@ -51,16 +50,16 @@ class Checkpoint:
 
 
 class DamagedError(Exception):
-    """A file that is not, or no longer, a whole checkpoint; the message says by what it is known."""
+    """Incomplete or damaged checkpoint; the message gives the reason."""
 
 
 class Checkpoints:
-    """The files ``<time>.checkpoint`` in a folder.
+    """Files ``<time>.checkpoint`` in a folder.
 
     Parameters
     ----------
     folder
-        Where the files are; made when the first is written.
+        Folder of the files; made with the first.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -68,17 +67,17 @@ class Checkpoints:
         remove_unfinished(folder)
 
     def files(self) -> dict[float, Path]:
-        """The files by their times, s, whole or not, the latest last."""
+        """Return the files by their times, s, intact or not, the latest last."""
         found = tuple(self.folder.iterdir()) if self.folder.is_dir() else ()
         times = {float(match[1]): file for file in found if (match := _NAME.fullmatch(file.name))}
         return dict(sorted(times.items()))
 
     def file(self, time: float) -> Path:
-        """The file of a checkpoint at a time, s."""
+        """Return the file of a checkpoint at a time, s."""
         return self.folder / f"{time:.12g}.checkpoint"
 
     def write(self, checkpoint: Checkpoint) -> Path:
-        """Write a checkpoint, and remove those before the last two.
+        """Write a checkpoint, and remove all but the last two.
 
         Raises
         ------
@@ -94,12 +93,12 @@ class Checkpoints:
         return path
 
     def latest(self) -> Checkpoint | None:
-        """Read the latest that is whole, and remove the damaged that are later; None if there is none.
+        """Read the latest intact checkpoint, and remove later damaged ones; None without any.
 
         Raises
         ------
         InputError
-            If all are damaged, or the latest whole one is of another version.
+            If all are damaged, or the latest intact one is of another version.
         """
         files = self.files()
         for time, file in sorted(files.items(), reverse=True):
@@ -145,14 +144,14 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """Read a checkpoint, after making sure that every byte is as it was written.
+    """Verify the checksum of a checkpoint and read it.
 
     Raises
     ------
     DamagedError
         If not.
     InputError
-        If it is whole, but of another version.
+        If it is intact, but of another version.
     """
     with path.open("rb") as file:
         _check(file)
@@ -170,19 +169,19 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
 
 def is_one_row(array: NDArray[Any]) -> bool:
-    """Whether a contiguous array has more than one row, and all are alike to the last bit."""
+    """Return whether a contiguous array has more than one row, all equal to the last bit."""
     if array.ndim == 0 or len(array) < 2 or not array.size or array.itemsize not in (1, 2, 4, 8):
         return False
     bits = array.view(f"u{array.itemsize}")
-    # Most that differ do so soon, or at the end.
+    # Most arrays with different rows differ early, or at the end.
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
 
 
 class _Summed:
-    """Writes to a file, and computes the checksum of what was written.
+    """Writer that computes the checksum of its output.
 
-    It finds what disks and killed processes do to a file, and takes a sixth of the time that writing does.
-    zlib's CRC-32 would take as long as writing, and a cryptographic one longer.
+    XXH3 detects damage by disks and killed processes in a sixth of the time of writing. zlib's CRC-32 would
+    take as long as writing, and a cryptographic checksum longer.
     """
 
     def __init__(self, file: IO[bytes]) -> None:
@@ -194,14 +193,14 @@ class _Summed:
         self.file.write(data)
 
     def write_array(self, array: NDArray[Any]) -> None:
-        """Write a contiguous array as ``.npy``, without a copy of it."""
+        """Write a contiguous array as ``.npy``, without a copy."""
         np.lib.format.write_array_header_1_0(self, np.lib.format.header_data_from_array_1_0(array))
         if array.size:
             self.write(array.reshape(-1).view(np.uint8).data)
 
 
 def _check(file: IO[bytes]) -> None:
-    """Compare the checksum at the end with the bytes before it; leave the file at its beginning."""
+    """Compare the checksum at the end with the bytes before it, and rewind the file."""
     if file.read(len(_FORMAT)) != _FORMAT:
         raise DamagedError("it does not begin as a checkpoint does")
     size = file.seek(0, os.SEEK_END)

@@ -1,4 +1,4 @@
-"""OpenFOAM's files: fields on a mesh, and clouds of particles."""
+"""Files of OpenFOAM: fields on a mesh, and clouds of particles."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ Floats = NDArray[np.float64]
 
 
 class PatchValues(NamedTuple):
-    """What a field is on a patch."""
+    """Boundary condition and values of a field on a patch."""
 
     type: str
-    """``calculated``, or that of a patch whose type says it all."""
+    """``calculated``, or the type of a constraint patch."""
     values: Floats | None = None
-    """One for each face."""
+    """One value per face."""
 
 
 def write_scalar_field(
@@ -39,7 +39,7 @@ def write_scalar_field(
     dimensions
         Exponents of kg, m, s, K, mol, A, cd.
     cells
-        Values, one for each cell.
+        One value per cell.
     patches
         By their names, in the order of the mesh.
 
@@ -73,14 +73,14 @@ def _key(name: str) -> str:
 
 _CLASSES = {1: "scalarField", 3: "vectorField", 6: "symmTensorField", 9: "tensorField"}
 _SYMMETRIC = [0, 3, 5, 1, 4, 2]
-"""Where xx xy xz yy yz zz stand among xx yy zz xy yz xz."""
+"""Indices of xx xy xz yy yz zz among xx yy zz xy yz xz."""
 
 
 _GEOMETRY = "geometry        positions;\n"
 
 
 def remove_lagrangian(case: Path, cloud: str) -> None:
-    """Remove what :func:`write_lagrangian` has left of a cloud at all times of a case, and nothing else.
+    """Remove the files of :func:`write_lagrangian` for a cloud at all times of a case, and nothing else.
 
     Raises
     ------
@@ -88,14 +88,14 @@ def remove_lagrangian(case: Path, cloud: str) -> None:
         If a file cannot be removed.
     """
     for own in case.glob(f"[0-9]*/uniform/lagrangian/{cloud}/cloudProperties"):
-        # OpenFOAM's own have more to say.
+        # OpenFOAM's own files have more entries.
         if not own.read_text(encoding="utf-8", errors="replace").endswith(f"}}\n\n{_GEOMETRY}"):
             continue
         time = own.parents[3]
         shutil.rmtree(time / "lagrangian" / cloud, ignore_errors=True)
         shutil.rmtree(own.parent)
         for folder in ("lagrangian", "uniform/lagrangian", "uniform", "."):
-            # That has nothing else in it.
+            # The folder contains nothing else.
             with suppress(OSError):
                 (time / folder).rmdir()
 
@@ -103,9 +103,9 @@ def remove_lagrangian(case: Path, cloud: str) -> None:
 def write_lagrangian(
     folder: Path, points: Floats, cells: NDArray[np.int64], arrays: Mapping[str, NDArray[Any]]
 ) -> None:
-    """Write a cloud as OpenFOAM writes its own, plain text: ``positions``, and a file for each array.
+    """Write a cloud in OpenFOAM's ascii format: ``positions``, and a file per array.
 
-    Beside it ``<time>/uniform/lagrangian/<cloud>/cloudProperties`` says that these are positions.
+    ``<time>/uniform/lagrangian/<cloud>/cloudProperties`` declares them as positions.
 
     Parameters
     ----------
@@ -114,10 +114,10 @@ def write_lagrangian(
     points
         Positions, (n, 3), m.
     cells
-        The cell of the mesh that holds each of them.
+        Cell of each particle.
     arrays
-        Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9; of other arrays OpenFOAM
-        has no files, and they are left out. A value that is no number is written as 0.
+        Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9; OpenFOAM has no files for
+        other shapes, which are left out. NaN and infinity are written as 0.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def write_lagrangian(
     time = folder.parents[1]
     own = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
     with atomic_write(own) as temporary:
-        # Without it OpenFOAM would look for barycentric coordinates, and find no particles.
+        # Without it OpenFOAM expects barycentric coordinates, and finds no particles.
         head = _header("dictionary", str(own.parent.relative_to(time.parent)), own.name)
         temporary.write_text(head + _GEOMETRY, encoding="utf-8")
     n = len(points)

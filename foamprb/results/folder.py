@@ -1,4 +1,4 @@
-"""The folder of one cloud's results: where it lies, and the names of the files in it."""
+"""Folder of one cloud's results, and the names of its files."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
 KINDS = ("csv", "parquet")
-"""The kinds of tables, which are the endings of their files."""
+"""Kinds of tables, the suffixes of their files."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
 _ROOT = "postProcessing"
 HOW = "Run the particles first: foamprb run."
@@ -24,7 +24,7 @@ HOW = "Run the particles first: foamprb run."
 
 @dataclass(frozen=True, order=True)
 class ResultsFolder:
-    """The folder of one cloud's results, ``postProcessing/[<region>/]<cloud>`` in a case.
+    """Folder of one cloud's results, ``postProcessing/[<region>/]<cloud>`` in a case.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ class ResultsFolder:
 
     @classmethod
     def of_case(cls, case: Path, cloud: str, region: str = "") -> ResultsFolder:
-        """Return the folder that a run of a cloud writes into."""
+        """Return the folder for the results of a cloud."""
         return cls(case / _ROOT / region / cloud, cloud, region)
 
     @classmethod
     def find(cls, case: Path, cloud: str | None = None, region: str = "") -> ResultsFolder:
-        """Find the results that runs left in a case.
+        """Find the results of runs in a case.
 
         Parameters
         ----------
@@ -61,7 +61,7 @@ class ResultsFolder:
         Raises
         ------
         InputError
-            If there are no such results, or those of several clouds or regions.
+            If there are no such results, or several clouds or regions have results.
         """
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")
@@ -90,42 +90,42 @@ class ResultsFolder:
 
     @property
     def pvd(self) -> Path:
-        """List of the snapshots; ParaView opens it."""
+        """Return the list of the snapshots, for ParaView."""
         return self.path / f"{self.cloud}.pvd"
 
     @property
     def state(self) -> Path:
-        """ParaView's state, which shows the bodies."""
+        """Return ParaView's state, which shows the bodies."""
         return self.path / f"{self.cloud}.py"
 
     @property
     def record(self) -> Path:
-        """Description of the run."""
+        """Return the description of the run."""
         return self.path / RECORD
 
     @property
     def checkpoints(self) -> Path:
-        """Folder of the checkpoints."""
+        """Return the folder of the checkpoints."""
         return self.path / CHECKPOINTS
 
     @property
     def page(self) -> Path:
-        """Page of ``foamprb view``."""
+        """Return the page of ``foamprb view``."""
         return self.path / f"{self.cloud}.html"
 
     @property
     def report(self) -> Path:
-        """Page of ``foamprb report``."""
+        """Return the page of ``foamprb report``."""
         return self.path / "report.html"
 
     @property
     def tracks(self) -> Path | None:
-        """Paths that the cloud function ``particleTracks`` wrote; None without them."""
+        """Return the paths of the cloud function ``particleTracks``; None without them."""
         return min(self.path.glob("*/tracks.vtp"), default=None)
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Names of the tables on disk, without endings: ``fates``, ``exposure/exposure``, …."""
+        """Return the names of the tables on disk, without suffix: ``fates``, ``exposure/exposure``, …."""
         patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
         found = {file.relative_to(self.path) for pattern in patterns for file in self.path.glob(pattern)}
         return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
@@ -139,12 +139,12 @@ class ResultsFolder:
         return next((file for kind in KINDS if (file := self.table(name, kind)).exists()), None)
 
     def snapshot(self, index: int) -> Path:
-        """Return the file of the snapshot with an index, without its ending."""
+        """Return the file of the snapshot with an index, without suffix."""
         return self.path / f"{self.cloud}_{index:06d}"
 
 
 def fault_of_function(name: str, cloud: str) -> str:
-    """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
+    """Return why a name is not valid for a cloud function and its folder; empty if it is."""
     series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     tables = {f"{table}.{kind}" for table in (FATES, FAILURES) for kind in KINDS}
     if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
@@ -153,7 +153,7 @@ def fault_of_function(name: str, cloud: str) -> str:
 
 
 def _written(case: Path) -> Iterator[ResultsFolder]:
-    """Give the folders of the clouds that runs have written in a case."""
+    """Yield the folders of the clouds with results in a case."""
     for pvd in (case / _ROOT).glob("*/*.pvd"):
         if pvd.stem == pvd.parent.name:
             yield ResultsFolder(pvd.parent, pvd.stem)

@@ -1,4 +1,4 @@
-"""The list of the files that a run writes: what a later run may remove, and nothing else."""
+"""List of the files of a run: the only files that a later run may remove."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ FORMAT = 1
 
 
 class Manifest:
-    """The files that a run has written into its folder, and those that it is about to write.
+    """Files that a run has written, or is about to write, into its folder.
 
-    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that no
-    file is left unlisted, whatever ends the run; one that is listed may be missing.
+    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that every
+    file is listed after any end of the run; a listed file may be missing.
 
     Parameters
     ----------
     folder
         The run's folder.
     files
-        What is listed at first.
+        Initial list.
     """
 
     def __init__(self, folder: Path, files: Iterable[Path] = ()) -> None:
@@ -37,12 +37,12 @@ class Manifest:
 
     @property
     def path(self) -> Path:
-        """The file that lists the others, not itself."""
+        """Return the file of the list, which does not list itself."""
         return self.folder / MANIFEST
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Read what a run has listed in its folder; nothing if there is no manifest.
+        """Read the list of a folder; empty without a manifest.
 
         Raises
         ------
@@ -58,10 +58,9 @@ class Manifest:
         return manifest
 
     def expect(self, files: Iterable[Path]) -> None:
-        """List files that are about to be written, in one step.
+        """List files before they are written, atomically.
 
-        Those of the last call that are not there now are no longer listed: they were not written, or are
-        removed.
+        Missing files of the previous call are dropped from the list: they were not written, or are removed.
 
         Raises
         ------
@@ -77,7 +76,7 @@ class Manifest:
             temporary.write_text(f"{text}\n", encoding="utf-8")
 
     def remove(self, files: Iterable[Path]) -> None:
-        """Remove listed files, in order, and the folders that are empty then.
+        """Remove listed files, in order, and folders that become empty.
 
         Raises
         ------
@@ -93,7 +92,7 @@ class Manifest:
 
 
 def _names(content: Any) -> list[str]:
-    """The names that a manifest holds; ValueError if it is not as it was written."""
+    """Return the names in a manifest; raise ValueError if it is damaged."""
     if not isinstance(content, dict) or not isinstance(content.get("files"), list):
         raise ValueError("it is no list of files.")
     if content.get("format") != FORMAT:

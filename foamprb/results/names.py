@@ -1,7 +1,7 @@
-"""Names from settings and meshes that become file names: allowed characters, and escapes for the others.
+"""File names from names in settings and meshes: allowed characters, and escapes for the others.
 
-Users name clouds, cloud functions, injection models and regions; a mesh names patches. No such name may lead
-out of the folder of the results.
+Settings name clouds, cloud functions, injection models and regions; a mesh names patches. No such name may
+lead out of the folder of the results.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 
 
 def fault_of_word(name: str) -> str:
-    """Return why a name cannot be a word of OpenFOAM and a file name; empty if it can."""
+    """Return why a name is not a valid OpenFOAM word and file name; empty if it is."""
     if not name:
         return "it is empty"
     if found := _NO_WORD.search(name):
@@ -34,7 +34,7 @@ def fault_of_word(name: str) -> str:
 def file_name(name: str) -> str:
     """Return a file name: the name itself if it is a word, else with escapes such as ``%2F`` for ``/``.
 
-    Different names stay different.
+    Different names have different file names.
     """
     if not fault_of_word(name) and "%" not in name:
         return name

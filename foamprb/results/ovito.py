@@ -1,4 +1,4 @@
-"""A cloud over time as a dump of LAMMPS, which OVITO shows as ellipsoids."""
+"""LAMMPS dump of a cloud over time, shown by OVITO as ellipsoids."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _LEAST = 1e-300
 
 
 def write_dump(path: Path, clouds: Iterable[PointCloud]) -> None:
-    """Write the clouds of all times into one text file, in one step.
+    """Write the clouds of all times into one text file, atomically.
 
-    Each body is an ellipsoid with the diameters ``shapex`` to ``shapez`` along axes that the quaternion
-    turns; its ``type`` is 1 more than the number of its injection model. Lengths are in µm, in which bodies
-    have sizes that OVITO shows; times are in s.
+    Each body is an ellipsoid with the diameters ``shapex`` to ``shapez`` along axes rotated by the
+    quaternion. Its ``type`` is the index of its injection model plus 1. Lengths are in µm, a scale suitable
+    for OVITO, times in s.
 
     Raises
     ------

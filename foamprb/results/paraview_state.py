@@ -1,4 +1,4 @@
-"""The state of ParaView that lies beside the results of a run: ``<cloud>.py``, for File > Load State."""
+"""ParaView state beside the results of a run: ``<cloud>.py``, for File > Load State."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ simple.Render(view)
 
 
 def write_state(path: Path, name: str) -> None:
-    """Write the state for the cloud of a name, in one step.
+    """Write the state for a cloud, atomically.
 
     Raises
     ------

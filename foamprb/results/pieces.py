@@ -1,4 +1,4 @@
-"""What PyVista lacks to read a cloud that several processes wrote; it finds it among its entry points."""
+"""PyVista reader for clouds of several processes, registered as an entry point."""
 
 from __future__ import annotations
 
@@ -7,6 +7,6 @@ from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
 
 
 class XMLPPolyDataReader(BaseReader, PointCellDataSelection):  # type: ignore[misc]
-    """Reads ``.pvtp`` files by VTK's reader of that name."""
+    """Reader of ``.pvtp`` files by VTK's reader."""
 
     _vtk_class = vtkXMLPPolyDataReader

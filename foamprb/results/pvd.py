@@ -1,4 +1,4 @@
-"""The files of a cloud over time: one ``.vtp`` or ``.pvtp`` per time, and the ``.pvd`` that lists them."""
+"""Files of a cloud over time: one ``.vtp`` or ``.pvtp`` per time, and their list, the ``.pvd``."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """A cloud's file and those of its pieces, if it has any, whether they are there or not."""
+    """Return a cloud's file and the files of its pieces, existing or not."""
     if path.suffix != ".pvtp" or not path.exists():
         return (path,)
     root = ElementTree.fromstring(path.read_bytes())
@@ -24,22 +24,22 @@ def files_of(path: Path) -> tuple[Path, ...]:
 
 
 class Entry(NamedTuple):
-    """One line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
+    """Line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
 
     time: float
     file: str
 
 
 class Series:
-    """The files ``<name>_<index>.vtp`` of one cloud and the ``<name>.pvd`` that lists them with their times.
+    """Files ``<name>_<index>.vtp`` of one cloud and their list with times, ``<name>.pvd``.
 
-    A cloud that several processes write is a ``.pvtp``, with pieces in a folder of the same name. At any
-    moment the ``.pvd`` on disk names whole files only.
+    A cloud of several processes is a ``.pvtp``, with pieces in a folder of the same name. At any time the
+    ``.pvd`` on disk names complete files only.
 
     Parameters
     ----------
     folder
-        Folder of the files; made when the first is written.
+        Folder of the files; made with the first.
     """
 
     def __init__(self, folder: ResultsFolder) -> None:
@@ -68,7 +68,7 @@ class Series:
         return file
 
     def next(self, time: float) -> Path:
-        """The file for the cloud of a time, s, without its ending.
+        """Return the file for the cloud at a time, s, without suffix.
 
         Raises
         ------
@@ -82,7 +82,7 @@ class Series:
         return self.folder.snapshot(index)
 
     def add(self, time: float, file: Path) -> None:
-        """List a file that is whole, named by :meth:`next`.
+        """List a complete file, named by :meth:`next`.
 
         Raises
         ------
@@ -92,12 +92,12 @@ class Series:
         self._list((*self.entries, Entry(float(time), file.name)))
 
     def relist(self, entries: Sequence[Entry]) -> None:
-        """List clouds that an earlier run has written, in order of time, and no others.
+        """List clouds of an earlier run, in order of time, and no others.
 
         Raises
         ------
         OSError
-            If the list cannot be written, or removed when it is empty.
+            If the list cannot be written, or removed if empty.
         """
         if entries:
             self._list(tuple(entries))
@@ -112,12 +112,12 @@ class Series:
 
 
 def with_ending(stem: Path, ending: str) -> Path:
-    """The file of a cloud, of whose name a dot may be a part; ``ending`` is ``.vtp`` or ``.pvtp``."""
+    """Return the file of a cloud, whose name may contain a dot; ``ending`` is ``.vtp`` or ``.pvtp``."""
     return stem.with_name(stem.name + ending)
 
 
 def read_pvd(path: Path) -> tuple[Entry, ...]:
-    """Read the times and files that a ``.pvd`` lists.
+    """Read the times and files of a ``.pvd``.
 
     Returns
     -------

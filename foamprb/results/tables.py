@@ -22,7 +22,7 @@ from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
-# Rows converted to text at a time: their pieces stay in the cache, without which it takes half as long again.
+# Rows converted to text at a time: their pieces fit in the cache.
 _CHUNK = 2048
 
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
@@ -32,7 +32,7 @@ _SPECIAL = re.compile(r'[,"\r\n]')
 
 
 def require_kind(kind: str) -> None:
-    """Raise InputError if tables of a kind cannot be written and read here."""
+    """Raise InputError if a kind of tables is not available."""
     if kind == "parquet":
         _parquet("tables of Parquet")
 
@@ -40,11 +40,11 @@ def require_kind(kind: str) -> None:
 def write_table(
     path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
 ) -> None:
-    """Write a table, in one step; the ending of the file says of which kind.
+    """Write a table, atomically; the suffix of the file selects the kind.
 
-    As text it has one line of column names. A floating-point number is written with the fewest digits that
-    read back as the same double; ``nan``, ``inf`` and ``-inf`` are words. Text with a comma, a quote or a
-    line break is quoted.
+    Text has one line of column names. A floating-point number has the fewest digits that read back as the
+    same double; ``nan``, ``inf`` and ``-inf`` are words. Text with a comma, a quote or a line break is
+    quoted.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def write_table(
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
     before
-        Called once all is written, before the file takes its name; whatever it raises leaves no file.
+        Called before the file is renamed to its final name; an exception leaves no file.
 
     Raises
     ------
@@ -80,23 +80,23 @@ def write_table(
 
 
 def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
-    """Read what :func:`write_table` has written.
+    """Read a table of :func:`write_table`.
 
     Parameters
     ----------
     path
         The file.
     words
-        Columns that are words also where all of them look like numbers.
+        Columns of words, also if all of them look like numbers.
 
     Returns
     -------
-    The columns (n,) by name, in order: whole numbers (int64), numbers (float64), or words.
+    The columns (n,) by name, in order: integers (int64), numbers (float64), or words.
 
     Raises
     ------
     InputError
-        If the file is missing, or is no such table; if it is Parquet, and pyarrow is not installed.
+        If the file is missing or not a table; if it is Parquet, and pyarrow is not installed.
     """
     if path.suffix == ".parquet":
         return _read_parquet(path)
@@ -117,12 +117,12 @@ def _parquet(what: str) -> Any:
 
 
 def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[], object]) -> None:
-    """Numbers keep their types. The bytes depend on nothing but the columns and the version of pyarrow."""
+    """Write a Parquet table with typed numbers; the bytes depend on columns and pyarrow version only."""
     parquet = _parquet(str(path))
     arrow = importlib.import_module("pyarrow")
     columns = {name: arrow.array(_plain(array)) for name, array in arrays.items()}
     kinds = {name: _plain(array).dtype.kind for name, array in arrays.items()}
-    # The bytes of doubles of like size are alike one by one, not all together.
+    # Corresponding bytes of doubles of similar magnitude are similar.
     split = [name for name, kind in kinds.items() if kind == "f"]
     words = [name for name, kind in kinds.items() if kind == "O"]
     with atomic_write(path) as temporary:
@@ -135,7 +135,7 @@ def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Calla
 
 
 def _plain(array: NDArray[Any]) -> NDArray[Any]:
-    """Numbers, or else words as Python's."""
+    """Return numbers as they are, and words as Python strings."""
     if array.dtype.kind in _WIDE:
         return array
     found = array.tolist()
@@ -148,7 +148,7 @@ def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
     parquet = _parquet(str(path))
     arrow = importlib.import_module("pyarrow")
     try:
-        # From a file that is opened here: the name of one is not taken for a folder or an address.
+        # An open file, as pyarrow could interpret a name as a folder or an address.
         with path.open("rb") as file:
             table = parquet.read_table(file)
     except (OSError, arrow.ArrowException) as error:
@@ -161,7 +161,7 @@ def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
 
 
 def _typed(words: list[str], stay: bool) -> NDArray[Any]:
-    """Numbers, if all words are and may be."""
+    """Return numbers if all words are numbers and the column may be numeric."""
     for kind in () if stay else (np.int64, np.float64):
         try:
             return np.array(words, dtype=str).astype(kind)
@@ -171,7 +171,7 @@ def _typed(words: list[str], stay: bool) -> NDArray[Any]:
 
 
 def _as_column(name: str, column: Column) -> NDArray[Any]:
-    # Objects, so that numpy does not turn a mixed list into text or a list of long integers into floats.
+    # Objects: numpy would convert a mixed list to text and long integers to floats.
     array = column if isinstance(column, np.ndarray) else np.array(column, dtype=object)
     if array.ndim != 1:
         raise ValueError(f"Column '{name}' of a table has shape {array.shape}.")
@@ -179,12 +179,12 @@ def _as_column(name: str, column: Column) -> NDArray[Any]:
 
 
 def _chunks(columns: list[NDArray[Any]]) -> Iterator[str]:
-    """The lines of a table, some thousands at a time."""
+    """Yield the lines of a table, some thousands at a time."""
     n = len(columns[0]) if columns else 0
     runs = [list(run) for _, run in groupby(columns, _kind)]
     for start in range(0, n, _CHUNK):
         rows = slice(start, start + _CHUNK)
-        # Cells and what is between them in one list, which costs a third of joining row by row.
+        # Cells and separators in one list: a third of the cost of joining row by row.
         pieces = [","] * (2 * len(runs) * len(columns[0][rows]))
         for i, run in enumerate(runs):
             pieces[2 * i :: 2 * len(runs)] = _texts([column[rows] for column in run])
@@ -193,12 +193,12 @@ def _chunks(columns: list[NDArray[Any]]) -> Iterator[str]:
 
 
 def _kind(column: NDArray[Any]) -> np.dtype[Any] | int:
-    """What is the same for columns whose cells are written together: those of numbers of a kind."""
+    """Return the kind of a column; columns of numbers of one kind are written together."""
     return _WIDE.get(column.dtype.kind, id(column))
 
 
 def _texts(columns: list[NDArray[Any]]) -> list[str]:
-    """The rows of columns of a kind as text."""
+    """Return the rows of columns of one kind as text."""
     kind = _kind(columns[0])
     if isinstance(kind, int):
         values = columns[0].tolist()
@@ -206,7 +206,7 @@ def _texts(columns: list[NDArray[Any]]) -> list[str]:
             return list(map(_cell, values))
         cells = {text: _quoted(text) for text in set(values)}
         return [cells[text] for text in values]
-    # JSON's numbers are those of tables, and orjson writes them thirty times as fast as Python does.
+    # JSON has the number format of tables, and orjson writes it thirty times as fast as Python.
     numbers = np.stack(columns, axis=1).astype(kind, order="C", copy=False)
     texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
     for row in np.flatnonzero(~np.isfinite(numbers).all(axis=1)):
@@ -222,7 +222,7 @@ def _cell(value: object) -> str:
     return _quoted(str(value))
 
 
-# The words of a column are few.
+# A column has few different words.
 @lru_cache(maxsize=_CHUNK)
 def _quoted(text: str) -> str:
     return f'"{text.replace(_QUOTE, 2 * _QUOTE)}"' if _SPECIAL.search(text) else text

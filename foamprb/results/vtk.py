@@ -21,12 +21,12 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 from foamprb.results.atomic import atomic_write
 
 _BLOCK_BYTES = 1 << 20
-"""Compressed at a time: VTK's own 32 kB would cost a quarter more time."""
+"""Compression block; VTK's default, 32 kB, takes a quarter more time."""
 
 
 @dataclass(frozen=True)
 class PointCloud:
-    """A cloud of n particles at one time.
+    """Cloud of n particles at one time.
 
     Parameters
     ----------
@@ -35,12 +35,12 @@ class PointCloud:
     points
         Positions, shape (n, 3), m.
     arrays
-        Values at the points by name, each of shape (n,) or (n, k); each keeps its type, except that truth
-        values become 0 and 1.
+        Values at the points by name, each of shape (n,) or (n, k); types are kept, except that booleans
+        become 0 and 1.
     units
         Unit of each array by name.
     names
-        For an array of codes, what the codes 0, 1, … mean: ``{"status": ("pending", "active", …)}``.
+        For an array of codes, the meaning of the codes 0, 1, …: ``{"status": ("pending", "active", …)}``.
 
     Raises
     ------
@@ -66,18 +66,18 @@ class PointCloud:
 
 
 class Parts(NamedTuple):
-    """A cloud part by part, so that a large one need never be in memory as a whole."""
+    """Cloud in parts, so that a large one is never completely in memory."""
 
     time: float
-    """Time of all, s."""
+    """Time of all parts, s."""
     number: int
-    """At least one."""
+    """Number of parts, at least 1."""
     snapshots: Iterator[PointCloud]
-    """As many as ``number`` says, with the same arrays, units and names."""
+    """Iterator over ``number`` parts with the same arrays, units and names."""
 
 
 def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, ...]:
-    """Write a cloud as VTK PolyData, in one step: a vertex per particle, with its point arrays.
+    """Write a cloud as VTK PolyData, atomically: a vertex per particle, with its point arrays.
 
     Field data are ``TimeValue``, ``units`` (``"rho kg/m3"``, …) and, for each array of codes,
     ``<array>Names``. Each part of a cloud becomes a piece of the file.
@@ -98,7 +98,7 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
     OSError
         If the file cannot be written.
     Exception
-        Whatever the parts raise; what was at ``path`` is as it was.
+        Any exception of the parts; ``path`` is then unchanged.
     """
     parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, PointCloud) else cloud
     source = _Source(parts)
@@ -110,7 +110,7 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
 
 
 class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """Gives the parts of a cloud to VTK's writer, which asks for piece after piece."""
+    """VTK source that passes the parts of a cloud to the writer, one piece per request."""
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
@@ -134,13 +134,14 @@ class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
                 self.error = error
         if self._last is None:
             return 0
-        # Also after an error: a writer whose source fails after the first piece would ask for ever.
+        # Also after an error: if its source fails after the first piece, the writer would repeat the request
+        # for ever.
         vtkPolyData.GetData(outputs).ShallowCopy(self._last)
         return 1
 
 
 class PieceArray(NamedTuple):
-    """An array of a cloud as a ``.pvtp`` declares it: its name, VTK's name of its type, its components."""
+    """Declaration of an array in a ``.pvtp``: name, VTK's name of its type, components."""
 
     name: str
     type: str
@@ -148,7 +149,7 @@ class PieceArray(NamedTuple):
 
 
 def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
-    """The arrays of a cloud, the points first."""
+    """Return the arrays of a cloud, the points first."""
     arrays = {"Points": np.asarray(snapshot.points, dtype=np.float64), **snapshot.arrays}
     return tuple(
         PieceArray(name, _type_name(array.dtype), 1 if array.ndim == 1 else array.shape[1])
@@ -157,14 +158,14 @@ def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
 
 
 def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path]) -> None:
-    """Write the file that makes several ``.vtp`` one cloud, in one step.
+    """Write the file that joins several ``.vtp`` to one cloud, atomically.
 
     Parameters
     ----------
     path
         The file, ``.pvtp``.
     arrays
-        What :func:`layout` says of each of the pieces.
+        :func:`layout` of each of the pieces.
     pieces
         The files of the pieces, in a folder in that of ``path``.
 
@@ -197,13 +198,13 @@ def _type_name(dtype: np.dtype[Any]) -> str:
 
 
 def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
-    """Write PolyData in one step; other threads run while VTK writes."""
+    """Write PolyData atomically; other threads run while VTK writes."""
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
-    # Mantissas of doubles hardly compress: zlib would gain 8 % in size for 25 times the time.
+    # Mantissas of doubles hardly compress: zlib gains 8 % in size in 25 times the time.
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(_BLOCK_BYTES)
-    # VTK does not print errors that are observed; the error code tells what happened.
+    # VTK does not print observed errors; the error code gives the reason.
     sources = () if source is None else (source, source.GetExecutive())
     for part in (writer, writer.GetExecutive(), *sources):
         part.AddObserver("ErrorEvent", lambda *_: None)
@@ -219,20 +220,20 @@ def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = No
 
 @dataclass(frozen=True)
 class Tracks:
-    """Paths of m particles, one after the other.
+    """Paths of m particles, stored consecutively.
 
     Parameters
     ----------
     points
         Positions, shape (n, 3), m, path after path.
     start
-        Where each path begins among the points, and n, shape (m + 1,).
+        Index of the first point of each path, and n, shape (m + 1,).
     values
         Arrays by name, (n,) or (n, k): at the points.
     tracks
         Arrays by name, (m,): of the paths.
     units, names
-        As of a :class:`PointCloud`.
+        See :class:`PointCloud`.
     """
 
     points: NDArray[np.float64]
@@ -244,7 +245,7 @@ class Tracks:
 
 
 def write_tracks(path: Path, tracks: Tracks) -> None:
-    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays.
+    """Write paths as VTK PolyData, atomically: a polyline per path, with point and cell arrays.
 
     Raises
     ------
@@ -270,7 +271,7 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
 
 
 def poly_data(snapshot: PointCloud) -> vtkPolyData:
-    """A cloud as VTK has it, with what :func:`write_snapshot` writes; it shares the memory of the arrays."""
+    """Return a cloud as VTK PolyData, like :func:`write_snapshot`; it shares the memory of the arrays."""
     data = vtkPolyData()
     points = vtkPoints()
     points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))
@@ -285,7 +286,7 @@ def poly_data(snapshot: PointCloud) -> vtkPolyData:
 
 
 def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
-    """Add the units of the arrays, and what codes mean."""
+    """Add the units of the arrays, and the meaning of codes."""
     fields = data.GetFieldData()
     if units:
         fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in units.items()]))

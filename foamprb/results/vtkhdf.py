@@ -1,4 +1,4 @@
-"""A cloud over time as one VTKHDF file."""
+"""VTKHDF file of a cloud over time."""
 
 from __future__ import annotations
 
@@ -19,25 +19,25 @@ __all__ = ["write_vtkhdf"]
 
 
 def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], PointCloud]) -> None:
-    """Write the clouds of all times into one file, in one step; one of them is in memory at a time.
+    """Write the clouds of all times into one file, atomically, with one cloud in memory at a time.
 
     Parameters
     ----------
     path
         The file, ``.vtkhdf``.
     times
-        In their order, s; the file has them in single precision.
+        Times in order, s; in single precision in the file.
     cloud_of
-        Returns the cloud of a time, by its index; all have the same arrays.
+        Function that returns the cloud of a time by its index; all have the same arrays.
 
     Raises
     ------
     InputError
-        If VTK was built without its writer of such files.
+        If VTK was built without this writer.
     OSError
         If the file cannot be written.
     Exception
-        Whatever ``cloud_of`` raises; what was at ``path`` is as it was.
+        Any exception of ``cloud_of``; ``path`` is then unchanged.
     """
     try:
         from vtkmodules.vtkIOHDF import vtkHDFWriter
@@ -51,7 +51,7 @@ def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], P
     for part in (writer, writer.GetExecutive(), source, source.GetExecutive()):
         part.AddObserver("ErrorEvent", lambda *_: None)
     with atomic_write(path) as temporary:
-        # VTK tells its formats apart by the ending.
+        # VTK selects the format by the suffix.
         part = temporary.with_name(f"{temporary.name}.vtkhdf")
         try:
             writer.SetFileName(str(part))
@@ -66,11 +66,11 @@ def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], P
 
 
 _CHUNK = 4096
-"""Values that are compressed together: the least that an array takes."""
+"""Chunk size in values, the least size of an array."""
 
 
 class _Times(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """Gives the clouds of all times to VTK's writer."""
+    """VTK source that passes the clouds of all times to the writer."""
 
     def __init__(self, times: Sequence[float], cloud_of: Callable[[int], PointCloud]) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
