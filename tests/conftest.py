@@ -1,6 +1,10 @@
 from __future__ import annotations
 
 import os
+
+# Workers of pytest-xdist use all cores; more threads of BLAS than cores cost several times the work.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from pathlib import Path
 
 import numpy as np
