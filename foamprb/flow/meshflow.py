@@ -257,7 +257,6 @@ class MeshFlow:
         walls = Walls(
             mesh.points[mesh.triangles[names]], mesh.triangle_normals[names], mesh.triangle_patch[names]
         )
-        single = np.ones(len(names), dtype=bool)
         if mesh.couplings:
             images = images_of_walls(mesh, walls, max(reach if touchable else 0.0, sight if seen else 0.0))
             n, nodes, triangles = len(images.patches), len(arrays.nodes), len(arrays.triangles)
@@ -265,7 +264,6 @@ class MeshFlow:
             beyond[:, :3] = images.corners.reshape(-1, 3)
             names = np.concatenate([names, np.arange(triangles, triangles + n, dtype=np.int32)])
             walls = Walls(*(np.concatenate([own, other]) for own, other in zip(walls, images, strict=True)))
-            single = np.concatenate([single, np.zeros(n, dtype=bool)])
             arrays = arrays._replace(
                 nodes=np.concatenate([arrays.nodes, beyond]),
                 triangles=np.concatenate(
@@ -279,7 +277,7 @@ class MeshFlow:
             some = np.isin(walls.patches, those)
             if not some.any():
                 continue
-            tree = wall_tree(walls.corners[some], walls.normals[some], single[some])
+            tree = wall_tree(walls.corners[some], walls.normals[some])
             own = names[some]
             if those is touchable:
                 size = float(np.cbrt(np.median(mesh.volumes)))

@@ -11,7 +11,6 @@ from foamprb.body.tensor import Vector, inner, norm, vector_product
 from foamprb.flow.base import NO_PLANES, Planes
 from foamprb.flow.mesh.arrays import MeshArrays, arm
 from foamprb.flow.walk import inward, nearest_point
-from foamprb.flow.wall_lists import EDGE, SURE
 
 _SAME_WALL = math.sqrt(0.5)
 _ON_EDGE = 1e-9
@@ -44,8 +43,8 @@ def planes_among(
     nearest, towards = cut, (0.0, 0.0, 0.0)
     nodes = flow.nodes
     for k in range(begin, end):
-        kind = flow.seen[k]
-        triangle = kind >> 2
+        entry = flow.seen[k]
+        triangle = entry >> 1
         if chosen[flow.triangle_patch[triangle]] == 0:
             continue
         a = flow.triangles[triangle, 0]
@@ -55,14 +54,11 @@ def planes_among(
         # What lies behind a wall, or beyond the cut.
         if h <= 0.0 or h >= cut or _known(planes, h, n):
             continue
-        if kind & SURE:
-            planes = _with(planes, h, n)
-            continue
         b, c = flow.triangles[triangle, 1], flow.triangles[triangle, 2]
         rb, rc = arm(nodes, b, x), arm(nodes, c, x)
         if _over(n, ra, rb, rc):
             planes = _with(planes, h, n)
-        elif kind & EDGE and h < min(nearest, planes.h1, planes.h2, planes.h3):
+        elif entry & 1 and h < min(nearest, planes.h1, planes.h2, planes.h3):
             p = nearest_point(ra, rb, rc)
             distance = norm(p)
             if distance < nearest:

@@ -1,8 +1,8 @@
-"""Which walls are near a cell: lists by which bodies find what they touch, and models which walls they see.
+"""Lists of the walls near each cell, for the contact of bodies and for models that depend on walls.
 
-They are made by a tree over the wall triangles, whose nodes also have the directions of their normals. A list
-for touching holds all that is within its reach, or, if that is much, only the nearest triangle, from which
-the tree is searched. A list for seeing holds what can be a wall in the sense of
+A tree over the wall triangles, whose nodes also bound the directions of normals, makes both lists. A list
+for contact holds all triangles within its reach. If these are too many, it holds only the nearest one, from
+which the tree is searched. A list for models holds each triangle that is a wall in the sense of
 :func:`foamprb.flow.planes.walls` for some place in the cell.
 """
 
@@ -21,21 +21,16 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.tree import build_tree, meet, next_node, square_to_box
 from foamprb.flow.walk import nearest_point
 
-__all__ = ["EDGE", "MOST_LISTED", "SURE", "WallTree", "edges_out", "near_walls", "seen_walls", "wall_tree"]
+__all__ = ["MOST_LISTED", "WallTree", "edges_out", "near_walls", "seen_walls", "wall_tree"]
 
 MOST_LISTED = 64
-"""Triangles that a list for touching has at most; of more, only the one nearest to the cell's centre."""
-SURE, EDGE = 1, 2
-"""In a list for seeing: a perpendicular from anywhere in the cell ends on the plane of this triangle, in the
-triangle or in another one; the nearest point of walls may lie on an edge of this triangle. An entry is
-4 × triangle + these."""
-_TRIED = 4
-# Entries of the lists of walls nearby: a gigabyte.
+"""Largest number of triangles in a list for contact; beyond it, only the nearest to the cell's centre."""
+# One gigabyte.
 _MOST_ENTRIES = 250_000_000
 _FLAT = 1e-9
-"""Sine of the angle, and share of a length, below which walls are in one plane."""
+"""Sine of the angle, and share of a length, below which an edge is flat."""
 _SAME = 1e-12
-"""Such a share, below which one plane stands for two where bodies touch."""
+"""Distance over extent below which two triangles lie in one plane."""
 
 
 class WallTree(NamedTuple):
@@ -54,15 +49,13 @@ class WallTree(NamedTuple):
     triangles has an edge or a corner that can be nearer than any face, else 0."""
     edges: NDArray[np.bool_]
     """(n,) whether a triangle has such an edge."""
-    single: NDArray[np.bool_]
-    """(n,) whether no other triangle lies upon it: not so for images, of which there may be two."""
 
 
-def wall_tree(corners: Floats, normals: Floats, single: NDArray[np.bool_]) -> WallTree:
-    """The tree over triangles of walls."""
+def wall_tree(corners: Floats, normals: Floats) -> WallTree:
+    """Return the tree over triangles of walls."""
     boxes, leaves = build_tree(np.concatenate([corners.min(axis=1), corners.max(axis=1)], axis=1))
     edges = edges_out(corners, normals)
-    return WallTree(corners, normals, boxes, leaves, _cones(normals, edges, leaves), edges, single)
+    return WallTree(corners, normals, boxes, leaves, _cones(normals, edges, leaves), edges)
 
 
 def edges_out(corners: Floats, normals: Floats) -> NDArray[np.bool_]:
@@ -221,15 +214,15 @@ def _list_near(
 
 
 def _planes_first(tree: WallTree, found: Ints, count: int) -> int:
-    """Put those first of so many triangles before which there is none in the same plane; return their number.
+    """Move the first triangle of each plane to the front; return the number of planes.
 
-    The order remains among these and among the others.
+    The order among these is kept, and so is the order of the others.
     """
     planes = 0
     for k in range(count):
         i, alone = found[k], True
         for m in range(planes):
-            alone = alone and not _in_plane(tree, found[m], i, _SAME)
+            alone = alone and not _in_plane(tree, found[m], i)
         if alone:
             for m in range(k, planes, -1):
                 found[m] = found[m - 1]
@@ -239,7 +232,7 @@ def _planes_first(tree: WallTree, found: Ints, count: int) -> int:
 
 
 def _triangle_meets(corners: Floats, i: int, boxes: Floats, cell: int, reach: float) -> bool:
-    """As :func:`_meet`, of the box of a triangle."""
+    """Return True if the box of a triangle meets that of a cell, see :func:`foamprb.flow.mesh.tree.meet`."""
     for axis in range(3):
         a, b, c = corners[i, 0, axis], corners[i, 1, axis], corners[i, 2, axis]
         if min(a, b, c) - reach > boxes[cell, axis + 3] or boxes[cell, axis] > max(a, b, c) + reach:
@@ -292,48 +285,30 @@ def seen_walls(tree: WallTree, boxes: Floats, sight: float, names: Ints) -> tupl
 
     Parameters
     ----------
-    As of :func:`near_walls`; ``sight`` is a distance from the place, m.
+    As in :func:`near_walls`; ``sight`` is a distance from the place, m.
 
     Returns
     -------
     seen_start, seen
-        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; those that are ``SURE`` come first.
+        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`, each list in ascending order.
     """
-    n_cells, n = len(boxes), len(names)
+    start = np.zeros(len(boxes) + 1, dtype=np.int32)
     listing = link(_list_seen)
-    counts, start = np.zeros(n_cells, dtype=np.int64), np.zeros(n_cells + 1, dtype=np.int64)
-    none, work, polygons = np.empty(0, dtype=np.int32), np.empty((2, n), dtype=np.int32), np.empty((2, 10, 2))
-    listing(tree, boxes, sight, names, counts, start, none, work, polygons)
-    np.cumsum(counts, out=start[1:])
-    found = np.empty(int(start[-1]), dtype=np.int32)
-    listing(tree, boxes, sight, names, counts, start, found, work, polygons)
-    # What a sure plane makes needless was left out.
-    kept = np.arange(len(found)) - np.repeat(start[:-1], np.diff(start)) < np.repeat(counts, np.diff(start))
-    return np.concatenate([[0], np.cumsum(counts)]).astype(np.int32), found[kept]
+    listing(tree, boxes, sight, names, start, np.empty(0, dtype=np.int32))
+    np.cumsum(start, out=start)
+    found = np.empty(start[-1], dtype=np.int32)
+    listing(tree, boxes, sight, names, start, found)
+    return start, found
 
 
-def _list_seen(
-    tree: WallTree,
-    boxes: Floats,
-    sight: float,
-    names: Ints,
-    counts: NDArray[np.int64],
-    start: NDArray[np.int64],
-    found: Ints,
-    work: Ints,
-    polygons: Floats,
-) -> None:
-    """Count the entries of each list at most, or fill them if there is room, and count them then.
-
-    ``work`` (2, n) and ``polygons`` (2, 10, 2) are for what is found on the way.
-    """
+def _list_seen(tree: WallTree, boxes: Floats, sight: float, names: Ints, start: Ints, found: Ints) -> None:
+    """Write the list of each cell to ``found``; if that is empty, the length of each to ``start``."""
     filling, seed, leaves = found.shape[0] > 0, 0, tree.leaves.shape[0]
     for cell in range(boxes.shape[0]):
         middle = _middle(boxes, cell)
         half = boxes[cell, 3] - middle[0], boxes[cell, 4] - middle[1], boxes[cell, 5] - middle[2]
         size = math.sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2])
         nearest, distance = nearest_triangle(tree, middle, sight + size, seed)
-        counts[cell] = 0
         if nearest < 0:
             continue
         seed = nearest
@@ -348,13 +323,14 @@ def _list_seen(
                 i = tree.leaves[node - leaves, k]
                 kind = _kind(tree, i, boxes, cell, middle, half, sight, limit) if i >= 0 else -1
                 if kind >= 0:
-                    work[0, n] = i
-                    work[1, n] = kind
+                    if filling:
+                        found[start[cell] + n] = 2 * names[i] + kind
                     n += 1
             node = next_node(node, leaves, hit)
-        counts[cell] = n
         if filling:
-            counts[cell] = _fill(tree, middle, half, names, work, n, polygons, found, start[cell])
+            _sort(found, start[cell], start[cell] + n)
+        else:
+            start[cell + 1] = n
 
 
 def _square_between(boxes: Floats, i: int, others: Floats, j: int) -> Any:
@@ -384,9 +360,9 @@ def _faces(tree: WallTree, node: int, middle: Vector, size: float) -> bool:
 def _kind(
     tree: WallTree, i: int, boxes: Floats, cell: int, middle: Vector, half: Vector, sight: float, limit: float
 ) -> int:
-    """0 if a perpendicular from the cell may end on triangle i, with ``EDGE`` if its edge may be nearest.
+    """Return 1 if an edge of triangle i may be the nearest wall to a place in the cell.
 
-    −1 if neither is so.
+    Otherwise 0 if a perpendicular from the cell may end on the triangle, else −1.
     """
     corners, n = tree.corners, tree.normals
     edge = False
@@ -414,50 +390,12 @@ def _kind(
         if -inner(out, a) - _extent(out, half) > _FLAT * inner(along, along):
             foot = False
     if edge:
-        return EDGE
+        return 1
     return 0 if foot else -1
 
 
-def _fill(
-    tree: WallTree,
-    middle: Vector,
-    half: Vector,
-    names: Ints,
-    work: Ints,
-    n: int,
-    polygons: Floats,
-    found: Ints,
-    begin: int,
-) -> int:
-    """Write the list of a cell, the sure ones first, without what they make needless; return its length."""
-    count = 0
-    for p in range(n):
-        i = work[0, p]
-        if i < 0 or not tree.single[i] or work[1, p] & _TRIED:
-            continue
-        covered, whole = _covered(tree, work, n, i, middle, half, polygons)
-        sure = covered >= (1.0 - _FLAT) * whole
-        for q in range(n):
-            if work[0, q] >= 0 and _in_plane(tree, i, work[0, q], _FLAT):
-                work[1, q] |= _TRIED
-                if sure:
-                    work[0, q] = -1
-        if not sure:
-            continue
-        found[begin + count] = 4 * names[i] + SURE
-        count += 1
-    _sort(found, begin, begin + count)
-    ready = count
-    for p in range(n):
-        if work[0, p] >= 0:
-            found[begin + count] = 4 * names[work[0, p]] + (work[1, p] & EDGE)
-            count += 1
-    _sort(found, begin + ready, begin + count)
-    return count
-
-
-def _in_plane(tree: WallTree, i: int, j: int, flat: float) -> bool:
-    """Whether triangle j lies in the plane of i, but for a share ``flat`` of its own extent."""
+def _in_plane(tree: WallTree, i: int, j: int) -> bool:
+    """Return True if triangle j lies in the plane of i, to :data:`_SAME` of its own extent."""
     n, m, corners = tree.normals, tree.normals, tree.corners
     if n[i, 0] * m[j, 0] + n[i, 1] * m[j, 1] + n[i, 2] * m[j, 2] < 0.5:
         return False
@@ -470,74 +408,7 @@ def _in_plane(tree: WallTree, i: int, j: int, flat: float) -> bool:
     off = 0.0
     for k in range(3):
         off = max(off, abs(inner(normal, _seen(corners, j, k, origin))))
-    return bool(off <= flat * length)
-
-
-def _covered(
-    tree: WallTree, work: Ints, n: int, i: int, middle: Vector, half: Vector, polygons: Floats
-) -> tuple[float, float]:
-    """Area of a rectangle in the plane of triangle i that is covered by triangles, and its whole area, m².
-
-    The feet of all perpendiculars from the cell lie in the rectangle.
-    """
-    normal = tree.normals[i, 0], tree.normals[i, 1], tree.normals[i, 2]
-    ax, ay, az = abs(normal[0]), abs(normal[1]), abs(normal[2])
-    # Along the axis that is most across the normal, as nearly as the plane allows.
-    e = (1.0, 0.0, 0.0) if ax <= ay and ax <= az else ((0.0, 1.0, 0.0) if ay <= az else (0.0, 0.0, 1.0))
-    s = inner(e, normal)
-    t1 = e[0] - s * normal[0], e[1] - s * normal[1], e[2] - s * normal[2]
-    s = 1.0 / math.sqrt(inner(t1, t1))
-    t1 = s * t1[0], s * t1[1], s * t1[2]
-    t2 = vector_product(normal, t1)
-    a, b = _extent(t1, half), _extent(t2, half)
-    covered = 0.0
-    for q in range(n):
-        j = work[0, q]
-        if j >= 0 and tree.single[j] and _in_plane(tree, i, j, _FLAT):
-            p0, p1, p2 = (
-                _seen(tree.corners, j, 0, middle),
-                _seen(tree.corners, j, 1, middle),
-                _seen(tree.corners, j, 2, middle),
-            )
-            covered += _area_in_rectangle(
-                (inner(p0, t1), inner(p1, t1), inner(p2, t1)),
-                (inner(p0, t2), inner(p1, t2), inner(p2, t2)),
-                (a, b),
-                polygons,
-            )
-    return covered, 4.0 * a * b
-
-
-def _area_in_rectangle(x: Vector, y: Vector, sides: tuple[float, float], polygons: Floats) -> float:
-    """Area of what of a triangle lies in |x| ≤ sides[0], |y| ≤ sides[1] (Sutherland & Hodgman 1974), m².
-
-    ``polygons`` (2, 10, 2) is for what is found on the way.
-    """
-    for k in range(3):
-        polygons[0, k, 0], polygons[0, k, 1] = x[k], y[k]
-    n = 3
-    for cut in range(4):
-        axis, sign, p, q = cut // 2, 1.0 - 2.0 * (cut % 2), cut % 2, 1 - cut % 2
-        m = 0
-        for k in range(n):
-            other = (k + 1) % n
-            d = sides[axis] - sign * polygons[p, k, axis]
-            f = sides[axis] - sign * polygons[p, other, axis]
-            if d >= 0.0:
-                polygons[q, m, 0], polygons[q, m, 1] = polygons[p, k, 0], polygons[p, k, 1]
-                m += 1
-            if (d < 0.0) != (f < 0.0):
-                s = d / (d - f)
-                for j in range(2):
-                    a, b = polygons[p, k, j], polygons[p, other, j]
-                    polygons[q, m, j] = a + s * (b - a)
-                m += 1
-        n = m
-    area = 0.0
-    for k in range(n):
-        other = (k + 1) % n
-        area += polygons[0, k, 0] * polygons[0, other, 1] - polygons[0, other, 0] * polygons[0, k, 1]
-    return 0.5 * abs(area)
+    return bool(off <= _SAME * length)
 
 
 def _sort(numbers: Ints, begin: int, end: int) -> None:

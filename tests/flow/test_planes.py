@@ -16,7 +16,6 @@ from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among, walls
 from foamprb.flow.walk import nearest_point
-from foamprb.flow.wall_lists import EDGE, SURE
 
 CUT = 0.3
 
@@ -56,7 +55,7 @@ def triangles_at(corners, normals, patches=None):
         triangles=np.arange(3 * n).reshape(-1, 3),
         triangle_normals=np.asarray(normals, dtype=float),
         triangle_patch=np.zeros(n, dtype=np.int32) if patches is None else np.asarray(patches),
-        seen=4 * np.arange(n) + EDGE,
+        seen=2 * np.arange(n) + 1,
     )
 
 
@@ -133,9 +132,6 @@ def test_a_triangle_is_a_wall_where_a_perpendicular_ends_on_it(random):
             assert seen_from(arrays, x, 0.99 * h) == []
             # Not if an edge of it cannot be the nearest.
             assert seen_from(arrays._replace(seen=np.array([0])), x, 3.0) == []
-            # Where the entry says so, its plane counts all the same.
-            [(h, towards)] = seen_from(arrays._replace(seen=np.array([SURE])), x, 3.0)
-            assert (h, *towards) == pytest.approx((0.3, *n), abs=1e-9)
 
 
 def test_the_nearest_edge_counts_if_it_is_nearer_than_any_face():

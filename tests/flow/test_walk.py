@@ -409,7 +409,7 @@ def test_near_walls_lists_all_that_are_near():
     boxes, reach = cell_boxes(mesh), 0.11
     corner = mesh.points[mesh.triangles]
     walls = np.flatnonzero(mesh.triangle_patch == 2).astype(np.int32)
-    tree = wall_tree(corner[walls], mesh.triangle_normals[walls], np.ones(len(walls), dtype=bool))
+    tree = wall_tree(corner[walls], mesh.triangle_normals[walls])
     start, near = near_walls(tree, boxes, reach, walls, 1.0)
     low, high = corner.min(axis=1) - reach, corner.max(axis=1) + reach
     for cell in range(mesh.n_cells):

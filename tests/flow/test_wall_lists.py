@@ -16,7 +16,7 @@ from foamprb.flow.mesh.tree import meet, square_to_box
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import planes_among
 from foamprb.flow.walk import nearest_point
-from foamprb.flow.wall_lists import EDGE, SURE, WallTree, edges_out, wall_tree
+from foamprb.flow.wall_lists import WallTree, edges_out, wall_tree
 from foamprb.flow.walls import gap, nearest_wall
 
 
@@ -70,7 +70,7 @@ def test_every_branch_of_the_tree_knows_the_triangles_below_it(flow):
     mesh = flow.mesh
     walls = np.flatnonzero(np.isin(mesh.triangle_patch, solid(flow)))
     corners, normals = mesh.points[mesh.triangles[walls]], mesh.triangle_normals[walls]
-    tree = wall_tree(corners, normals, np.ones(len(walls), dtype=bool))
+    tree = wall_tree(corners, normals)
     n = len(tree.leaves)
     below = {n + k: leaf[leaf >= 0] for k, leaf in enumerate(tree.leaves)}
     for node in range(n - 1, 0, -1):
@@ -96,7 +96,7 @@ def test_the_walls_around_a_place_are_those_of_all_triangles(flow, cut):
     arrays = flow.arrays(0.0, (), cut, walls)
     chosen = np.array([index in walls for index in range(len(flow.patches))], dtype=np.int8)
     names = np.flatnonzero(chosen[mesh.triangle_patch]).astype(np.int32)
-    whole = arrays._replace(seen=(4 * names + EDGE).astype(np.int32))
+    whole = arrays._replace(seen=(2 * names + 1).astype(np.int32))
     some, all_ = link(flow.kernels["walls"]), link(planes_among)
     found = 0
     for x, host in places(flow):
@@ -108,18 +108,6 @@ def test_the_walls_around_a_place_are_those_of_all_triangles(flow, cut):
             assert np.array(planes[0]) == pytest.approx(np.array(planes[1]), abs=1e-9)
         found += len(planes[0])
     assert found > 50
-
-
-def test_a_plane_is_one_entry_where_no_edge_of_it_is_near():
-    grid, patches = SHAPES["fine box"]
-    mesh = build_mesh(grid, patches)
-    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-    arrays = flow.arrays(0.0, (), 0.3, solid(flow))
-    cell = int(arrays.tets[flow.locate(np.array([[0.55, 0.55, 0.2]]))[0], 0]) - arrays.n_points
-    begin, end = arrays.seen_start[cell : cell + 2]
-    assert end - begin == 1
-    assert arrays.seen[begin] & SURE
-    assert arrays.triangle_normals[arrays.seen[begin] >> 2] == pytest.approx([0.0, 0.0, 1.0])
 
 
 def test_edges_count_where_they_stick_out_or_end():
@@ -259,31 +247,6 @@ def test_a_part_of_a_list_is_sorted():
     assert numbers.tolist() == [9, 1, 3, 3, 5, 8, 0]
 
 
-def test_the_area_of_a_triangle_in_a_rectangle(random):
-    """By counting points; exact where it is cut by one side, by a corner, or lies around the rectangle."""
-    work = np.empty((2, 10, 2))
-
-    def area(corners, sides):
-        x, y = np.array(corners, dtype=float).T
-        return wall_lists._area_in_rectangle(tuple(x), tuple(y), sides, work)
-
-    assert area([(0, 0), (1, 0), (0, 1)], (2.0, 3.0)) == pytest.approx(0.5)
-    assert area([(0, 0), (2, 0), (0, 2)], (1.0, 3.0)) == pytest.approx(1.5)
-    assert area([(0, 0), (2, 0), (0, 2)], (3.0, 1.0)) == pytest.approx(1.5)
-    assert area([(-9, -9), (9, -9), (0, 18)], (1.0, 2.0)) == pytest.approx(8.0)
-    assert area([(3, 3), (4, 3), (3, 4)], (1.0, 2.0)) == 0.0
-    g = (np.arange(400) + 0.5) / 400 * 2.0 - 1.0
-    u, v = np.meshgrid(g, g)
-    for _ in range(20):
-        corners, sides = random.normal(size=(3, 2)), tuple(random.uniform(0.3, 1.2, 2))
-        a, b, c = corners
-        turns = [(q[0] - p[0]) * (v * sides[1] - p[1]) - (q[1] - p[1]) * (u * sides[0] - p[0])
-                 for p, q in ((a, b), (b, c), (c, a))]  # fmt: skip
-        inside = np.all(np.array(turns) >= 0.0, axis=0) | np.all(np.array(turns) <= 0.0, axis=0)
-        exact = inside.mean() * 4.0 * sides[0] * sides[1]
-        assert area(corners, sides) == pytest.approx(exact, abs=0.02)
-
-
 def soup(random, n=40, size=0.4):
     corners = random.normal(size=(n, 1, 3)) + size * random.normal(size=(n, 3, 3))
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -292,7 +255,7 @@ def soup(random, n=40, size=0.4):
 
 def test_the_nearest_triangle_of_a_tree_is_the_nearest_of_all(random):
     corners, normals = soup(random)
-    tree = wall_lists.wall_tree(corners, normals, np.ones(len(corners), dtype=bool))
+    tree = wall_lists.wall_tree(corners, normals)
     for _ in range(40):
         x = random.normal(size=3)
         distances = [np.linalg.norm(nearest_point(*map(tuple, c - x))) for c in corners]
@@ -308,7 +271,7 @@ def test_the_cone_of_a_node_holds_the_normals_below_it(random):
     corners, normals = soup(random, 45)
     normals[:, 2] = np.abs(normals[:, 2]) + 0.5
     normals /= np.linalg.norm(normals, axis=1)[:, None]
-    tree = wall_lists.wall_tree(corners, normals, np.ones(45, dtype=bool))
+    tree = wall_lists.wall_tree(corners, normals)
     leaves = len(tree.leaves)
     assert leaves > 4
     cones = wall_lists._cones(normals, np.arange(45) == 13, tree.leaves)
@@ -344,7 +307,7 @@ def test_unit_vectors_of_rows():
 def test_a_node_is_faced_from_where_a_perpendicular_may_end_on_it(random):
     """One triangle: its cone is its normal. From far, only in a narrow cone about it."""
     corners, normals = soup(random, 1, 0.05)
-    tree = wall_lists.wall_tree(corners, normals, np.ones(1, dtype=bool))
+    tree = wall_lists.wall_tree(corners, normals)
     middle = 0.5 * (corners[0].min(axis=0) + corners[0].max(axis=0))
     blur = 0.1 + 0.5 * np.linalg.norm(np.ptp(corners[0], axis=0))
     across = np.cross(normals[0], [0.3, 0.5, 0.7])
@@ -373,44 +336,14 @@ def test_triangles_of_a_plane_are_known_as_such(random):
         corners = np.concatenate([flat, flat[1:] + 1e-6 * e[2], flat[1:] * [1.0, 1.0, 1.0]])
         corners[3, random.integers(3)] += 1e-6 * e[2]
         normals = np.tile(e[2], (4, 1))
-        tree = WallTree(corners, normals, None, None, None, None, None)
-        assert [wall_lists._in_plane(tree, 0, j, 1e-9) for j in range(4)] == [True, True, False, False]
+        tree = WallTree(corners, normals, None, None, None, None)
+        assert [wall_lists._in_plane(tree, 0, j) for j in range(4)] == [True, True, False, False]
         # The other side of a thin wall is another plane.
         turned = tree._replace(normals=normals * [[1], [-1], [1], [1]])
-        assert not wall_lists._in_plane(turned, 0, 1, 1e-9)
+        assert not wall_lists._in_plane(turned, 0, 1)
         found = np.arange(4)
         assert wall_lists._planes_first(tree, found, 4) == 3
         assert found.tolist() == [0, 2, 3, 1]
-
-
-def test_the_shadow_of_a_cell_on_a_plane_is_covered_by_the_triangles_in_it(random):
-    """A square of two triangles: all of the rectangle, then half of it, then without images."""
-    for _ in range(10):
-        e = np.linalg.qr(random.normal(size=(3, 3)))[0]
-        e[2] *= np.sign(np.linalg.det(e))
-        middle, half = tuple(random.normal(size=3)), tuple(random.uniform(0.1, 0.3, 3))
-        at = np.array(middle) - 2.0 * e[2]
-        square = at + 5.0 * np.array([-e[0] - e[1], e[0] - e[1], e[0] + e[1], -e[0] + e[1]])
-        corners = np.array([square[[0, 1, 2]], square[[0, 2, 3]], square[[0, 1, 2]] + e[2]])
-        normals = np.tile(e[2], (3, 1))
-        tree = WallTree(corners, normals, None, None, None, None, np.array([True, True, True]))
-        work, polygons = np.array([[0, 1, 2], [0, 0, 0]], dtype=np.int32), np.empty((2, 10, 2))
-
-        def covered(tree, work=work, middle=middle, half=half, polygons=polygons):
-            return wall_lists._covered(tree, work, 3, 0, middle, half, polygons)
-
-        found, whole = covered(tree)
-        assert found == pytest.approx(whole, rel=1e-12)
-        # The sides of the rectangle: as far as the cell reaches along two axes in the plane.
-        k = np.abs(e[2]).argmin()
-        t1 = np.eye(3)[k] - e[2, k] * e[2]
-        t1 /= np.linalg.norm(t1)
-        t2 = np.cross(e[2], t1)
-        assert whole == pytest.approx(4.0 * (np.abs(t1) @ half) * (np.abs(t2) @ half))
-        # The diagonal of the square goes through the foot of the middle.
-        assert covered(tree, np.array([[0, -1, 2], [0, 0, 0]]))[0] == pytest.approx(0.5 * whole, rel=1e-9)
-        single = np.array([True, False, True])
-        assert covered(tree._replace(single=single))[0] == pytest.approx(0.5 * whole, rel=1e-9)
 
 
 def test_a_triangle_is_a_wall_of_a_cell_from_which_a_perpendicular_ends_on_it(random):
@@ -421,7 +354,7 @@ def test_a_triangle_is_a_wall_of_a_cell_from_which_a_perpendicular_ends_on_it(ra
         normals *= random.choice([-1.0, 1.0])
         low = random.normal(size=3)
         boxes = np.concatenate([low, low + random.uniform(0.05, 0.5, 3)])[None]
-        tree = WallTree(corners, normals, None, None, None, np.array([k % 2 == 0]), None)
+        tree = WallTree(corners, normals, None, None, None, np.array([k % 2 == 0]))
         middle = wall_lists._middle(boxes, 0)
         half = tuple(0.5 * (boxes[0, 3:] - boxes[0, :3]))
         sight, limit = 1.5, 0.7
@@ -436,9 +369,9 @@ def test_a_triangle_is_a_wall_of_a_cell_from_which_a_perpendicular_ends_on_it(ra
             assert kind >= 0
         apart = np.maximum(corners[0].min(axis=0) - boxes[0, 3:], boxes[0, :3] - corners[0].max(axis=0))
         near = np.linalg.norm(np.maximum(apart, 0.0)) <= limit
-        if (kind == EDGE) and k % 2 == 0:
+        if (kind == 1) and k % 2 == 0:
             assert near
-        elif kind == EDGE:
+        elif kind == 1:
             raise AssertionError("a triangle without such an edge")
         elif near and k % 2 == 0:
             # Behind it, or out of sight.
@@ -449,7 +382,7 @@ def test_a_triangle_is_a_wall_of_a_cell_from_which_a_perpendicular_ends_on_it(ra
             # Not by much more than the cell is wide.
             assert not ends.any()
         kinds.add(kind)
-    assert kinds == {-1, 0, EDGE}
+    assert kinds == {-1, 0, 1}
 
 
 def boxed_soup(random, n=60):
@@ -457,7 +390,7 @@ def boxed_soup(random, n=60):
     corners, normals = soup(random, n, 0.15)
     low = random.uniform(-1.5, 1.5, (25, 3))
     boxes = np.concatenate([low, low + random.uniform(0.1, 0.5, (25, 3))], axis=1)
-    return wall_lists.wall_tree(corners, normals, np.ones(n, dtype=bool)), boxes, 3 * np.arange(n) + 5
+    return wall_lists.wall_tree(corners, normals), boxes, 3 * np.arange(n) + 5
 
 
 @pytest.mark.parametrize("most", [3, 5, 64])
@@ -487,7 +420,7 @@ def test_lists_for_touching_hold_what_is_near_or_the_nearest_alone(most, random,
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_lists_for_seeing_hold_what_is_a_wall_of_its_own_kind(share, random, monkeypatch):
-    """All that :func:`_kind` accepts of all triangles, asked one by one; no plane here covers a cell."""
+    """All that :func:`_kind` accepts of all triangles, asked one by one."""
     monkeypatch.setattr(wall_lists, "link", lambda function: function)
     tree, boxes, names = boxed_soup(random)
     edges = random.random(60) < share
@@ -507,45 +440,16 @@ def test_lists_for_seeing_hold_what_is_a_wall_of_its_own_kind(share, random, mon
                 low, high = tree.corners[i].min(axis=0), tree.corners[i].max(axis=0)
                 apart = np.maximum(low - box[3:], box[:3] - high)
                 if kind >= 0 and np.linalg.norm(np.maximum(apart, 0.0)) < sight:
-                    expected.append(4 * names[i] + kind)
+                    expected.append(2 * names[i] + kind)
         found = seen[start[cell] : start[cell + 1]].tolist()
         # A box of a leaf may be near where a triangle of it is not.
         assert set(expected) <= set(found)
         assert found == sorted(found)
         for entry in set(found) - set(expected):
-            i = int(np.flatnonzero(names == entry >> 2)[0])
-            assert wall_lists._kind(tree, i, boxes, cell, middle, half, sight, limit) == entry & 3
-        found_kinds |= {entry & 3 for entry in found}
-    assert found_kinds == {0.0: {0}, 0.5: {0, EDGE}, 1.0: {EDGE}}[share]
-
-
-def test_a_plane_that_covers_the_shadow_of_a_cell_stands_for_all_in_it(random, monkeypatch):
-    """A floor of many triangles is one sure entry, the first; a step above it is listed beside it."""
-    monkeypatch.setattr(wall_lists, "link", lambda function: function)
-    t = np.linspace(0.0, 4.0, 5)
-    floor = []
-    for x, y in itertools.product(t[:-1], t[:-1]):
-        a, b, c, d = ([x, y, 0.0], [x + 1, y, 0.0], [x + 1, y + 1, 0.0], [x, y + 1, 0.0])
-        floor += [[a, b, c], [a, c, d]]
-    step = [[[1.0, 1.0, 0.3], [2.0, 1.0, 0.3], [1.0, 2.0, 0.3]]]
-    corners = np.array(floor + step)
-    normals = np.tile([0.0, 0.0, 1.0], (33, 1))
-    single = np.ones(33, dtype=bool)
-    tree = wall_lists.wall_tree(corners, normals, single)
-    names = np.arange(100, 133)
-    boxes = np.array([[1.9, 1.9, 0.5, 2.3, 2.3, 0.8], [-0.5, 1.0, 0.5, 0.5, 1.5, 0.8]])
-    start, seen = wall_lists.seen_walls(tree, boxes, 2.0, names)
-    first = seen[start[0] : start[1]]
-    assert (first & SURE).tolist() == [1] * 1 + [0] * (len(first) - 1)
-    assert 100 <= first[0] >> 2 < 132
-    assert [(e >> 2, e & 3) for e in first[1:]] == [(132, EDGE)]
-    # Beside the floor's end nothing is sure.
-    second = seen[start[1] : start[2]]
-    assert not (second & SURE).any()
-    assert len(second) > 4
-    # Images may lie on each other, so that none of them covers anything.
-    start, seen = wall_lists.seen_walls(tree._replace(single=~single), boxes, 2.0, names)
-    assert not (seen & SURE).any()
+            i = int(np.flatnonzero(names == entry >> 1)[0])
+            assert wall_lists._kind(tree, i, boxes, cell, middle, half, sight, limit) == entry & 1
+        found_kinds |= {entry & 1 for entry in found}
+    assert found_kinds == {0.0: {0}, 0.5: {0, 1}, 1.0: {1}}[share]
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -556,9 +460,9 @@ def test_an_edge_is_seen_from_where_no_perpendicular_ends_on_its_triangle(axis, 
     box = np.array([[1.0, 0.0, 0.1], [1.05, 0.05, 0.15]])
     corners, box = np.roll(corners, axis, axis=2), np.roll(box, axis, axis=1)
     normals = np.roll([[0.0, 0.0, 1.0]], axis, axis=1)
-    tree = wall_lists.wall_tree(corners, normals, np.ones(1, dtype=bool))
+    tree = wall_lists.wall_tree(corners, normals)
     boxes, names = box.reshape(1, 6), np.array([7])
-    assert wall_lists.seen_walls(tree, boxes, 1.0, names)[1].tolist() == [4 * 7 + EDGE]
+    assert wall_lists.seen_walls(tree, boxes, 1.0, names)[1].tolist() == [2 * 7 + 1]
     assert wall_lists.seen_walls(tree, boxes, 0.5, names)[1].tolist() == []
     # From behind it is no wall, nor where no edge of it can be the nearest.
     assert wall_lists.seen_walls(tree._replace(normals=-normals), boxes, 1.0, names)[1].tolist() == []

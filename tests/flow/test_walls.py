@@ -88,7 +88,7 @@ def test_the_gap_is_the_distance_from_the_ball_before_it_was_deformed(random):
 
 def test_a_tree_of_walls_finds_what_a_list_of_all_finds(random):
     corners, normals, arrays = soup(random)
-    tree = wall_tree(corners, normals, np.ones(len(corners), dtype=bool))
+    tree = wall_tree(corners, normals)
     arrays = arrays._replace(wall_boxes=tree.boxes, wall_leaves=tree.leaves)
     for x, F, R in bodies(random, 60):
         place, flat = tuple(x), tuple(F.ravel())
@@ -104,7 +104,7 @@ def test_of_walls_that_are_equally_near_the_first_counts():
     """Two triangles on each other, in a list and in a tree, whichever is the seed."""
     corners = np.array([[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 0.0]]] * 2)
     normals = np.array([[0.0, 0.0, 1.0]] * 2)
-    tree = wall_tree(corners, normals, np.ones(2, dtype=bool))
+    tree = wall_tree(corners, normals)
     arrays = no_mesh()._replace(
         nodes=corners.reshape(-1, 3), triangles=np.arange(6).reshape(2, 3), triangle_normals=normals,
         triangle_patch=np.array([3, 4]), near=np.arange(2), wall_boxes=tree.boxes, wall_leaves=tree.leaves,

@@ -69,7 +69,7 @@ class MeshArrays(NamedTuple):
     """(n_cells + 1,) into ``seen``."""
     seen: Ints
     """The triangles that may be walls in the sense of :mod:`foamprb.flow.planes` for places in the cell, each
-    as 4 × triangle + a sum of ``SURE`` and ``EDGE`` (:mod:`foamprb.flow.wall_lists`)."""
+    as 2 × triangle + 1 if an edge of it may be the nearest wall, else + 0."""
     turbulence: Floats
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); without rows if nobody asked for them."""
 
