@@ -25,7 +25,7 @@ from foamprb.body.tensor import (
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
-from foamprb.compile.link import side_by_side
+from foamprb.compile.link import side_by_side, traced
 
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
@@ -344,6 +344,7 @@ def frame_stage(block: Any) -> None:
         store9(block, at.Q, i, refined_frame(load9(block, at.new_F, i), load9(block, at.frame, i)))
 
 
+@traced
 def stretch_stage(block: Any) -> None:
     """Stretches of the new deformation gradient along its frame, and how skew that still is."""
     for i in range(LANES):

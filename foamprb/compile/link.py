@@ -1,10 +1,11 @@
-"""The one place where plain formulas become machine code.
+"""Compilation of plain formulas to machine code.
 
 The mathematics of foamprb is written once, as plain functions of floats, tuples and array elements.
 :func:`link` follows the functions that an entry function calls, through their module globals, and compiles
-the whole with numba; the plain text stays callable as it is, on
-floats or on numpy arrays. A model that the user chooses (a traction, a drag law, a flow) is bound to the name
-by which the entry function calls it.
+all of them with numba. The plain functions stay callable, on floats or on numpy arrays. A model that the user
+selects (a traction, a drag law, a flow) is bound to the name by which the entry function calls it.
+
+With ``NUMBA_DISABLE_JIT=1`` nothing is compiled: the same functions run in the interpreter, for a debugger.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from __future__ import annotations
 import dis
 import hashlib
 import inspect
+import logging
+import os
 import platform
 import sys
 from collections.abc import Callable, Collection, Mapping
@@ -20,19 +23,27 @@ from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from types import CellType, CodeType, FunctionType, ModuleType
-from typing import Any, NamedTuple, TypeGuard
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeGuard
 
 import numba
 import numpy as np
 from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
-from foamprb.compile import internals as inner
-from foamprb.compile import trace
 from foamprb.compile.cache import Store
-from foamprb.compile.internals import SIDE_BY_SIDE, Role, internals
+from foamprb.compile.trace import REGISTERS, branch
 
-__all__ = ["compile_part", "is_compiled", "link", "read_by", "side_by_side"]
+if TYPE_CHECKING:
+    from foamprb.compile.internals import Role
+
+__all__ = ["compile_part", "is_compiled", "link", "read_by", "side_by_side", "traced"]
+
+log = logging.getLogger("foamprb")
+
+TESTED = "0.68"
+"""Minor version of numba with which :mod:`foamprb.compile.internals` was tested."""
+SWITCH = "FOAMPRB_PLAIN_NUMBA"
+"""Environment variable: 1 for plain numba, 0 for its internals with any version."""
 
 # Contraction and the sign of zero only: results may not depend on how a sum is ordered.
 _FAST_MATH = ("contract", "nsz")
@@ -41,6 +52,14 @@ _OPTIONS: dict[str, Any] = {
     "boundscheck": False,
     "nogil": True,
     "fastmath": set(_FAST_MATH),
+    # No function allocates an array, or outlives its arguments.
+    "_nrt": False,
+    "no_cfunc_wrapper": True,
+}
+_OPTIONS_OF: dict[Role, dict[str, Any]] = {
+    "entry": {"forceinline": False},
+    "separate": {"forceinline": False, "no_cpython_wrapper": True},
+    "inlined": {"forceinline": True, "no_cpython_wrapper": True},
 }
 
 
@@ -98,14 +117,20 @@ def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str,
     return {name: value for name, value in bindings.items() if name in found}
 
 
-def side_by_side(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a stage in which each operation waits for the one before: two registers full of lanes go together.
+def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a stage that is traced where it is a separate callee (:mod:`foamprb.compile.trace`)."""
+    setattr(stage, REGISTERS, 1)
+    return stage
 
-    It holds for separate callees that are traced (:mod:`foamprb.compile.trace`). Where much is at hand to be
-    computed there are not enough registers.
+
+def side_by_side(stage: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a traced stage that computes two registers of lanes at a time.
+
+    This hides latency where each operation depends on the one before. A stage with many values at hand spills
+    registers and gets slower.
     """
-    setattr(function, SIDE_BY_SIDE, True)
-    return function
+    setattr(stage, REGISTERS, 2)
+    return stage
 
 
 def compile_part(
@@ -114,15 +139,17 @@ def compile_part(
     bindings: Mapping[str, Any],
     separate: Collection[Callable[..., Any]],
 ) -> None:
-    """Compile a callee of an entry before that is compiled, here or by another process.
+    """Compile a callee of an entry before the entry is compiled, here or in another process.
 
     Parameters
     ----------
     arguments
-        An example of each argument, by the names of the parameters; there may be others.
+        An example of each argument, by the names of the parameters; others are ignored.
     bindings, separate
-        As the entry will have them. Only separate callees are saved in the cache, for others to find.
+        Those of the entry. Only separate callees are saved in the cache.
     """
+    if numba.config.DISABLE_JIT:
+        return
     role: Role = "separate" if function in separate else "inlined"
     part = _link(function, _Linkage(dict(bindings), frozenset(separate)), role)
     names = inspect.signature(function).parameters
@@ -130,27 +157,29 @@ def compile_part(
 
 
 def is_compiled(dispatcher: Any) -> bool:
-    """Whether what :func:`link` gave has been compiled, in this process or in one that saved the code."""
+    """Return True if a function that :func:`link` returned is compiled, here or in the cache."""
+    if numba.config.DISABLE_JIT:
+        return True
     return bool(dispatcher.signatures) or bool(_stores.get(id(dispatcher)))
 
 
 class _Linkage(NamedTuple):
-    """What holds for all functions of one linking."""
+    """Arguments of :func:`link` that hold for all functions."""
 
     bindings: dict[str, Any]
     separate: frozenset[Callable[..., Any]]
 
 
 class _Part(NamedTuple):
-    """A compiled function, and a key that changes with its code and with that of all it calls."""
+    """A compiled function, and a key that changes with its code and that of its callees."""
 
     dispatcher: Any
     key: str
 
 
-# How functions are linked is a part of what makes their code.
-_HOW = (inner.__file__, trace.__file__, __file__)
-_LINKING = hashlib.sha256(b"".join(Path(file).read_bytes() for file in _HOW)).hexdigest()[:8]
+# The code of this package is a part of every key.
+_FILES = sorted(Path(__file__).parent.glob("*.py"))
+_OWN_CODE = hashlib.sha256(b"".join(file.read_bytes() for file in _FILES)).hexdigest()[:8]
 
 
 _parts: dict[str, _Part] = {}
@@ -158,7 +187,7 @@ _stores: dict[int, Store | None] = {}
 
 
 def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
-    """Compile a function after its callees; a part that has been compiled before is used again."""
+    """Return a function compiled after its callees; each is compiled once per process."""
     if function is select:
         return _link_select()
     assert isinstance(function, FunctionType), f"{function!r} is not a plain function"
@@ -167,8 +196,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
-    together = getattr(function, SIDE_BY_SIDE, False)
-    digest.update(f"{captured!r} {together}".encode())
+    registers = getattr(function, REGISTERS, 0)
+    digest.update(f"{captured!r} {registers}".encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if _is_linked(value):
@@ -184,10 +213,11 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     if key not in _parts:
         cells = tuple(CellType(_constant(value)) for value in captured)
         clone = FunctionType(function.__code__, scope, function.__name__, function.__defaults__, cells)
-        # Code is linked by name, and other processes may have put other models behind a name.
+        # Code is linked by name, and another process may have bound another model to the same name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
-        setattr(clone, SIDE_BY_SIDE, together)
+        if registers:
+            setattr(clone, REGISTERS, registers)
         _parts[key] = _Part(_compile(clone, role, key), key)
     return _parts[key]
 
@@ -198,72 +228,93 @@ def _is_linked(value: Any) -> TypeGuard[FunctionType]:
 
 
 def _constant(value: Any) -> Any:
-    """What stands for a constant: numba compiles a function anew for each Python int that it is given."""
+    """Return a constant for numba, which compiles a function again for each Python int in its arguments."""
     return np.int64(value) if type(value) is int else value
 
 
 def _are_offsets(value: Any) -> bool:
-    """Whether a constant is a named tuple of whole numbers, such as those at which a block's rows begin."""
+    """Return True for a named tuple of integers, e.g. the offsets of a block's rows."""
     return hasattr(value, "_fields") and all(type(item) is int for item in value)
 
 
 def _offsets(value: Any) -> ModuleType:
-    """What stands for such a tuple: numba takes a module's attribute for the constant that it is."""
+    """Return a module with the items of a named tuple, which numba reads as constants."""
     module = ModuleType(type(value).__name__)
     vars(module).update({name: _constant(item) for name, item in value._asdict().items()})
     return module
 
 
 def _link_select() -> _Part:
-    """The branch that ``select`` is of scalars."""
+    """Return the branch that ``select`` is on scalars."""
     key = "select"
     if key not in _parts:
-        _parts[key] = _Part(numba.njit(inline="always")(trace.branch), key)
+        _parts[key] = _Part(numba.njit(inline="always")(branch), key)
     return _parts[key]
 
 
-# Found once: a process that has gone to another user may not be able to look again.
+# Cached: a process that has switched to another user may be unable to read it again.
 _version = cache(version)
 
 
 def _compiler() -> str:
-    """What makes the code, and how, and for which processor."""
-    python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_LINKING}"
-    # A set has another order in every process.
-    options = [_OPTIONS[name] for name in sorted(_OPTIONS) if name != "fastmath"]
-    how = f"{_FAST_MATH} {options} {internals().parts}"
+    """Return versions, options and processor, on which machine code depends."""
+    python = f"{sys.implementation.cache_tag} numba {numba.__version__} {_OWN_CODE}"
+    how = "plain" if _internals() is None else ""
     return f"{python} llvmlite {_version('llvmlite')} {how} {_processor()}"
 
 
 @cache
 def _processor() -> str:
-    """Name and features of the processor that the code is made for: a home may be shared by many machines."""
+    """Return name and features of the processor: several machines may share a home."""
     with suppress(RuntimeError):
         features = binding.get_host_cpu_features().flatten()
-        # As NUMBA_CPU_NAME and NUMBA_CPU_FEATURES set them.
+        # From NUMBA_CPU_NAME and NUMBA_CPU_FEATURES.
         chosen = f"{numba.config.CPU_NAME} {numba.config.CPU_FEATURES}"
         return f"{binding.get_host_cpu_name()} {features} {chosen}"
     return platform.machine()
 
 
+def _internals() -> ModuleType | None:
+    """Return the module that uses numba internals, None for plain numba."""
+    return _internals_by(os.environ.get(SWITCH, ""))
+
+
+@cache
+def _internals_by(switch: str) -> ModuleType | None:
+    if switch == "1" or numba.config.DISABLE_JIT:
+        return None
+    if switch != "0" and not numba.__version__.startswith(f"{TESTED}."):
+        log.warning(
+            "numba %s is untested (tested: %s); some optimisations are off", numba.__version__, TESTED
+        )
+        return None
+    try:
+        from foamprb.compile import internals
+    except (ImportError, AttributeError) as error:
+        log.warning("Some optimisations are off, as numba %s has changed: %s", numba.__version__, error)
+        return None
+    return internals
+
+
 def _compile(function: Callable[..., Any], role: Role, key: str) -> Any:
-    used = internals()
-    dispatcher = numba.njit(**used.options[role], **_OPTIONS)(function)
-    used.prepare(dispatcher)
+    internals = _internals()
+    if internals is None:
+        return numba.njit(**_OPTIONS, **_OPTIONS_OF[role])(function)
+    dispatcher = numba.njit(**_OPTIONS, **_OPTIONS_OF[role], **internals.pipeline(role))(function)
     if role != "inlined":
-        _stores[id(dispatcher)] = used.use_cache(dispatcher, key, role)
+        _stores[id(dispatcher)] = internals.use_cache(dispatcher, key, role)
     return dispatcher
 
 
 @cache
 def _global_names(code: CodeType) -> frozenset[str]:
-    """Names that the code reads from its module; ``co_names`` has those of attributes as well."""
+    """Return the names that the code reads from its module; ``co_names`` has attributes as well."""
     own = frozenset(step.argval for step in dis.get_instructions(code) if step.opname == "LOAD_GLOBAL")
     return own.union(*(_global_names(item) for item in code.co_consts if isinstance(item, CodeType)))
 
 
 def _fingerprint(code: CodeType) -> bytes:
-    """Bytes that change with what the code does, and not with where it stands."""
+    """Return bytes that change with the code and not with its place in a file."""
     parts = [code.co_code, repr(code.co_names).encode(), repr(code.co_varnames).encode()]
     for constant in code.co_consts:
         parts.append(_fingerprint(constant) if isinstance(constant, CodeType) else repr(constant).encode())

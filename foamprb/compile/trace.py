@@ -19,10 +19,12 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LANES", "Code", "UntraceableError", "branch", "trace"]
+__all__ = ["LANES", "REGISTERS", "Code", "UntraceableError", "branch", "trace"]
 
 LANES = "LANES"
-"""By which name stages know the number of lanes."""
+"""Global name of the number of lanes in stages."""
+REGISTERS = "_registers"
+"""Attribute of stages to be traced: the number of registers of lanes that go through them together."""
 
 
 class UntraceableError(Exception):

@@ -13,13 +13,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
+import small_program
 from paths import ROOT
 
 from foamprb.compile import cache as caching
 from foamprb.compile import link as linking
-from foamprb.compile import trial
 from foamprb.compile.cache import Store
 from foamprb.compile.link import is_compiled, link
 
@@ -30,8 +29,8 @@ PROGRAM = """
 import logging, sys
 logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
 from foamprb.compile.link import is_compiled, link
-from foamprb.compile import trial
-f = link(trial.swapped)
+from small_program import swapped
+f = link(swapped)
 print(is_compiled(f), f((1.0, 3.0)), is_compiled(f), sum(f.stats.cache_hits.values()))
 """
 FOUND, NOT_FOUND = "True (3.0, -5.0) True 1", "False (3.0, -5.0) True 0"
@@ -58,7 +57,12 @@ def forget(monkeypatch):
 
 
 def start(cache, before=None, **variables):
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "FOAMPRB_CACHE_DIR": str(cache), **variables}
+    environment = {
+        **os.environ,
+        "PYTHONPATH": f"{ROOT}:{ROOT}/tests",
+        "FOAMPRB_CACHE_DIR": str(cache),
+        **variables,
+    }
     return subprocess.Popen(
         [sys.executable, "-c", PROGRAM], env=environment, stdout=subprocess.PIPE, text=True, preexec_fn=before
     )
@@ -72,10 +76,9 @@ def said(process):
 
 def compiled():
     """Compile the small program, or find it; how often it was found."""
-    f = link(trial.outer, separate=(trial.middle,))
-    numbers = trial.Numbers(np.linspace(-1.0, 2.0, 50), 0.75)
-    assert f(numbers) == pytest.approx(
-        trial.outer(trial.Numbers(np.linspace(-1.0, 2.0, 50), 0.75)), rel=1e-13
+    f = link(small_program.outer, separate=(small_program.middle,))
+    assert f(small_program.example()) == pytest.approx(
+        small_program.outer(small_program.example()), rel=1e-13
     )
     return sum(f.stats.cache_hits.values())
 
@@ -146,8 +149,8 @@ class TestDamage:
     @pytest.mark.usefixtures("folder")
     def test_what_names_a_class_that_has_gone_is_compiled_again(self, monkeypatch):
         store = Store("name")
-        store.save("key", trial.Numbers(1, 2.0))
-        monkeypatch.delattr(trial, "Numbers")
+        store.save("key", small_program.Numbers(1, 2.0))
+        monkeypatch.delattr(small_program, "Numbers")
         assert store.load("key") is None
 
 
@@ -304,12 +307,12 @@ class TestProcessors:
         assert compiled() == 0
         monkeypatch.setattr(linking, "_processor", lambda: "another with other features")
         forget()
-        assert not is_compiled(link(trial.outer, separate=(trial.middle,)))
+        assert not is_compiled(link(small_program.outer, separate=(small_program.middle,)))
         assert compiled() == 0
         monkeypatch.undo()
         monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
         monkeypatch.setattr(linking, "_parts", {})
-        assert is_compiled(link(trial.outer, separate=(trial.middle,)))
+        assert is_compiled(link(small_program.outer, separate=(small_program.middle,)))
         assert compiled() == 1
 
     def test_numba_may_be_told_which_processor_it_is(self, tmp_path):

@@ -1,6 +1,5 @@
 """Formulas become machine code once, and the code is found again by whoever has the same formulas."""
 
-import gc
 import math
 import os
 import re
@@ -13,13 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from llvmlite import binding
-from numba import TypingError
 
 import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
-from foamprb.compile.internals import SWITCH
 from foamprb.compile.link import compile_part, link, read_by, side_by_side
 
 FIRST, SECOND = 2, 3
@@ -202,20 +199,7 @@ def test_unread_name_in_bindings_is_an_error(cache):
     assert link(octupled, read_by(octupled, both))(1.5) == 12.0
 
 
-def test_garbage_is_collected_again_after_a_compilation(cache):
-    def unknown(x):
-        return x.nothing_of_the_kind
-
-    assert link(doubled)(2.0) == 4.0
-    assert gc.isenabled()
-    with pytest.raises(TypingError):
-        link(unknown)(2.0)
-    assert gc.isenabled()
-
-
-@pytest.mark.parametrize("without", ["0", "machineCode"], ids=["as here", "as with another numba"])
-def test_called_functions_are_found_by_other_processes(cache, monkeypatch, without):
-    monkeypatch.setenv(SWITCH, without)
+def test_called_functions_are_found_by_other_processes(cache, monkeypatch):
     compile_part(doubled, {"x": 1.25}, {}, (doubled,))
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(octupled, separate=(doubled,))(1.25) == 10.0
@@ -285,18 +269,6 @@ def test_code_changes_with_the_fields_of_what_it_makes(cache, monkeypatch):
     monkeypatch.setitem(globals(), "Pair", Riap)
     monkeypatch.setattr(compiling, "_parts", {})
     assert link(first_and_second)(1.0) == 1.0
-
-
-@pytest.mark.parametrize("without", ["0", "integers", "arithmetic"])
-def test_whole_numbers_of_any_kind_find_one_function(cache, monkeypatch, without):
-    """A constant, a counter and an element of 32 bits; each would have a function of its own."""
-    monkeypatch.setenv(SWITCH, without)
-    values, rows = np.array([1.0, 10.0, 100.0]), np.array([2, 0, -1], dtype=np.int32)
-    assert link(sum_of_all)(values, rows) == 1.0 + 101.0 + 111.0 + 201.0
-    made = {p.dispatcher.py_func.__code__: p.dispatcher.signatures for p in compiling._parts.values()}
-    number = len(made[element.__code__])
-    assert number > 1 if without == "integers" else number == 1
-    assert len(made[pair_sum.__code__]) == 1
 
 
 def test_separate_functions_stay_functions(cache):

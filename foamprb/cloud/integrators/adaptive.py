@@ -83,6 +83,7 @@ from foamprb.cloud.motion import (
     reach_end,
 )
 from foamprb.cloud.state import Particles
+from foamprb.compile.link import traced
 from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 
@@ -251,6 +252,7 @@ predict = first_slope = last_argument = end_slope = no_stage
 second_slope = third_slope = no_choice
 
 
+@traced
 def begin_stage(block: Any) -> None:
     """Let a step begin with the fluid as the flow has it.
 

@@ -53,12 +53,13 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import side_by_side
+from foamprb.compile.link import side_by_side, traced
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
 
 
+@traced
 def traction_stage(block: Any, medium: Medium) -> None:
     """σ̃* of the old shape (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
     for i in range(LANES):
@@ -100,6 +101,7 @@ def newton_stage(block: Any) -> None:
         _finish_shape(block, i, G, error)
 
 
+@traced
 def barycentre_stage(block: Any, medium: Medium) -> None:
     """The new velocity, with the drag of the new shape (36) to (43)."""
     for i in range(LANES):

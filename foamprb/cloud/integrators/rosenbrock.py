@@ -94,6 +94,7 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.compile.link import traced
 
 
 def resist(_block: Any, _i: int, rate: Vector, w: Vector) -> Vector:
@@ -154,6 +155,7 @@ class StiffnessRows(NamedTuple):
 own = offsets(StiffnessRows, STEP_ROWS)
 
 
+@traced
 def predict_inertial(block: Any, medium: Medium) -> None:
     """Velocity and its rate at the start, and where they lead while the drag lasts."""
     for i in range(LANES):
@@ -177,6 +179,7 @@ def predict_inertial(block: Any, medium: Medium) -> None:
         store3(block, own.first_vt, i, start[1])
 
 
+@traced
 def first_inertial(block: Any, medium: Medium) -> None:
     """The state at the start, how stiff it is, and the state at a quarter of the step.
 
@@ -243,6 +246,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         )
 
 
+@traced
 def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
     """Slopes at a quarter of the step, the solution of order 2, and whether it is good enough."""
     for i in range(LANES):
@@ -287,6 +291,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         store3(block, at.new_v, i, v)
 
 
+@traced
 def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
     """The state for the evaluation at the end, in lanes that go to order 3."""
     for i in range(LANES):
@@ -319,6 +324,7 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
         store3(block, at.DuDt, i, end_acceleration(block, i))
 
 
+@traced
 def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
     """Slopes at the end, and the solution of order 3."""
     for i in range(LANES):

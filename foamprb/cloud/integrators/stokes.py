@@ -60,6 +60,7 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.compile.link import traced
 
 
 class RelaxationRows(NamedTuple):
@@ -89,6 +90,7 @@ class RelaxationRows(NamedTuple):
 own = offsets(RelaxationRows, STEP_ROWS)
 
 
+@traced
 def predict_inertialess(block: Any, medium: Medium) -> None:
     """Velocity and acceleration at the start, and where they lead."""
     for i in range(LANES):
@@ -105,6 +107,7 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
         store3(block, at.new_x, i, place)
 
 
+@traced
 def first_inertialess(block: Any, medium: Medium) -> None:
     """The state at the start, how it relaxes, and the shape at a quarter of the step."""
     for i in range(LANES):
@@ -152,6 +155,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         store9(block, own.quarter, i, Omega)
 
 
+@traced
 def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
     """The slope at a quarter of the step, the solution of order 2, and whether it is good enough."""
     for i in range(LANES):
@@ -196,6 +200,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, at.new_A, i, dot(from_frame(Q0, end), F))
 
 
+@traced
 def last_inertialess(block: Any, medium: Medium) -> None:
     """The shape for the evaluation at the end, in lanes that go to order 3."""
     for i in range(LANES):
@@ -215,6 +220,7 @@ def last_inertialess(block: Any, medium: Medium) -> None:
         store9(block, own.quarter, i, Omega)
 
 
+@traced
 def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
     """The slope at the end, and the solution of order 3."""
     for i in range(LANES):
@@ -240,6 +246,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
 
+@traced
 def end_inertialess(block: Any, medium: Medium) -> None:
     """A and v of the balance at the end; the stages leave those that the last step has found on its way."""
     for i in range(LANES):

@@ -27,6 +27,7 @@ from foamprb.cloud.block import Medium, Scratch, at, load3, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
 from foamprb.cloud.surroundings.base import Seed, Surrounding
+from foamprb.compile.link import traced
 from foamprb.dictionary.constraints import Meaning
 from foamprb.flow.analytic import turbulence_free as turbulence
 from foamprb.flow.base import Flow, Patch
@@ -120,6 +121,7 @@ def eddy_velocity(xi: tuple[float, float, float, float], kind: float, slope: Vec
     return s * n[0], s * n[1], s * n[2]
 
 
+@traced
 def add_eddies(block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """Add the velocity of the eddies to that of the mean flow."""
     for i in range(LANES):

@@ -14,6 +14,7 @@ from foamprb.body.tensor import Vector, dot, scale, transpose
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
 __all__ = ["FaxenCorrection"]
@@ -47,6 +48,7 @@ def store_curvature(
     store3(block, curved.along_xz, i, xz)
 
 
+@traced
 def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):

@@ -1,0 +1,64 @@
+"""A small program for tests of the compiler: an entry, a separate and an inlined function, a stage."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from foamprb.body.tensor import select
+from foamprb.compile.link import link, traced
+
+LANES = 10
+
+
+class Numbers(NamedTuple):
+    """An array and a number, as the arrays of a flow are passed."""
+
+    values: Any
+    scale: float
+
+
+def example():
+    return Numbers(np.linspace(-1.0, 2.0, 50), 0.75)
+
+
+def inner(x, y):
+    return select(x > y, math.sqrt(x * x + y * y) / (3.0 + x), x - 2 * y)
+
+
+def swapped(pair):
+    return pair[1], inner(pair[0], pair[1])
+
+
+def middle(numbers, i):
+    """Separate function."""
+    a, b = swapped((numbers.values[i], numbers.scale))
+    numbers.values[i] = np.exp(-a) + b
+    return float(a * b if i % 3 else np.cbrt(b))
+
+
+def around(numbers, i):
+    """Inlined caller of a separate function."""
+    return float(middle(numbers, i) + inner(numbers.values[i], 0.5))
+
+
+@traced
+def stage(values, numbers):
+    for i in range(LANES):
+        x, y = values[i], values[LANES + i]
+        values[3 * LANES + i] += select(x > numbers.scale, np.sqrt(abs(y)), x) / np.maximum(y, 0.5)
+
+
+def outer(numbers):
+    """Entry."""
+    total = 0.0
+    for i in range(numbers.values.shape[0]):
+        total += around(numbers, i)
+    stage(numbers.values, numbers)
+    return total
+
+
+def linked():
+    return link(outer, separate=(middle, stage))
