@@ -1,0 +1,44 @@
+"""Without compilation the same functions run in the interpreter."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import pyvista
+from paths import ROOT
+from pipe_case import copy_of_pipe, edit
+
+from foamprb.cli import main
+
+
+def arrays(case):
+    """Positions and arrays of the particles at the last write time."""
+    mesh = pyvista.read(sorted((case / "postProcessing/softCloud").glob("*.vtp"))[-1])
+    return {"points": np.asarray(mesh.points), **{name: np.asarray(a) for name, a in mesh.point_data.items()}}
+
+
+@pytest.mark.parametrize("integrator", ["paper", "stokes"])
+def test_run_without_compilation_gives_the_same(integrator, tmp_path):
+    found = []
+    for name in ("compiled", "interpreted"):
+        case = copy_of_pipe(tmp_path / name)
+        edit(case, r"endTime\s+\S+;", "endTime 4e-5;")
+        edit(case, r"writeInterval\s+\S+;", "writeInterval 4e-5;")
+        edit(case, r"shape\s+paper;", f"shape {integrator};")
+        if name == "compiled":
+            assert main(["run", "-case", str(case), "-threads", "1"]) == 0
+        else:
+            command = [sys.executable, "-m", "foamprb", "run", "-case", str(case), "-threads", "1"]
+            environment = {**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT)}
+            done = subprocess.run(command, env=environment, capture_output=True, text=True)
+            assert done.returncode == 0, done.stderr
+        found.append(arrays(case))
+    compiled, interpreted = found
+    assert compiled.keys() == interpreted.keys()
+    for name, array in compiled.items():
+        scale = np.abs(np.nan_to_num(array)).max(initial=0.0)
+        np.testing.assert_allclose(interpreted[name], array, rtol=1e-6, atol=1e-9 * scale, err_msg=name)
