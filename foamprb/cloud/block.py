@@ -1,7 +1,7 @@
-"""A block of particles: :data:`LANES` of them side by side, one row of numbers per component.
+"""Block of :data:`LANES` particles, with one row of numbers per component.
 
-What every integrator does with a block is here: its rows (:class:`Rows`), filling and emptying it, and the
-particle frame with Jeffery's integrals of each lane.
+It holds the rows that every integrator has (:class:`Rows`), loading and saving of particles, and the stages
+for the particle frames and Jeffery's integrals.
 """
 
 from __future__ import annotations
@@ -94,16 +94,16 @@ class Rows(NamedTuple):
 
 
 at = offsets(Rows)
-"""The number of the first row of each quantity."""
+"""Index of the first row of each quantity."""
 ROWS = end(at)
-idle, load_rows, save_rows, ask_rows = layout(at)[1:5]
+idle, load_rows, save_rows, prefetch_rows = layout(at)[1:5]
 
-# Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; what was stored is held to a little less.
+# Largest |b_ac|/(λ_a λ_c) between the axes of a frame, squared; stored frames may be a little more skew.
 _SKEWNESS, _STORED_SKEWNESS = 1e-24, 1e-22
 _MOST_REPEATS = 10
 _MIN_J, _MAX_J = 0.125, 8.0
 _LINE = 8
-"""Numbers on a line of memory, and in the widest register."""
+"""Doubles on a cache line, and in the widest register."""
 
 
 class Medium(NamedTuple):
@@ -116,69 +116,68 @@ class Medium(NamedTuple):
     gravity: Vector
     """m/s²."""
     coefficients: Any = ()
-    """Of the forces on the barycentre: the loop's, which a cloud fills in from its models."""
+    """Of the forces on the barycentre; a cloud takes them from its models."""
     surroundings: Any = ()
     """Coefficients of the models of the surroundings, likewise."""
 
 
 REBOUND_NUMBERS = 21
-"""Numbers that are noted of a rebound (:func:`foamprb.cloud.rebounds.note`)."""
+"""Numbers that are recorded of a rebound (:func:`foamprb.cloud.rebounds.note`)."""
 
 
 class Scratch(NamedTuple):
-    """Working memory of a loop: while a block is in it, the cloud's arrays are left alone.
+    """Working memory of a loop, so that the cloud's arrays are written only for finished particles.
 
-    Neighbours in memory may be in the blocks of other threads, and a line of memory that two processors write
-    to goes to and fro between them.
+    Neighbours in the cloud's arrays may belong to other threads, and writing to shared cache lines is slow.
     """
 
     block: Any
     """Rows × LANES numbers, flat."""
     status: Any
-    """LANES whole numbers, as those that follow: what each particle is doing."""
+    """Status of each lane, (LANES,) integers as all up to ``step``."""
     reason: Any
     patch: Any
     host: Any
     ahead: Any
-    """The host to which the step of each leads."""
+    """Host at the end of the step."""
     step: Any
-    """The step at which each particle is."""
+    """Tracking step."""
     matrix: Any
-    """9 × 10 numbers: one particle's equations."""
+    """(9, 10) linear equations of one particle."""
     stop: Any
-    """A whole number that others share: not zero when a loop shall end at once."""
+    """(1,) integer shared with other threads: not 0 to stop the loop at once."""
     number: Any
-    """LANES whole numbers: which of the whole cloud each particle is."""
+    """(LANES,) index of each particle in the whole cloud."""
     outgrown: Any
-    """A whole number: not zero once a wall may not be listed, or a rebound has no room."""
+    """(1,) integer: not 0 once a wall may not be listed, or a rebound has no room."""
     rebounds: Any
-    """Room for the rebounds of this loop's particles, (n, :data:`REBOUND_NUMBERS`)."""
+    """Buffer for the rebounds, (n, :data:`REBOUND_NUMBERS`)."""
     noted: Any
-    """Two whole numbers: how many are there, and how many of them of blocks that are done."""
+    """(2,) number of recorded rebounds, and of those of finished blocks."""
     bounds: LoopLimits
-    """What no particle may pass."""
+    """Limits of the particles."""
     member: Any
-    """LANES whole numbers: which particle of the cloud's arrays is in each lane, −1 for none."""
+    """(LANES,) index of each particle in the cloud's arrays, −1 for none."""
     mended: Any
-    """LANES whole numbers: how many walks of each the tree has mended."""
+    """(LANES,) number of walks that needed the tree."""
     kept: Any
-    """Numbers of rows, as of :class:`~foamprb.cloud.layout.Layout`."""
+    """As in :class:`~foamprb.cloud.layout.Layout`."""
     fresh: Any
-    """Values, likewise."""
+    """As in :class:`~foamprb.cloud.layout.Layout`."""
     shelf: Any
-    """What is in the n rows ``kept`` of particles that are put aside, (:data:`SHELF`, n)."""
+    """Rows ``kept`` of the particles that are set aside, (:data:`SHELF`, n)."""
     labels: Any
-    """Beside it whole numbers, (:data:`SHELF`, :data:`LABELS`)."""
+    """Their integers, (:data:`SHELF`, :data:`LABELS`)."""
     counts: Any
-    """Whole numbers: how many are put aside, and what else is counted there."""
-    asked: Any
-    """One number without meaning: what was read in advance, which the compiler must believe to be of use."""
+    """(:data:`COUNTS`,) numbers of particles set aside, and other counts (:mod:`foamprb.cloud.lanes`)."""
+    prefetched: Any
+    """Sink for prefetched values; keeps the compiler from removing the prefetch."""
     stride: Any
-    """LANES whole numbers: the tracking steps of the stretch that each is in."""
+    """(LANES,) tracking steps to the end of the stretch."""
 
 
 SHELF, LABELS, COUNTS = 15 * LANES, 8, 5
-"""Places on a shelf, and whole numbers beside each; numbers that are counted."""
+"""Places on the shelf, integers of each, and counts."""
 
 
 def new_scratch(
@@ -188,16 +187,16 @@ def new_scratch(
     room: int = 0,
     kept: tuple[NDArray[np.int64], NDArray[np.float64]] = (np.empty(0, dtype=np.int64), np.empty(0)),
 ) -> Scratch:
-    """Working memory for a block of that many rows.
+    """Return working memory for a block of ``rows`` rows.
 
     Parameters
     ----------
     stop, bounds
         As in :class:`Scratch`.
     room
-        How many rebounds it can take.
+        Length of the buffer for rebounds.
     kept
-        The layout's ``kept`` and ``fresh``, if particles are to be put aside.
+        ``kept`` and ``fresh`` of the layout, if particles are set aside.
     """
     rows_kept, fresh = kept
     # One array, so that no other thread writes to the same lines of memory.
@@ -225,44 +224,44 @@ def new_scratch(
         shelf=np.empty((SHELF, len(rows_kept))),
         labels=np.empty((SHELF, LABELS), dtype=np.int64),
         counts=np.zeros(COUNTS, dtype=np.int64),
-        asked=np.empty(1),
+        prefetched=np.empty(1),
         stride=next(lanes),
     )
 
 
 def new_block(rows: int) -> NDArray[np.float64]:
-    """Rows × LANES numbers, flat, of which no register full lies on two lines of memory."""
+    """Return rows × LANES numbers, flat, aligned to cache lines."""
     room = np.empty(rows * LANES + _LINE)
     first = -room.ctypes.data // room.itemsize % _LINE
     return room[first : first + rows * LANES]
 
 
 def load3(block: Any, row: int, i: int) -> Vector:
-    """The vector in three rows of lane i."""
+    """Return the vector in three rows of lane i."""
     k = row * LANES + i
     return block[k], block[k + LANES], block[k + 2 * LANES]
 
 
 def store3(block: Any, row: int, i: int, v: Vector) -> None:
-    """Put a vector into three rows of lane i."""
+    """Store a vector in three rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES] = v[0], v[1], v[2]
 
 
 def load4(block: Any, row: int, i: int) -> tuple[Any, Any, Any, Any]:
-    """The numbers in four rows of lane i."""
+    """Return the numbers in four rows of lane i."""
     k = row * LANES + i
     return block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES]
 
 
 def store4(block: Any, row: int, i: int, v: tuple[Any, Any, Any, Any]) -> None:
-    """Put four numbers into as many rows of lane i."""
+    """Store four numbers in four rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES], block[k + 3 * LANES] = v[0], v[1], v[2], v[3]
 
 
 def load9(block: Any, row: int, i: int) -> Tensor:
-    """The tensor in nine rows of lane i."""
+    """Return the tensor in nine rows of lane i."""
     k = row * LANES + i
     return (
         block[k], block[k + LANES], block[k + 2 * LANES],
@@ -272,7 +271,7 @@ def load9(block: Any, row: int, i: int) -> Tensor:
 
 
 def store9(block: Any, row: int, i: int, T: Tensor) -> None:
-    """Put a tensor into nine rows of lane i."""
+    """Store a tensor in nine rows of lane i."""
     k = row * LANES + i
     block[k], block[k + LANES], block[k + 2 * LANES] = T[0], T[1], T[2]
     block[k + 3 * LANES], block[k + 4 * LANES], block[k + 5 * LANES] = T[3], T[4], T[5]
@@ -280,7 +279,7 @@ def store9(block: Any, row: int, i: int, T: Tensor) -> None:
 
 
 def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None:
-    """Put the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u into lane i."""
+    """Store the fluid's u, its gradient and its acceleration Du/Dt = ∂u/∂t + l·u in lane i."""
     store3(block, at.u, i, u)
     store9(block, at.l, i, l_f)
     c = dot_vector(l_f, u)
@@ -288,7 +287,7 @@ def store_fluid(block: Any, i: int, u: Vector, l_f: Tensor, u_t: Vector) -> None
 
 
 def load_integrals(block: Any, i: int) -> Integrals:
-    """Jeffery's integrals of lane i."""
+    """Return Jeffery's integrals of lane i."""
     return Integrals(
         alpha=load3(block, at.alpha, i),
         ring=load3(block, at.ring, i),
@@ -298,7 +297,7 @@ def load_integrals(block: Any, i: int) -> Integrals:
 
 
 def store_integrals(block: Any, i: int, g: Integrals) -> None:
-    """Put Jeffery's integrals into lane i."""
+    """Store Jeffery's integrals in lane i."""
     store3(block, at.alpha, i, g.alpha)
     store3(block, at.ring, i, g.ring)
     store3(block, at.star, i, g.star)
@@ -306,24 +305,24 @@ def store_integrals(block: Any, i: int, g: Integrals) -> None:
 
 
 def new_frames(block: Any) -> None:
-    """Particle frame and stretches of the new deformation gradient, from the frame of the last one."""
+    """Compute frame and stretches of the new deformation gradient, from the frame of the last one."""
     frame_stage(block)
     stretch_stage(block)
     straighten(block, _SKEWNESS)
 
 
 def resume_frames(block: Any) -> None:
-    """Particle frames and stretches as they were when the block's particles were last saved."""
+    """Restore the frames and stretches of loaded particles."""
     for i in range(LANES):
         store9(block, at.Q, i, load9(block, at.frame, i))
-    # One compiled stage serves both: elsewhere the compiler may contract sums in another way.
+    # The same compiled stage as in new_frames: another might contract sums in another way.
     stretch_stage(block)
-    # For a particle that never moved, or whose F somebody set.
+    # For a particle that never moved, or whose F was set from outside.
     straighten(block, _STORED_SKEWNESS)
 
 
 def renew_frames(block: Any) -> None:
-    """As :func:`resume_frames`, of lanes whose state was put there or turned since the last step."""
+    """Restore frames and stretches of the lanes whose state was loaded or turned since the last step."""
     found = 0
     for i in range(LANES):
         if block[at.renewed * LANES + i] > 0.0:
@@ -339,14 +338,14 @@ def renew_frames(block: Any) -> None:
 
 @side_by_side
 def frame_stage(block: Any) -> None:
-    """Particle frame of the new deformation gradient, from the frame of the last one."""
+    """Compute the frame of the new deformation gradient, from the frame of the last one."""
     for i in range(LANES):
         store9(block, at.Q, i, refined_frame(load9(block, at.new_F, i), load9(block, at.frame, i)))
 
 
 @traced
 def stretch_stage(block: Any) -> None:
-    """Stretches of the new deformation gradient along its frame, and how skew that still is."""
+    """Compute the stretches of the new deformation gradient along its frame, and the frame's skewness."""
     for i in range(LANES):
         stretches, skewness = stretches_in_frame(load9(block, at.new_F, i), load9(block, at.Q, i))
         store3(block, at.stretch, i, stretches)
@@ -354,7 +353,7 @@ def stretch_stage(block: Any) -> None:
 
 
 def straighten(block: Any, allowed: float) -> None:
-    """Refine the frames further that have turned too far for one pass."""
+    """Repeat the refinement of frames that turned too far for one pass."""
     for _ in range(_MOST_REPEATS):
         found = 0
         for i in range(LANES):
@@ -368,20 +367,20 @@ def straighten(block: Any, allowed: float) -> None:
 
 @side_by_side
 def straighten_stage(block: Any, allowed: float) -> None:
-    """Refine those frames, and no others, that are more skew than is allowed."""
+    """Refine the frames that are more skew than ``allowed``."""
     for i in range(LANES):
         Q = load9(block, at.Q, i)
         refined = refined_frame(load9(block, at.new_F, i), Q)
         store9(block, at.Q, i, choose(block[at.skewness * LANES + i] > allowed, refined, Q))
 
 
-def note_pace(_block: Any, _i: int, _tolerance: float) -> None:
-    """Nothing says how long the next step of lane i may be."""
+def limit_next_step(_block: Any, _i: int, _tolerance: float) -> None:
+    """No-op for integrators without step control."""
 
 
 @side_by_side
 def accept_stage(block: Any, tolerance: float) -> None:
-    """Judge the new shapes and velocities, and take over those that are sound, of the lanes that move."""
+    """Judge the new shapes and velocities of the moving lanes, and accept the sound ones."""
     for i in range(LANES):
         block[at.taken * LANES + i] += block[at.moving * LANES + i]
         F, A, v = load9(block, at.new_F, i), load9(block, at.new_A, i), load3(block, at.new_v, i)
@@ -398,7 +397,7 @@ def accept_stage(block: Any, tolerance: float) -> None:
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
         block[at.verdict * LANES + i] = verdict
-        note_pace(block, i, tolerance)
+        limit_next_step(block, i, tolerance)
         sound = (verdict == 0.0) & (block[at.moving * LANES + i] > 0.0)
         block[at.length * LANES + i] = select(sound, length, block[at.length * LANES + i])
         store9(block, at.F, i, choose(sound, F, load9(block, at.F, i)))
@@ -409,12 +408,12 @@ def accept_stage(block: Any, tolerance: float) -> None:
 
 
 def choose3(condition: Any, v: Vector, w: Vector) -> Vector:
-    """V where the condition holds, else w."""
+    """Return v where the condition holds, else w."""
     return select(condition, v[0], w[0]), select(condition, v[1], w[1]), select(condition, v[2], w[2])
 
 
 def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
-    """S where the condition holds, else T."""
+    """Return S where the condition holds, else T."""
     return (
         select(condition, S[0], T[0]), select(condition, S[1], T[1]), select(condition, S[2], T[2]),
         select(condition, S[3], T[3]), select(condition, S[4], T[4]), select(condition, S[5], T[5]),
@@ -423,7 +422,7 @@ def choose(condition: Any, S: Tensor, T: Tensor) -> Tensor:
 
 
 def new_integrals(block: Any) -> None:
-    """Jeffery's integrals of the stretches."""
+    """Compute Jeffery's integrals of the stretches."""
     elongated = 0
     for i in range(LANES):
         if is_elongated(load3(block, at.stretch, i)):
@@ -435,21 +434,21 @@ def new_integrals(block: Any) -> None:
 
 
 def is_elongated(stretches: Vector) -> Any:
-    """Whether the integrals of a body want more work."""
+    """Return True if the integrals of a body need the formulas for elongated bodies."""
     x, y, z = stretches
     return np.maximum(np.maximum(x, y), z) > COMPACT * np.minimum(np.minimum(x, y), z)
 
 
 @side_by_side
 def compact_stage(block: Any) -> None:
-    """Jeffery's integrals of the stretches, of bodies that are not elongated."""
+    """Compute Jeffery's integrals with the formulas for compact bodies."""
     for i in range(LANES):
         store_integrals(block, i, integrals_of_compact(load3(block, at.stretch, i)))
 
 
 @side_by_side
 def elongated_stage(block: Any) -> None:
-    """Those of the others; the rest stays as it is."""
+    """Replace the integrals of elongated bodies."""
     for i in range(LANES):
         stretches, known = load3(block, at.stretch, i), load_integrals(block, i)
         g, elongated = integrals(stretches), is_elongated(stretches)
@@ -462,7 +461,7 @@ def elongated_stage(block: Any) -> None:
 def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy particle k of the cloud into lane i."""
     s.status[i], s.host[i], s.number[i] = p.status[k], p.host[k], p.number[k]
-    # None of those that are loaded has ended.
+    # No loaded particle has ended.
     s.reason[i], s.patch[i] = 0, -1
     load_rows(p, k, s.block, i)
     s.block[at.inertia * LANES + i] = 5.0 / (p.rho[k] * p.R[k] * p.R[k])
@@ -475,22 +474,22 @@ def load_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     s.block[at.length * LANES + i] = p.R[k] * longest_stretch(load9(s.block, at.F, i))
 
 
-def ask_for_particle(p: Particles, k: int) -> float:
-    """Read of particle k what :func:`load_particle` will: of many, the memory is so waited for at once."""
-    return float(p.status[k] + p.host[k] + p.number[k] + p.gamma[k] + ask_rows(p, k))
+def prefetch_particle(p: Particles, k: int) -> float:
+    """Prefetch particle k, so that cache misses of several particles overlap."""
+    return float(p.status[k] + p.host[k] + p.number[k] + p.gamma[k] + prefetch_rows(p, k))
 
 
 def save_particle(p: Particles, k: int, s: Scratch, i: int) -> None:
     """Copy the state in lane i back to particle k of the cloud."""
     p.host[k] = s.host[i]
-    # What seldom changes is left alone: each line of memory that is not written to is time won.
+    # Written only when changed, to save memory traffic.
     if p.status[k] != s.status[i]:
         p.status[k], p.reason[k], p.patch[k] = s.status[i], s.reason[i], s.patch[i]
     save_rows(p, k, s.block, i)
 
 
 def idle_lanes(block: Any, dt: float) -> None:
-    """Fill every lane with a sphere at rest, which takes steps of Δt."""
+    """Fill every lane with a sphere at rest and steps of Δt."""
     idle(block)
     for i in range(LANES):
         block[at.dt * LANES + i] = dt
@@ -499,4 +498,4 @@ def idle_lanes(block: Any, dt: float) -> None:
 BLOCK_STAGES = (
     frame_stage, stretch_stage, straighten_stage, compact_stage, elongated_stage, accept_stage
 )  # fmt: skip
-"""The stages that every integrator has."""
+"""Stages of every integrator."""

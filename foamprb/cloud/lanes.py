@@ -1,9 +1,8 @@
-"""Which particle is in which lane of a block, where each particle goes on at its own pace.
+"""Assignment of particles to the lanes of a block, in which each particle advances by its own steps.
 
-A lane whose particle has done its steps takes the next one, so that none waits for the slowest. And a
-particle can be put aside with all that it is, to go on later in any lane: where few lanes of a block need
-more work than the others, they do it once there are enough of them, as it costs a block as much for one lane
-as for all. Until a particle has done all its steps, the cloud's arrays are left alone.
+A lane whose particle is finished takes the next one. A particle can also be set aside with its whole state
+and continue later in any lane: an evaluation costs a block as much for one lane as for all, so a rare one is
+made for many particles at once. The cloud's arrays are written only for finished particles.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.block import SHELF, Scratch, ask_for_particle, at, load_particle, save_particle
+from foamprb.cloud.block import SHELF, Scratch, at, load_particle, prefetch_particle, save_particle
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -26,24 +25,23 @@ from foamprb.cloud.motion import (
 )
 from foamprb.cloud.state import Particles
 
-READY, WAITING, ENDED, _NEXT, _MENDED = 0, 1, 2, 3, 4
-"""In :attr:`~foamprb.cloud.block.Scratch.counts`: particles that are put aside and may go on, that wait for
-others, and that have done their steps but for what is found of many at once; those that have been in a lane;
-walks that the tree has mended."""
+READY, WAITING, ENDED, _NEXT, _RELOCATED = 0, 1, 2, 3, 4
+"""Indices in :attr:`~foamprb.cloud.block.Scratch.counts`: particles set aside that may continue, that need
+order 3, and that need the rates at their end; particles loaded so far; walks that needed the tree."""
 NOTHING, AGAIN, NEW = 0, 1, 2
-"""What :func:`fetch` has found."""
+"""Results of :func:`fetch`."""
 _MEMBER, _STATUS, _REASON, _PATCH, _HOST, _STEP, _NUMBER, _WALKS = 0, 1, 2, 3, 4, 5, 6, 7
-"""In :attr:`~foamprb.cloud.block.Scratch.labels`."""
+"""Columns of :attr:`~foamprb.cloud.block.Scratch.labels`."""
 _PLACES = SHELF // 3
-"""For each of the three kinds. A new particle is loaded only if none is ready: so there are never more than
-those in the lanes, 2 LANES that wait and LANES that have ended."""
+"""Places for each of the three kinds. As a new particle is loaded only if none is ready, at most those in the
+lanes, 2 LANES that need order 3 and LANES that ended are set aside."""
 
-renews_end = 0
-"""Whether an integrator finds something of many particles at once at their ends; bound with it."""
+updates_end = 0
+"""Bound to 1 by an integrator with an ``end_slope``."""
 
 
 def empty_lanes(s: Scratch) -> None:
-    """Begin with no particle in any lane; the block is that of :func:`foamprb.cloud.block.idle_lanes`."""
+    """Start with no particle in any lane, after :func:`foamprb.cloud.block.idle_lanes`."""
     for i in range(LANES):
         s.member[i] = -1
     for n in range(len(s.counts)):
@@ -51,33 +49,33 @@ def empty_lanes(s: Scratch) -> None:
 
 
 def others(s: Scratch, n: int) -> bool:
-    """Whether there are particles, of n, that could go on in the place of one that is put aside."""
+    """Return True if one of n particles could take the lane of one that is set aside."""
     return bool(s.counts[READY] > 0 or s.counts[_NEXT] < n)
 
 
-def ask_ahead(p: Particles, members: NDArray[np.int64], s: Scratch) -> None:
-    """Read of the new particles for all lanes that are free, before the first is loaded."""
+def prefetch_next(p: Particles, members: NDArray[np.int64], s: Scratch) -> None:
+    """Prefetch the next particle for each free lane."""
     k, total = s.counts[_NEXT], 0.0
     for i in range(LANES):
         if s.member[i] < 0 and k < len(members):
-            total += ask_for_particle(p, members[k])
+            total += prefetch_particle(p, members[k])
             k += 1
-    s.asked[0] = total
+    s.prefetched[0] = total
 
 
 def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: int) -> int:
-    """Put a particle into lane i: one that is ready, a new one, or one that waits.
+    """Load lane i with a particle that is ready, a new one, or one that needs order 3, in this order.
 
     Parameters
     ----------
     members
-        Rows of all particles.
+        Indices of all particles.
     step
-        The tracking step with which a new one begins.
+        The first tracking step of a new particle.
 
     Returns
     -------
-    NEW, AGAIN for one that was put aside, NOTHING if there is none.
+    NEW, AGAIN for a particle that was set aside, or NOTHING.
     """
     k = s.counts[_NEXT]
     if s.counts[READY] > 0:
@@ -98,14 +96,14 @@ def fetch(p: Particles, members: NDArray[np.int64], s: Scratch, i: int, step: in
 
 
 def leave(p: Particles, s: Scratch, i: int) -> None:
-    """Save the particle in lane i, which has done all its steps."""
+    """Save the finished particle in lane i and free the lane."""
     save_particle(p, s.member[i], s, i)
-    s.counts[_MENDED] += s.mended[i]
+    s.counts[_RELOCATED] += s.mended[i]
     s.member[i] = -1
 
 
-def has_steps(s: Scratch, i: int, last: int) -> bool:
-    """Whether there is a particle in lane i that moves, and has not come to the tracking step ``last``."""
+def must_move(s: Scratch, i: int, last: int) -> bool:
+    """Return True if the particle in lane i is active and has not reached the tracking step ``last``."""
     return bool(s.member[i] >= 0 and s.status[i] == ACTIVE and s.step[i] < last)
 
 
@@ -120,25 +118,23 @@ def fill_lanes(
     dt: float,
     start: float,
 ) -> int:
-    """Save the particles that have no step to take, and give their lanes others, as far as there are any.
-
-    Where their ends are to be renewed, some may stay in their lanes.
+    """Replace the finished particles by others.
 
     Parameters
     ----------
-    As of :func:`foamprb.cloud.integrators.adaptive.track_adaptive`, and
+    As in :func:`foamprb.cloud.integrators.adaptive.track_adaptive`, and
     last
         The tracking step after the last.
 
     Returns
     -------
-    Number of lanes whose particles have steps to take.
+    Number of lanes whose particles must move.
     """
     while not interrupted(s):
         for i in range(LANES):
-            if s.member[i] >= 0 and not has_steps(s, i, last):
+            if s.member[i] >= 0 and not must_move(s, i, last):
                 finish(p, s, i, len(members))
-        ask_ahead(p, members, s)
+        prefetch_next(p, members, s)
         found, new = 0, 0
         for i in range(LANES):
             if s.member[i] < 0:
@@ -154,14 +150,14 @@ def fill_lanes(
                 release_due(flow, patches, s, i, last, dt, start)
     moving = 0
     for i in range(LANES):
-        moving += has_steps(s, i, last)
+        moving += must_move(s, i, last)
     return moving
 
 
 def release_due(
     flow: Any, patches: PatchTable, s: Scratch, i: int, last: int, dt: float, start: float
 ) -> None:
-    """Let the particle in lane i, if it is pending, wait for its time, and release it if that has come."""
+    """Release the particle in lane i in the tracking step of its injection time, if it is pending."""
     block = s.block
     while s.status[i] == PENDING and s.step[i] < last:
         if block[at.t0 * LANES + i] < start + (s.step[i] + 1) * dt - SHORTEST_STEP * dt:
@@ -172,18 +168,18 @@ def release_due(
 
 
 def finish(p: Particles, s: Scratch, i: int, n: int) -> None:
-    """Take the particle out of lane i, which has no step to take.
+    """Free lane i of its finished particle.
 
-    It stays if its end is to be renewed, and none of n particles could take its place.
+    A particle that needs the rates at its end stays unless one of n particles could take its lane.
     """
-    if not renews_end or s.status[i] != ACTIVE:
+    if not updates_end or s.status[i] != ACTIVE:
         leave(p, s, i)
     elif s.counts[ENDED] < LANES and (others(s, n) or s.counts[WAITING] > 0):
-        put_aside(s, i, ENDED)
+        set_aside(s, i, ENDED)
 
 
-def put_aside(s: Scratch, i: int, kind: int) -> None:
-    """Put the particle in lane i aside, of a kind: READY, WAITING or ENDED."""
+def set_aside(s: Scratch, i: int, kind: int) -> None:
+    """Set the particle in lane i aside as READY, WAITING or ENDED."""
     place = kind * _PLACES + s.counts[kind]
     s.counts[kind] += 1
     for n in range(len(s.kept)):
@@ -196,7 +192,7 @@ def put_aside(s: Scratch, i: int, kind: int) -> None:
 
 
 def take_back(s: Scratch, i: int, kind: int) -> None:
-    """Put the particle of a kind that was put aside last into lane i."""
+    """Load lane i with the particle of a kind that was set aside last."""
     s.counts[kind] -= 1
     place = kind * _PLACES + s.counts[kind]
     for n in range(len(s.kept)):
@@ -207,22 +203,22 @@ def take_back(s: Scratch, i: int, kind: int) -> None:
     s.step[i], s.mended[i] = s.labels[place, _STEP], s.labels[place, _WALKS]
 
 
-def give_way(s: Scratch, kind: int) -> None:
-    """Put particles of a kind into the lanes, and aside those that are there."""
+def swap_lanes(s: Scratch, kind: int) -> None:
+    """Load the lanes with particles of a kind, and set aside those that are there."""
     for i in range(LANES):
         if s.member[i] >= 0:
-            put_aside(s, i, READY)
+            set_aside(s, i, READY)
         if s.counts[kind] > 0:
             take_back(s, i, kind)
 
 
-def walks_mended(s: Scratch) -> int:
-    """How many walks the tree has mended of the particles that have done all their steps."""
-    return int(s.counts[_MENDED])
+def walks_relocated(s: Scratch) -> int:
+    """Return the number of walks of finished particles that needed the tree."""
+    return int(s.counts[_RELOCATED])
 
 
-def forget_unfinished(s: Scratch) -> None:
-    """Let only those rebounds count that are of particles which have done all their steps."""
+def drop_unfinished(s: Scratch) -> None:
+    """Drop the rebounds of particles that are not finished."""
     kept = s.noted[1]
     for k in range(s.noted[1], s.noted[0]):
         if not _is_unfinished(s, s.rebounds[k, 0]):
@@ -233,6 +229,7 @@ def forget_unfinished(s: Scratch) -> None:
 
 
 def _is_unfinished(s: Scratch, number: float) -> bool:
+    """Return True if the particle of a number is in a lane or set aside."""
     for i in range(LANES):
         if s.member[i] >= 0 and s.number[i] == number:
             return True

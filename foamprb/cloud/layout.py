@@ -1,8 +1,8 @@
-"""How a working block is laid out: its rows are declared once, and what follows from that.
+"""Layout of a working block, from one declaration of its rows.
 
 A declaration is a NamedTuple class whose fields are Annotated with a :class:`Row`. An instance of it holds
-the number at which each quantity begins (:func:`offsets`), so that a line of a kernel reads
-``load9(block, at.F, i)``; :func:`layout` makes the functions that fill a block with particles and empty it.
+the first row of each quantity (:func:`offsets`), so that a line of a kernel reads
+``load9(block, at.F, i)``. :func:`layout` generates the functions that load and save particles.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Row(NamedTuple):
-    """How one quantity of a block is laid out, and what it means."""
+    """Declaration of one quantity of a block."""
 
     components: int
     """Number of rows: 1, 3 or 9, one for each component."""
     unit: str
     meaning: str
     initial: float | tuple[float, ...] = 0.0
-    """Value in a lane without a particle, of all components or of each. Such a lane is computed as any other
-    and must stay finite: it is a sphere at rest."""
+    """Value in an empty lane, of all components or of each. Empty lanes are computed too: they hold a sphere
+    at rest, which stays finite."""
     of: str = ""
-    """Array of :class:`~foamprb.cloud.state.Particles` from which it is loaded, if it is."""
+    """Array of :class:`~foamprb.cloud.state.Particles` from which it is loaded, empty for none."""
     saved: bool | str = False
-    """Whether it is saved to that array, or the scalar of the same block that must be positive for that."""
+    """True if it is saved to that array, or the name of a scalar of the block that must then be positive."""
     lasting: bool = False
-    """Whether it belongs to the particle from one step to the next, as all that is loaded does. What does not
-    is found anew in each step before it is used."""
+    """True if it keeps its value from one step to the next; loaded quantities always do. Other rows are
+    computed in each step before they are used."""
 
 
 class Layout(NamedTuple):
-    """What follows from the declaration of a block."""
+    """Generated functions and sizes of a block."""
 
     rows: int
     """Number of rows."""
@@ -52,35 +52,35 @@ class Layout(NamedTuple):
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
     """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
-    ask: Callable[[Any, int], float]
-    """``ask(p, k)`` reads of particle k what ``load`` will, so that it comes from memory, and returns a sum
-    that means nothing."""
+    prefetch: Callable[[Any, int], float]
+    """``prefetch(p, k)`` reads the arrays of particle k that ``load`` reads. Its sum keeps the compiler from
+    removing the reads."""
     parts: tuple[tuple[int, ...], ...]
-    """:func:`offsets` of the declarations of which the block consists, in order."""
+    """:func:`offsets` of the block's declarations, in order."""
     kept: NDArray[np.int64]
-    """Rows that belong to a particle from one step to the next, by their numbers, last those not loaded."""
+    """Indices of the rows that keep their values between steps; those not loaded come last."""
     fresh: NDArray[np.float64]
-    """Initial values of those that are not loaded."""
+    """Initial values of the kept rows that are not loaded."""
 
 
 Declared = TypeVar("Declared", bound=tuple[int, ...])
 
 
 def rows_of(declaration: type[tuple[int, ...]]) -> dict[str, Row]:
-    """The rows of a declaration, by name, in their order in a block."""
+    """Return the rows of a declaration by name, in order."""
     hints = get_type_hints(declaration, include_extras=True)
     return {name: hint.__metadata__[0] for name, hint in hints.items()}
 
 
 def offsets(declaration: type[Declared], first: int = 0) -> Declared:
-    """The number of the first row of each quantity.
+    """Return the index of the first row of each quantity.
 
     Parameters
     ----------
     declaration
         NamedTuple class with a :class:`Row` in the annotation of each field.
     first
-        Number of the first row of all: the :func:`end` of the rows before these.
+        Index of the first row: the :func:`end` of the rows before these.
     """
     components = [row.components for row in rows_of(declaration).values()]
     make: Any = declaration
@@ -89,19 +89,19 @@ def offsets(declaration: type[Declared], first: int = 0) -> Declared:
 
 
 def end(at: tuple[int, ...]) -> int:
-    """The number after the last row of a declaration, from its :func:`offsets`."""
+    """Return the index after the last row of a declaration, from its :func:`offsets`."""
     return at[-1] + [*rows_of(type(at)).values()][-1].components
 
 
 def layout(*parts: tuple[int, ...]) -> Layout:
-    """The functions that fill a block with particles and empty it.
+    """Generate the functions that load particles into a block and save them.
 
-    They are written as text and then executed: numba compiles no loop over quantities of several shapes.
+    They are generated as text, as numba compiles no loop over quantities of several shapes.
 
     Parameters
     ----------
     parts
-        :func:`offsets` of the declarations of which the block consists, in order.
+        :func:`offsets` of the block's declarations, in order.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
                 raise ValueError(f"the row {name} is declared twice")
             rows[name] = first, row
     scope: dict[str, Any] = {"__name__": __name__, "LANES": LANES}
-    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows), *_ask(rows)]), scope)
+    exec("\n".join([*_idle(rows), *_load(rows), *_save(rows), *_prefetch(rows)]), scope)
     loaded = _numbers(placed for placed in rows.values() if placed[1].of)
     lasting = _numbers(placed for placed in rows.values() if placed[1].lasting and not placed[1].of)
     found = Layout(
@@ -123,7 +123,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
         idle=scope["idle"],
         load=scope["load_rows"],
         save=scope["save_rows"],
-        ask=scope["ask_rows"],
+        prefetch=scope["prefetch_rows"],
         parts=parts,
         kept=np.array(loaded, dtype=np.int64),
         fresh=np.empty(0),
@@ -132,7 +132,7 @@ def layout(*parts: tuple[int, ...]) -> Layout:
 
 
 def keep(own: Layout, rows: Sequence[int]) -> Layout:
-    """A layout of which these rows, which are not loaded, are kept as well."""
+    """Return a layout that keeps these rows too, which are not loaded."""
     block = np.empty(own.rows * LANES)
     own.idle(block)
     numbers = np.array(rows, dtype=np.int64)
@@ -141,11 +141,11 @@ def keep(own: Layout, rows: Sequence[int]) -> Layout:
 
 
 Placed = dict[str, tuple[int, Row]]
-"""By name, the number where each quantity begins, and its row."""
+"""By name, the first row of each quantity and its declaration."""
 
 
 def _numbers(placed: Iterable[tuple[int, Row]]) -> list[int]:
-    """The numbers of all rows of these quantities."""
+    """Return the indices of all rows of these quantities."""
     return [first + c for first, row in placed for c in range(row.components)]
 
 
@@ -180,10 +180,10 @@ def _save(rows: Placed) -> Iterator[str]:
         yield from (margin + line for line in _copies(chosen, "{array} = {lane}"))
 
 
-def _ask(rows: Placed) -> Iterator[str]:
-    # The first and the last component: there are no lines of memory between those of nine numbers.
+def _prefetch(rows: Placed) -> Iterator[str]:
+    # Nine numbers lie on two cache lines at most: read the first and the last.
     loaded = {row.of: row.components for _, row in rows.values() if row.of}
-    yield "def ask_rows(p, k):"
+    yield "def prefetch_rows(p, k):"
     yield "    total = 0.0"
     for array, components in loaded.items():
         ends = ["k"] if components == 1 else ["k, 0", f"k, {components - 1}"]
@@ -192,7 +192,7 @@ def _ask(rows: Placed) -> Iterator[str]:
 
 
 def _copies(placed: Iterable[tuple[int, Row]], copy: str) -> Iterator[str]:
-    """Lines that copy between lane i and particle k: one loop for all quantities of as many components."""
+    """Generate lines that copy between lane i and particle k, one loop for each number of components."""
     by_components: dict[int, list[tuple[int, str]]] = {}
     for first, row in placed:
         by_components.setdefault(row.components, []).append((first, row.of))

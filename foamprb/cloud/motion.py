@@ -1,4 +1,4 @@
-"""What becomes of a particle when it moves: through the mesh, onto its patches, and out of the run.
+"""Motion of particles through the mesh, contact with patches, and the end of particles.
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
 those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
@@ -45,15 +45,15 @@ from foamprb.flow.base import NEAR
 PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
 
 SEEN = 1.0 + NEAR
-"""Distance from a body's centre, in semi-axes, from which on it does not see walls."""
+"""Distance from a body's centre, in semi-axes, beyond which walls do not matter."""
 CLOSE = 1.0
-"""A body with a smaller gap to a wall, in radii, takes no step longer than a tracking step."""
+"""Gap to a wall, in radii, below which no step is longer than a tracking step."""
 SHORTEST_STEP = 1e-6
-"""A first step shorter than this share of Δt is left to the next."""
+"""A first step shorter than this share of Δt is joined to the next."""
 UNLISTED = 1
-"""In :attr:`~foamprb.cloud.block.Scratch.outgrown`: a body may touch walls that are not listed."""
+"""Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: a body may touch walls that are not listed."""
 _TOUCH = 1e-6
-"""A gap below that, in radii, may be round-off of a body in touch."""
+"""Gap, in radii, that may be round-off of a body in contact."""
 _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
@@ -61,7 +61,7 @@ _HALVINGS = 40
 
 
 class PatchTable(NamedTuple):
-    """What each patch does: its interaction's code, and the entries of ``rebound``."""
+    """Interaction of each patch: its code, and the entries of ``rebound``."""
 
     code: NDArray[np.int8]
     e: NDArray[np.float64]
@@ -69,17 +69,17 @@ class PatchTable(NamedTuple):
 
 
 def fail(s: Scratch, i: int, reason: int) -> None:
-    """End the particle in lane i with a reason."""
+    """Let the particle in lane i fail for a reason."""
     s.status[i] = FAILED
     s.reason[i] = reason
     if not (are_finite(s.block, i, at.u, at.u + 3) and are_finite(s.block, i, at.l, at.l + 9)):
-        # Particle or flow: which was it first?
+        # Distinguish a failure of the particle from one of the flow.
         own = are_finite(s.block, i, at.x, at.x + 24)
         s.reason[i] = FLOW_NOT_FINITE if own else NOT_FINITE
 
 
 def are_finite(block: Any, i: int, row: int, end: int) -> bool:
-    """Whether lane i has finite numbers in the rows from one to before another."""
+    """Return True if lane i has finite numbers in the rows from ``row`` to before ``end``."""
     total = 0.0
     for k in range(row, end):
         total += block[k * LANES + i]
@@ -87,41 +87,41 @@ def are_finite(block: Any, i: int, row: int, end: int) -> bool:
 
 
 def fail_small_step(s: Scratch, i: int) -> None:
-    """End the particle in lane i, of which the error asks for a step that is too small."""
+    """Let the particle in lane i fail, as its error requires a step that is too small."""
     fail(s, i, STEP_TOO_SMALL if s.block[at.error * LANES + i] < math.inf else NOT_FINITE)
 
 
 def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
-    """Nothing else of the particle in lane i has a direction that is turned or mirrored with it."""
+    """No-op: no further quantity of lane i turns with the particle."""
 
 
 def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
-    """Nothing else of the particle in lane i is thrown back by a wall of normal n."""
+    """No-op: no further quantity of lane i is reflected by a wall of normal n."""
 
 
-def note_rebound(_s: Scratch, _i: int, _patch: int, _t: float, _x: Vector, _n: Vector) -> None:
-    """Nobody wants to know where and when the particle in lane i bounced off."""
+def record_rebound(_s: Scratch, _i: int, _patch: int, _t: float, _x: Vector, _n: Vector) -> None:
+    """No-op: rebounds are not recorded."""
 
 
 def interrupted(s: Scratch) -> bool:
-    """Whether a loop shall end at once, and leave its particles as they were when it began."""
+    """Return True if the loop must stop at once and leave unfinished particles as they were."""
     return bool(s.stop[0] + s.outgrown[0] != 0)
 
 
 def end_block(s: Scratch) -> None:
-    """Let the rebounds of a block count, of which the particles are saved; those that are interrupted end."""
+    """Keep the rebounds of a block whose particles are saved."""
     s.noted[1] = s.noted[0]
 
 
 def end_tracking_steps(s: Scratch, i: int) -> None:
-    """Let lane i go on to the tracking step after its stretch, which is done."""
+    """Advance lane i to the tracking step after its finished stretch."""
     s.block[at.substeps * LANES + i] = s.block[at.taken * LANES + i] / s.stride[i]
     s.block[at.taken * LANES + i] = 0.0
     s.step[i] += s.stride[i]
 
 
 def overspent(s: Scratch, i: int, rest: float) -> bool:
-    """Whether lane i has taken more steps than it may for a tracking step; it then fails.
+    """Let lane i fail, and return True, if it has taken more steps than allowed for a tracking step.
 
     ``rest`` is what was left of its stretch before the last step, in tracking steps.
     """
@@ -143,13 +143,13 @@ def reach_end(
     t_end: float,
     h: float,
 ) -> int:
-    """Move the particle in lane i to its goal, which it would reach at t_end after a step h, and touch walls.
+    """Move the particle in lane i to its goal, due at t_end after a step h, with contact of walls.
 
-    ``ahead`` is the host that probably holds the goal, ``held`` whether it certainly does.
+    ``ahead`` is the host that probably holds the goal, ``held`` True if it certainly does.
 
     Returns
     -------
-    The number of walks that the tree had to mend.
+    The number of walks that needed the tree.
     """
     end, start, spent, mended = move_centre(flow, patches, s, i, goal, ahead, held, h)
     store3(s.block, at.x, i, end)
@@ -162,7 +162,7 @@ def reach_end(
 
 
 def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
-    """End the particle in lane i if its longest semi-axis is longer than so many sizes of its cell."""
+    """Let the particle in lane i fail if its longest semi-axis exceeds the limit in cell sizes."""
     longest = s.block[at.length * LANES + i]
     if longest**3 > s.bounds.maxCells**3 * cell_volume(flow, s.host[i]):
         fail(s, i, CELLS_TOO_MANY)
@@ -175,7 +175,7 @@ def settle(s: Scratch, i: int, patch: int, code: int) -> None:
 
 
 def meets(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool) -> bool:
-    """Whether the body in lane i would come to a patch that stops it or lets it out, or close to a wall.
+    """Return True if the body in lane i would reach a patch that ends its path, or come close to a wall.
 
     ``goal``, ``ahead`` and ``held`` are as of :func:`reach_end`; close is a gap below :data:`CLOSE` radii.
     """
@@ -191,10 +191,10 @@ def meets(flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahea
 
 
 def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
-    """Gap between the ellipsoid in lane i and the walls near it, m; the nearest one's patch and triangle.
+    """Return the gap between the ellipsoid in lane i and the walls, m, and the nearest patch and triangle.
 
-    Where walls are listed, it is infinite, with −1 and −1, from :data:`NEAR` radii of the undeformed ball on,
-    in which metres it is: so it depends on no wall that may or may not be listed.
+    Where walls are listed, a gap of at least :data:`NEAR` radii at rest is infinite, with −1 and −1: it does
+    not depend on the reach of the lists.
     """
     block = s.block
     R, F = block[at.R * LANES + i], load9(block, at.F, i)
@@ -212,9 +212,9 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
 def beyond(
     flow: Any, s: Scratch, i: int, code: int, triangle: int, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
-    """Take the particle in lane i to the other side of a mirror or a coupled patch.
+    """Move the particle in lane i to the other side of a mirror or a coupled patch.
 
-    It meets the patch at x0 on its way to x1. Everything of it that has a direction is mirrored or turned.
+    It meets the patch at x0 on its way to x1. All its vectors and tensors are mirrored or turned.
 
     Returns
     -------
@@ -232,7 +232,7 @@ def beyond(
             -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
         )  # fmt: skip
         y0 = x0
-        # The state at rest is mirrored too, and one axis turned round: J and det Q stay positive.
+        # The state at rest is mirrored too, and one axis reversed: J and det Q stay positive.
         F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
         store9(block, at.M, i, dot(turn, dot(load9(block, at.M, i), turn)))
         store9(block, at.F0, i, dot(turn, dot(load9(block, at.F0, i), turn)))
@@ -254,13 +254,13 @@ def beyond(
 
 
 def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:
-    """turn·x + shift."""
+    """Return turn·x + shift."""
     y = dot_vector(turn, x)
     return y[0] + shift[0], y[1] + shift[1], y[2] + shift[2]
 
 
 def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
-    """Host of the last place between x0 and x1 that the tree finds, −1 for none; its share of the way."""
+    """Return the host of the last point from x0 to x1 that the tree finds, −1 for none, and its fraction."""
     host = recover(flow, x1)
     if host >= 0:
         return host, 1.0
@@ -276,23 +276,22 @@ def last_inside(flow: Any, x0: Vector, x1: Vector) -> tuple[int, float]:
 
 
 def walk_on(flow: Any, host: int, _ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Walk from x0 in its host to x1; which host probably holds x1 is no help here."""
+    """Walk from x0 in its host to x1; a flow with its own function uses the probable host of x1."""
     return walk(flow, host, x0, x1)
 
 
 def move_centre(
     flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool, dt: float
 ) -> tuple[Vector, Vector, float, int]:
-    """Carry the centre to its goal in Δt, through the mesh and off, onto or across the patches that it meets.
+    """Move the centre to its goal in Δt, through the mesh, with the interactions of the patches it meets.
 
-    Where a walk fails it begins anew from the last place on its way that the tree finds in the mesh; if it
-    fails from there as well the centre stays there for the rest of the step. ``ahead`` and
-    ``held`` are as of :func:`reach_end`.
+    A failed walk restarts from the last point on its way that the tree finds in the mesh. If it fails again,
+    the centre stays there for the rest of the step. ``ahead`` and ``held`` are as in :func:`reach_end`.
 
     Returns
     -------
-    The position where it ended, its start as seen from there, the time that it took, and the number of walks
-    that the tree had to mend.
+    The final position, the start as seen from there, the time of the motion, and the number of walks that
+    needed the tree.
     """
     block = s.block
     recovered, bounces = 0, 0
@@ -337,7 +336,7 @@ def move_centre(
             start, ahead = moved(turn, shift, start), s.host[i]
             continue
         n = normal(flow, triangle, x0)
-        note_rebound(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
+        record_rebound(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
         v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
         store3(block, at.v, i, v)
         bounce_along(block, i, n)
@@ -349,7 +348,7 @@ def move_centre(
 def move_back(
     flow: Any, patches: PatchTable, s: Scratch, i: int, x0: Vector, x1: Vector
 ) -> tuple[Vector, bool]:
-    """Take the centre from x0 back to x1, through mirrors and coupled patches.
+    """Move the centre from x0 back to x1, through mirrors and coupled patches.
 
     A patch of another kind that lies between, by round-off, does not stop it. Returns the place, and whether
     the centre went there.
@@ -369,7 +368,7 @@ def move_back(
 
 
 def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: float, spent: float) -> float:
-    """Let the ellipsoid touch the walls near it, after its centre went from ``start`` to its new place.
+    """Apply contact of the ellipsoid with walls, after its centre moved from ``start`` to its new position.
 
     Parameters
     ----------
@@ -397,13 +396,12 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: 
         return f
     n = normal(flow, triangle, x)
     v = load3(block, at.v, i)
-    # A body that rests on the wall or slides along it bounced when it came.
+    # A body that rests on the wall or slides along it has bounced before.
     if before > _TOUCH * block[at.R * LANES + i]:
-        note_rebound(s, i, patch, t + f * spent, between(start, x, f), n)
+        record_rebound(s, i, patch, t + f * spent, between(start, x, f), n)
     store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
     bounce_along(block, i, n)
-    # What the centre went towards the wall after the contact is taken back: else a body that comes to rest
-    # on the wall would sink into it.
+    # The motion towards the wall after the contact is undone: else a body at rest on the wall would sink in.
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
     back = -(1.0 - f) * min(beyond, 0.0)
     place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
@@ -415,7 +413,7 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: 
 
 
 def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
-    """Make a pending particle active, or stuck if it appears in touch with a sticky wall."""
+    """Make a pending particle active, or stuck if it starts in contact with a sticky wall."""
     block = s.block
     s.status[i] = ACTIVE
     t = block[at.t * LANES + i] = block[at.t0 * LANES + i]
@@ -430,7 +428,7 @@ def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
 
 
 def is_sound(s: Scratch, i: int) -> bool:
-    """Whether the new shape of the particle in lane i was taken over; if not, the particle fails."""
+    """Return True if the new shape in lane i was accepted; else let the particle fail."""
     verdict = int(s.block[at.verdict * LANES + i])
     if verdict:
         fail(s, i, verdict)
@@ -438,7 +436,7 @@ def is_sound(s: Scratch, i: int) -> bool:
 
 
 def longest_now(p: Particles, k: int) -> float:
-    """Longest semi-axis of particle k, m, or a little more; 0 if it has ended."""
+    """Return an upper bound of the longest semi-axis of particle k, m; 0 if it has ended."""
     if p.status[k] > ACTIVE:
         return 0.0
     f = p.F
@@ -447,7 +445,7 @@ def longest_now(p: Particles, k: int) -> float:
 
 
 def longest_of(p: Particles) -> float:
-    """The largest of :func:`longest_now`."""
+    """Return the maximum of :func:`longest_now`."""
     longest = 0.0
     for k in range(len(p.status)):
         longest = max(longest, longest_now(p, k))
@@ -455,4 +453,4 @@ def longest_of(p: Particles) -> float:
 
 
 RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, last_inside, move_back, meets)
-"""What few steps need, and what is long: compiled on its own, it does not swell the loops."""
+"""Long functions that few steps call, compiled as separate functions to keep the loops short."""

@@ -22,10 +22,10 @@ from foamprb.body.rosenbrock import (
 )
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
-from foamprb.cloud.advance import track_share
 from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
+from foamprb.cloud.integrators.base import track_share
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
@@ -148,10 +148,10 @@ class Tracker:
         if tense:
             bindings["interface"] = laplace_stress
         if models.rebounds:
-            bindings["note_rebound"] = note
+            bindings["record_rebound"] = note
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
-        bindings["ask_rows"] = layout.ask
+        bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         required |= integrator.bindings
         required |= compose(models.forces)
@@ -329,7 +329,7 @@ class Tracker:
 
 
 class Share(NamedTuple):
-    """Particles that a thread carries, as :func:`foamprb.cloud.advance.track_share` wants them."""
+    """Particles that a thread carries, as :func:`foamprb.cloud.integrators.base.track_share` wants them."""
 
     rows: NDArray[np.int64]
     step: int

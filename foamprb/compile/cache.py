@@ -1,12 +1,11 @@
-"""The cache: compiled code on disk, one file for each function and each set of types of its arguments.
+"""Cache of compiled code on disk, one file for each function and each set of types of its arguments.
 
-A file is found by what the code does, not by where its source lies, so that another installation of the same
-source has it too. Nothing is read back from it before two questions are answered. Is it whole? It carries a
-checksum: damaged machine code, once it is loaded, crashes the process. Who could have written it? Whoever may
-write compiled code decides what the program does, so that only the user and root may.
+The name of a file depends on the code, not on its place, so that another installation of the same source
+finds it. Each file has a checksum, as damaged machine code crashes the process. Only files that the user or
+root wrote are read, as compiled code can do anything.
 
-What cannot be read, or is not trusted, is compiled anew; what cannot be written is compiled anew in each
-process. Neither ends a run.
+Code that cannot be read, or is not trusted, is compiled again; if it cannot be written, in each process.
+Neither ends a run.
 """
 
 from __future__ import annotations
@@ -38,21 +37,21 @@ class _Dump(Protocol):
 
 
 def cache_directory() -> Path:
-    """Folder of the cache: ``$FOAMPRB_CACHE_DIR``, else ``foamprb`` in the user's cache folder."""
+    """Return the folder of the cache: ``$FOAMPRB_CACHE_DIR``, else ``foamprb`` in the user's cache folder."""
     chosen = os.environ.get("FOAMPRB_CACHE_DIR")
     return Path(chosen) if chosen else Path(platformdirs.user_cache_dir("foamprb", appauthor=False))
 
 
 class Store:
-    """The files of one function.
+    """Files of one function.
 
     Parameters
     ----------
     name
-        Of its folder in :func:`cache_directory`; it changes with the function's code, with all that it calls
-        and with whatever else makes another machine code of it.
+        Name of its folder in :func:`cache_directory`. It must change with the code of the function and of its
+        callees, and with everything else that changes the machine code.
     dump
-        Turns what is saved into bytes that ``pickle.loads`` reads.
+        Converts a value to bytes for ``pickle.loads``.
     """
 
     def __init__(self, name: str, dump: _Dump = pickle.dumps) -> None:
@@ -61,22 +60,22 @@ class Store:
         self.folder = self._root / name
 
     def __bool__(self) -> bool:
-        """Whether there is a file that may be used."""
+        """Return True if there is a file and the folder is trusted."""
         return self._trusted() and any(self.folder.glob(f"*{_SUFFIX}"))
 
     def load(self, key: Any) -> Any:
-        """What was saved under ``key``; None if there is nothing, or nothing that may be used."""
+        """Return the value saved under ``key``; None if there is none that is trusted."""
         if not self._trusted():
             return None
         data = _read(self._file(key), self._root)
-        # Whole as it is, it may name a class that has gone since.
+        # It may name a class that no longer exists.
         with suppress(Exception):
             found, value = pickle.loads(data)
             return value if found == (self._name, key) else None
         return None
 
     def save(self, key: Any, value: Any) -> None:
-        """Write a file, in place of one of the same key, so that no other process sees a part of it."""
+        """Write or replace the file of a key atomically."""
         try:
             _make(self._root)
             if self._trusted():
@@ -85,7 +84,7 @@ class Store:
         except OSError as error:
             _tell(self._root, logging.INFO, f"is not complete: {error.strerror}")
         except (pickle.PickleError, AttributeError, ImportError, TypeError):
-            # It names what another process could not import.
+            # Another process could not import a part of it.
             pass
 
     def flush(self) -> None:
@@ -97,12 +96,12 @@ class Store:
         return self.folder / f"{hashlib.sha256(repr(key).encode()).hexdigest()[:24]}{_SUFFIX}"
 
     def _trusted(self) -> bool:
-        """Whether both folders are there, and nobody but the user and root can have put files into them."""
+        """Return True unless another user may write to one of the folders."""
         return all(_is_trusted(folder, folder.stat, self._root) for folder in (self._root, self.folder))
 
 
 def _is_trusted(path: Path, status_of: Callable[[], os.stat_result], root: Path) -> bool:
-    """Whether nobody but the user and root can have written a file or a folder; if not, the log says so."""
+    """Return True if only the user and root may have written a file or folder; warn if not."""
     try:
         status = status_of()
     except OSError:
@@ -117,9 +116,9 @@ def _is_trusted(path: Path, status_of: Callable[[], os.stat_result], root: Path)
 
 
 def _read(file: Path, root: Path) -> bytes:
-    """What a file holds after its checksum; nothing if it is damaged, or if others could write to it."""
+    """Return the content of a file after its checksum; empty if it is damaged or not trusted."""
     try:
-        # Of what lies there, be it a pipe, nothing is asked before it is known to be a file.
+        # Do not block on a pipe.
         descriptor = os.open(file, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
     except OSError:
         return b""
@@ -150,13 +149,13 @@ def _write(file: Path, data: bytes) -> None:
 
 
 def _make(folder: Path) -> None:
-    """Make a folder to which nobody else may write, if it is absent."""
+    """Make a folder to which only the user may write, if it is absent."""
     folder.parent.mkdir(parents=True, exist_ok=True)
     folder.mkdir(mode=_mode(0o755), exist_ok=True)
 
 
 def _mode(for_all: int) -> int:
-    """Permissions of what is made: others may read what root made, in a container's image for instance."""
+    """Return permissions of a new file; others may read those of root, e.g. in the image of a container."""
     return for_all if os.geteuid() == 0 else for_all & 0o700
 
 
@@ -164,7 +163,7 @@ _told: set[tuple[Path, int]] = set()
 
 
 def _tell(root: Path, level: int, what: str) -> None:
-    """Say once in a process what is wrong with a cache."""
+    """Log once in a process that a cache is unusable."""
     if (root, level) not in _told:
         _told.add((root, level))
         log.log(level, "The compiled code in %s %s", root, what)

@@ -1,6 +1,6 @@
-"""Another process that compiles, which may be started before it is known what.
+"""Helper process that compiles.
 
-To load what compiles takes it a good half of a second, in which this process does the same.
+It may start before its task is known, so that it imports numba while the main process does the same.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ __all__ = ["Helper", "available_threads", "early_helper"]
 
 
 class Helper:
-    """A process that waits to be told what to do.
+    """Process that reads a task and executes it.
 
     Parameters
     ----------
     module
-        What it executes: a module that reads from the standard input, with ``pickle``, what it is told.
+        Its main module, which reads the task from the standard input with ``pickle``.
     """
 
     def __init__(self, module: str) -> None:
@@ -37,15 +37,15 @@ class Helper:
         atexit.register(self.stop)
 
     def tell(self, what: Any) -> None:
-        """Tell it what to do."""
+        """Send the task."""
         assert self._process.stdin is not None
-        # It may have ended already, if it cannot import what it needs.
+        # It may have ended already if an import failed.
         with suppress(BrokenPipeError), self._process.stdin as pipe:
             pickle.dump(what, pipe)
 
     @property
     def ended(self) -> bool:
-        """Whether it has done what it was told, or failed."""
+        """Whether it has finished or failed."""
         return self._process.poll() is not None
 
     def wait(self) -> None:
@@ -53,7 +53,7 @@ class Helper:
         self._process.wait()
 
     def stop(self) -> None:
-        """End it; what it has made so far stays in the cache."""
+        """End it; compiled code stays in the cache."""
         self._process.kill()
         assert self._process.stdin is not None
         with suppress(BrokenPipeError):
@@ -63,7 +63,7 @@ class Helper:
 
 
 def early_helper(module: str) -> Helper | None:
-    """A helper if nothing has ever been compiled here, and there is a processor to spare."""
+    """Return a helper if the cache is empty and there is a second processor, else None."""
     root = cache_directory()
     with suppress(OSError):
         if available_threads() > 1 and not (root.exists() and any(root.iterdir())):
@@ -72,5 +72,5 @@ def early_helper(module: str) -> Helper | None:
 
 
 def available_threads() -> int:
-    """Number of processors that this process may use."""
+    """Return the number of processors that this process may use."""
     return len(os.sched_getaffinity(0))

@@ -1,11 +1,10 @@
-"""Stages as straight-line code: the text of a loop over lanes, executed once with symbols for its numbers.
+"""Tracing of stages: a loop over lanes is executed once on symbols, which record LLVM code.
 
-The formulas branch on no value, so that one pass through them meets every operation there is. Of these,
-equal ones are written down once, as LLVM's operations on registers full of lanes: neither the types of some
-thousand expressions have to be found out, nor loops to be recognised as those over lanes.
+Stages do not branch on values, so one pass meets every operation. Equal operations are recorded once, on
+registers of lanes. This skips the inference of types and the vectorisation of loops.
 
-A stage is traced if it is nothing but loops ``for i in range(LANES)``, by this name, over a block: rows of so
-many numbers, addressed as ``block[row * LANES + i]``.
+A stage to be traced consists of loops ``for i in range(LANES)``, by this name, over a block, whose rows of
+LANES numbers are addressed as ``block[row * LANES + i]``.
 """
 
 from __future__ import annotations
@@ -28,27 +27,27 @@ REGISTERS = "_registers"
 
 
 class UntraceableError(Exception):
-    """Another text than that of a stage."""
+    """Error: a function is not a stage."""
 
 
 def branch(condition: Any, a: Any, b: Any) -> Any:
-    """What :func:`foamprb.body.tensor.select` is of numbers: the one branch that can be traced."""
+    """Select on numbers, see :func:`foamprb.body.tensor.select`: the only branch that can be traced."""
     return a if condition else b
 
 
 class Code:
-    """The operations of a stage, in LLVM's language.
+    """LLVM code of a stage.
 
     Parameters
     ----------
     lanes
         Lanes of a block.
     together
-        How many of them go through an operation together; the number of lanes is a multiple of it.
+        Number of lanes in an operation, a divisor of ``lanes``.
     flags
         LLVM's flags of operations on floats.
     passes
-        How often a loop over lanes is gone through, each time as by another lane.
+        Number of times that a loop over lanes is executed, as if for other lanes.
     """
 
     def __init__(self, lanes: int, together: int, flags: str, passes: int = 1) -> None:
@@ -62,20 +61,20 @@ class Code:
         self._functions: dict[str, int] = {}
         self._origins: list[Any] = []
         self.block = _Block(self)
-        """Stands for the block."""
+        """Symbol of the block."""
 
     def argument(self, origin: Any) -> Symbol:
-        """Stand for a number that is the same in all lanes; ``origin`` tells the caller where it is from."""
+        """Return the symbol of a number that all lanes share; ``origin`` is returned by :attr:`arguments`."""
         self._origins.append(origin)
         return Symbol(self, f"%all{len(self._origins) - 1}", None)
 
     @property
     def arguments(self) -> tuple[Any, ...]:
-        """The origins of the arguments that come after the block."""
+        """Origins of the arguments after the block."""
         return tuple(self._origins)
 
     def function(self, name: str) -> str:
-        """LLVM's text of a function of the block and the arguments: all operations, in all lanes."""
+        """Return the LLVM text of a function of the block and the arguments."""
         each = range(len(self._origins))
         parameters = ", ".join(["ptr %block", *(f"double %one{k}" for k in each)])
         spread = "".join(
@@ -108,7 +107,7 @@ class Code:
         )
 
     def each_lane(self) -> Iterator[_Place]:
-        """Go through all lanes at once."""
+        """Yield the index of all lanes together."""
         before = self.block.known
         for _ in range(self._passes):
             self.block.known = dict(before)
@@ -118,44 +117,44 @@ class Code:
         self._loop = 0
 
     def does_as(self, other: Code) -> bool:
-        """Whether another code has the same operations, and leaves the same in the block."""
+        """Return True if another code has the same operations and leaves the same block."""
         mine, its = ({k: _text(v) for k, v in code.block.known.items()} for code in (self, other))
         return self._known == other._known and mine == its
 
     def load(self, offset: int) -> Symbol:
-        """The numbers that were so far from the block's beginning before anything was stored there."""
+        """Return the symbol of the numbers at an offset before any store."""
         text = f"load {self._numbers}, ptr {self._address(offset)}, align 8"
         return Symbol(self, self._once(text), self.loop)
 
     def store(self, offset: int, value: Any) -> int:
-        """Put numbers there; the line that does it."""
+        """Record a store at an offset; return the index of its line."""
         operand = self._operand(value)
         self._lines.append(f"store {self._numbers} {operand}, ptr {self._address(offset)}, align 8")
         return len(self._lines) - 1
 
     def leave_out(self, line: int) -> None:
-        """Do not do what a line does."""
+        """Delete a line."""
         self._lines[line] = ""
 
     @property
     def loop(self) -> int:
-        """The number of the loop over lanes that is gone through.
+        """Index of the current loop over lanes.
 
         Raises
         ------
         UntraceableError
-            If there is none: a lane's number is wanted after all lanes.
+            Outside loops: a value of one lane is used after all lanes.
         """
         if self._loop == 0:
-            raise UntraceableError("a number of one lane after all")
+            raise UntraceableError("a value of one lane is used after the loop")
         return self._loop
 
     def unary(self, operation: str, a: Any) -> Symbol:
-        """An operation on numbers."""
+        """Record an operation on numbers."""
         return Symbol(*self._result(f"{operation} {self._flags} {self._numbers} {self._operand(a)}", a))
 
     def binary(self, operation: str, a: Any, b: Any) -> Symbol:
-        """An operation on two numbers."""
+        """Record an operation on two numbers."""
         start = f"{operation} {self._flags} {self._numbers}"
         text, turned = f"{start} {self._operand(a)}, {self._operand(b)}", ""
         if operation in ("fadd", "fmul"):
@@ -163,23 +162,23 @@ class Code:
         return Symbol(*self._result(turned if turned in self._known else text, a, b))
 
     def call(self, function: str, *operands: Any) -> Symbol:
-        """A function that LLVM has."""
+        """Record a call of an LLVM function."""
         name = f"@llvm.{function}.v{self._together}f64"
         self._functions[name] = len(operands)
         given = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
         return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({given})", *operands))
 
     def magnitude(self, a: Any) -> Symbol:
-        """Of a number, without its sign."""
+        """Record the magnitude of a number."""
         result = self.call("fabs", a)
         self._magnitudes.add(result.name)
         return result
 
     def maximum(self, a: Any, b: Any) -> Any:
-        """The larger of two numbers; no number if one of them is none, as numpy has it.
+        """Record the maximum of two numbers; NaN if one of them is NaN, as in numpy.
 
-        Magnitudes are ordered as the whole numbers that have their bits are, those of no number above all
-        others, which takes one instruction instead of three.
+        Magnitudes compare as the integers of the same bits do, NaN above all others. This takes one
+        instruction instead of three.
         """
         if not (self._is_magnitude(a) and self._is_magnitude(b)):
             return self.call("maximum", a, b)
@@ -201,17 +200,17 @@ class Code:
         return bool(value >= 0.0)
 
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
-        """Whether a relation holds."""
+        """Record a comparison."""
         operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
         return Condition(*self._result(f"fcmp {self._flags} {relation} {operands}", a, b))
 
     def combine(self, operation: str, a: Any, b: Any) -> Condition:
-        """Whether both conditions hold, or one of them."""
+        """Record ``and`` or ``or`` of two conditions."""
         operands = f"{self._conditions} {self._condition(a)}, {self._condition(b)}"
         return Condition(*self._result(f"{operation} {operands}", a, b))
 
     def select(self, condition: Any, a: Any, b: Any) -> Any:
-        """``a`` where a condition holds, else ``b``."""
+        """Record ``a`` where a condition holds, else ``b``."""
         if isinstance(condition, bool | np.bool_):
             return a if condition else b
         operands = f"{self._numbers} {self._operand(a)}, {self._numbers} {self._operand(b)}"
@@ -225,17 +224,17 @@ class Code:
         if type(value) is Symbol:
             return self._name(value)
         if not isinstance(value, int | float):
-            raise UntraceableError(f"a number and {value!r}")
+            raise UntraceableError(f"{value!r} is used as a number")
         return f"splat (double 0x{struct.pack('>d', value).hex()})"
 
     def _condition(self, value: Any) -> str:
         if not isinstance(value, Condition):
-            raise UntraceableError(f"a condition and {value!r}")
+            raise UntraceableError(f"{value!r} is used as a condition")
         return self._name(value)
 
     def _name(self, symbol: Symbol) -> str:
         if symbol.loop not in (None, self._loop):
-            raise UntraceableError("a number of one lane in another")
+            raise UntraceableError("a value of one lane is used in another")
         return symbol.name
 
     def _result(self, text: str, *operands: Any) -> tuple[Code, str, int | None]:
@@ -251,18 +250,18 @@ class Code:
 
 
 class Symbol:
-    """Stands for a number of each lane, in a loop over lanes, or for one that is the same in all."""
+    """Symbol of a number of each lane in a loop over lanes, or of a number that all lanes share."""
 
     __slots__ = ("code", "loop", "name")
     __hash__ = None  # type: ignore[assignment]
-    # Numbers of numpy leave operations with it to it.
+    # Makes numpy scalars defer to it.
     __array_ufunc__ = None
 
     def __init__(self, code: Code, name: str, loop: int | None) -> None:
         self.code, self.name, self.loop = code, name, loop
 
     def __bool__(self) -> bool:
-        raise UntraceableError("a branch on a value")
+        raise UntraceableError("it branches on a value")
 
     def __neg__(self) -> Symbol:
         return self.code.unary("fneg", self)
@@ -294,7 +293,7 @@ class Symbol:
 
     def __pow__(self, n: Any) -> Symbol:
         if type(n) is not int or n < 1:
-            raise UntraceableError(f"a power {n!r}")
+            raise UntraceableError(f"the power {n!r} is not an integer above 0")
         if n == 1:
             return self
         half = self ** (n // 2)
@@ -320,7 +319,7 @@ class Symbol:
 
 
 class Condition(Symbol):
-    """Stands for whether something holds in each lane."""
+    """Symbol of a condition of each lane."""
 
     __slots__ = ()
     __hash__ = None
@@ -337,17 +336,17 @@ def _text(value: Any) -> str:
 
 
 def _is(number: float, value: Any) -> bool:
-    # Without LLVM's flag for it, what is not finite times nothing is not nothing; the sign of zero is free.
+    # Infinity times 0 is NaN, so products with 0 are kept; the sign of zero is free.
     return isinstance(value, int | float) and value == number
 
 
 class _Block:
-    """Stands for a block, and knows what is in it: what is loaded, once, and what was stored last."""
+    """Symbol of a block, with the loaded and the last stored values."""
 
     def __init__(self, code: Code) -> None:
         self._code = code
         self.known: dict[int, Any] = {}
-        """The symbols or numbers at offsets."""
+        """Symbols or numbers by offset."""
         self._stored: dict[int, int] = {}
 
     def __getitem__(self, place: Any) -> Any:
@@ -355,7 +354,7 @@ class _Block:
         if offset not in self.known:
             self.known[offset] = self._code.load(offset)
         value = self.known[offset]
-        # It may have been put there in an earlier loop.
+        # An earlier loop may have stored it.
         return Symbol(self._code, value.name, self._code.loop) if isinstance(value, Symbol) else value
 
     def __setitem__(self, place: Any, value: Any) -> None:
@@ -367,12 +366,12 @@ class _Block:
 
     def _offset(self, place: Any) -> int:
         if not (self._code.loop and isinstance(place, _Place)) or place.offset % self._code.lanes:
-            raise UntraceableError(f"a number at {place!r}")
+            raise UntraceableError(f"the block is indexed with {place!r}")
         return place.offset
 
 
 class _Place:
-    """Stands for the number of a lane, and what is added to it: only good to say where a number is."""
+    """Symbol of the index of a lane plus an offset; it can only address the block."""
 
     def __init__(self, offset: int) -> None:
         self.offset = offset
@@ -384,7 +383,7 @@ class _Place:
 
 
 class _Lanes(int):
-    """The number of lanes, through which a range goes at once."""
+    """Number of lanes; a range of it is traced once."""
 
 
 def _range(code: Code, *bounds: int) -> Iterator[Any]:
@@ -397,24 +396,24 @@ def trace(
     flags: str,
     arguments: Callable[[Code], Sequence[Any]],
 ) -> Code:
-    """The operations of a stage.
+    """Return the LLVM code of a stage.
 
     Parameters
     ----------
     function
-        The stage, in whose globals are constants, and compiled functions that know their text.
+        The stage, with constants and numba dispatchers in its globals.
     together, flags
-        As of :class:`Code`, at most.
+        As in :class:`Code`; ``together`` is an upper bound.
     arguments
-        Makes what the stage is called with: the code's block first, then its arguments.
+        Returns the arguments of the stage for a code: its block, then symbols.
 
     Raises
     ------
     UntraceableError
-        If the function is no stage.
+        If the function is not a stage.
     """
     if LANES not in function.__code__.co_names:
-        raise UntraceableError("no lanes")
+        raise UntraceableError("it has no loop over LANES")
     lanes = int(function.__globals__[LANES])
     code, again = (Code(lanes, math.gcd(lanes, together), flags, passes) for passes in (1, 2))
     for each in (code, again):
@@ -423,17 +422,17 @@ def trace(
         except UntraceableError:
             raise
         except Exception as error:
-            # A text that does other things with its arguments than a stage does may go wrong in any way.
+            # A function that is not a stage may fail in any way on symbols.
             raise UntraceableError(repr(error)) from error
         if result is not None:
-            raise UntraceableError("a result")
+            raise UntraceableError("it returns a value")
     if not code.does_as(again):
-        raise UntraceableError("a number that counts lanes")
+        raise UntraceableError("it counts lanes")
     return code
 
 
 def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) -> Any:
-    """The function that goes on symbols; ``made`` are those that there are already."""
+    """Return a function on symbols; ``made`` holds the functions made so far."""
     text = function.__code__
     if function not in made:
         scope: dict[str, Any] = {"range": partial(_range, code)}
@@ -446,7 +445,7 @@ def _plain(function: Callable[..., Any], code: Code, made: dict[Hashable, Any]) 
 
 
 def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> Any:
-    """What stands for a global."""
+    """Return the value of a global for symbols."""
     if value is np or value is math:
         return _functions(code)
     if isinstance(value, np.integer):
@@ -458,7 +457,7 @@ def _stand_in(name: str, value: Any, code: Code, made: dict[Hashable, Any]) -> A
 
 
 def _functions(code: Code) -> SimpleNamespace:
-    """What stands for numpy and math: what formulas use of them."""
+    """Return the functions of numpy and math that formulas use, for symbols."""
 
     def function(of_symbols: Callable[..., Any], plain: Callable[..., Any]) -> Callable[..., Any]:
         def of(*operands: Any) -> Any:
@@ -469,7 +468,7 @@ def _functions(code: Code) -> SimpleNamespace:
 
     return SimpleNamespace(
         **{name: function(partial(code.call, name), getattr(math, name)) for name in ("sqrt", "exp", "log")},
-        # Of no number and another LLVM's functions make no number, as numpy's do.
+        # With NaN, LLVM's functions return NaN, as in numpy.
         maximum=function(code.maximum, max),
         minimum=function(partial(code.call, "minimum"), min),
         inf=math.inf,

@@ -14,10 +14,10 @@ from foamprb.cloud.lanes import (
     ENDED,
     READY,
     WAITING,
+    drop_unfinished,
     empty_lanes,
-    forget_unfinished,
-    give_way,
-    put_aside,
+    set_aside,
+    swap_lanes,
     take_back,
 )
 from foamprb.cloud.layout import LANES
@@ -154,7 +154,7 @@ def test_what_is_put_aside_comes_back_in_any_lane():
     before = s.block.reshape(-1, LANES).copy()
     labels = {name: getattr(s, name).copy() for name in LABELS}
     for lane, kind in ((3, READY), (0, WAITING), (5, WAITING), (7, ENDED)):
-        put_aside(s, lane, kind)
+        set_aside(s, lane, kind)
         assert s.member[lane] == -1
     s.block[:] = np.nan
     after = s.block.reshape(-1, LANES)
@@ -169,9 +169,9 @@ def test_what_is_put_aside_comes_back_in_any_lane():
 def test_all_lanes_give_way_to_those_that_wait():
     s = scratch()
     for lane in range(LANES):
-        put_aside(s, lane, WAITING)
+        set_aside(s, lane, WAITING)
         s.member[lane] = 1000 + lane if lane % 2 else -1
-    give_way(s, WAITING)
+    swap_lanes(s, WAITING)
     assert sorted(s.member) == list(range(LANES))
     assert s.counts[READY] == LANES // 2
     assert s.counts[WAITING] == 0
@@ -183,13 +183,13 @@ def test_rebounds_of_the_unfinished_do_not_count():
     s.member[2], s.number[2] = 0, 11
     for lane, kind, number in ((4, READY, 12), (5, WAITING, 13), (6, ENDED, 14)):
         s.number[lane] = number
-        put_aside(s, lane, kind)
+        set_aside(s, lane, kind)
     numbers = [10, 11, 12, 20, 13, 14, 21, 11]
     s.rebounds[: len(numbers), 0] = numbers
     s.rebounds[: len(numbers), 1:] = np.arange(len(numbers))[:, None]
     # Of the first two it was known before.
     s.noted[0], s.noted[1] = len(numbers), 2
-    forget_unfinished(s)
+    drop_unfinished(s)
     assert list(s.noted) == [4, 4]
     np.testing.assert_array_equal(s.rebounds[:4, 0], [10, 11, 20, 21])
     np.testing.assert_array_equal(s.rebounds[:4, 20], [0, 1, 3, 6])

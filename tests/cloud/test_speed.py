@@ -1,12 +1,11 @@
-"""That the loop stays fast: its stages are vectorised, and a step costs no more than it did.
+"""Speed of the loop: stages are vectorised, and a step costs no more than before.
 
-No clock time is compared: a particle-step is set against a fixed piece of numpy in the same process. When the
-loop gets faster, lower the number in COST: the message of a failing test tells what was found.
+A particle-step is compared with a fixed piece of numpy in the same process, not with a clock. When the loop
+gets faster, lower the number in COST: the message of a failing test has the figure found.
 """
 
 from __future__ import annotations
 
-import logging
 import platform
 import re
 import time
@@ -19,19 +18,16 @@ import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import coefficients, compose
-from foamprb.cloud.integrators.paper import dense_newton
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.integrators.rosenbrock import predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import spheres
-from foamprb.cloud.surroundings.brownian import apply_force, compute_force
-from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.registry import compose as surrounding
 from foamprb.cloud.surroundings.registry import with_rows
 from foamprb.cloud.surroundings.wall_lift import WallLift, lift
 from foamprb.cloud.tracker import Models
 from foamprb.compile import link as compiling
-from foamprb.compile.link import link
+from foamprb.compile.link import link, read_by
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
 
@@ -41,13 +37,6 @@ SLOWER = 2.5
 """A loop that costs so many times more has lost something; machines alone differ by less."""
 
 FORCES = (foamprb.Gravity(), foamprb.PressureGradient(), foamprb.VirtualMass(Cvm=0.5))
-# It goes through a single lane.
-_NO_VECTORS = (dense_newton,)
-# These ask first whether any lane needs it, or whether it is selected.
-_NOT_TRACED = (lift, compute_force, apply_force)
-AROUND = (FaxenCorrection(), WallLift(), foamprb.BrownianMotion(T=300.0))
-STAGES = {stage: INTEGRATORS["stokes"] for model in AROUND for stage in model.stages()}
-STAGES |= {stage: kind for kind in INTEGRATORS.values() for stage in kind.stages if stage not in _NO_VECTORS}
 
 
 class Yardstick:
@@ -114,54 +103,29 @@ def arithmetic(assembly):
 
 
 def called(*_arguments):
-    """Stands for a stage."""
+    """Stand-in of a stage."""
 
 
 def caller(*arguments):
     called(*arguments)
 
 
-def assembly_of(stage, integrator, monkeypatch, folder, more=()):
-    """Assembly of a stage, compiled afresh: what comes from numba's cache cannot be inspected.
-
-    With the models of the surroundings whose stage it is, or with others.
-    """
-    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(folder))
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
+@pytest.mark.parametrize("stage", [predict_inertial, lift], ids=["traced", "compiled by numba"])
+def test_stage_is_vectorised(stage, monkeypatch, tmp_path):
+    """Beside walls, where stages are longest. A cached function cannot be inspected."""
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(compiling, "_parts", {})
-    medium = AIR._replace(coefficients=coefficients(FORCES))
-    models = more or tuple(model for model in AROUND if stage in model.stages())
+    integrator, models = INTEGRATORS["rosenbrock"], (WallLift(),)
     block = np.ones(with_rows(integrator.layout, models).rows * LANES)
     around = surrounding(integrator.layout, models, integrator.inertia)
-    bindings = compose(FORCES) | integrator.bindings | around
-    dispatcher = link(caller, bindings | {"called": stage}, separate=(stage,))
-    values = {"block": block, "medium": medium, "tolerance": 1e-4, "allowed": 1e-22, "share": 1.0, "dt": 1e-4}
-    for model in models:
-        values["coefficients"] = model.coefficients([])
+    bindings = compose(FORCES) | integrator.bindings | around | {"called": stage}
+    dispatcher = link(caller, read_by(caller, bindings), separate=(stage,))
+    values = {"block": block, "medium": AIR._replace(coefficients=coefficients(FORCES)), "share": 1.0}
+    values["coefficients"] = models[0].coefficients([])
     dispatcher(*(values[name] for name in stage.__code__.co_varnames[: stage.__code__.co_argcount]))
     (assembly,) = dispatcher.inspect_asm().values()
-    return assembly
-
-
-@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
-@pytest.mark.parametrize("stage", [lift, predict_inertial], ids=lambda stage: stage.__name__)
-def test_hindering_walls_leave_stages_with_inertia_vectorised(stage, monkeypatch, tmp_path):
-    packed, scalar = arithmetic(
-        assembly_of(stage, INTEGRATORS["rosenbrock"], monkeypatch, tmp_path, (WallLift(),))
-    )
+    packed, scalar = arithmetic(assembly)
     assert packed > 500
     assert scalar <= packed // 50
-
-
-@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
-@pytest.mark.parametrize("stage", STAGES, ids=lambda stage: stage.__name__)
-def test_stage_is_traced_and_vectorised(stage, monkeypatch, tmp_path, caplog):
-    """One that is not traced takes thirty times as long to compile."""
-    caplog.set_level(logging.DEBUG, logger="foamprb")
-    assembly = assembly_of(stage, STAGES[stage], monkeypatch, tmp_path)
-    assert ("is not traced" in caplog.text) == (stage in _NOT_TRACED)
-    packed, scalar = arithmetic(assembly)
-    assert packed > 15
-    # Constants may be prepared before a loop; around a particle there are many, and one counts walls.
-    around = any(stage in model.stages() for model in AROUND)
-    assert scalar <= (max(6, packed // 50) if around else 6)
     assert not re.search(r"\bv?sqrtsd\b", assembly)

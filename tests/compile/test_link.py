@@ -17,7 +17,7 @@ import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
-from foamprb.compile.link import compile_part, link, read_by, side_by_side
+from foamprb.compile.link import compile_part, link, read_by, side_by_side, traced
 
 FIRST, SECOND = 2, 3
 MANY = 48
@@ -121,6 +121,7 @@ def first_of_many(values):
     return values[0]
 
 
+@traced
 def chain(values):
     for i in range(LANES):
         values[i] = math.sqrt(1.0 / (1.0 + math.sqrt(values[i])))

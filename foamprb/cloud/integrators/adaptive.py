@@ -1,8 +1,7 @@
-"""The compiled loop of the integrators of order 3(2), each particle with error-controlled steps of its own.
+"""Loop of the integrators of order 3(2), with error-controlled steps of each particle.
 
-A tracking step Δt, or a stretch of them, is cut into as many steps h as the tolerance asks for; the size that
-a particle found is part of its state. As in all loops (:mod:`foamprb.cloud.advance`), the lanes of a block go
-side by side and all alike.
+A tracking step Δt, or a stretch of them, is divided into steps h as the tolerance requires. The step size is
+a part of a particle's state. All lanes of a block go through the same operations.
 
 A step evaluates the body's equations at its start, at a quarter of it, and for the lanes that need order 3
 at its end. The flow is sampled at the start, at the end, and in the middle if the third evaluation is made.
@@ -55,17 +54,17 @@ from foamprb.cloud.lanes import (
     ENDED,
     READY,
     WAITING,
+    drop_unfinished,
     empty_lanes,
     fill_lanes,
-    forget_unfinished,
-    give_way,
-    has_steps,
     leave,
+    must_move,
     others,
-    put_aside,
-    renews_end,
+    set_aside,
+    swap_lanes,
     take_back,
-    walks_mended,
+    updates_end,
+    walks_relocated,
 )
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.motion import (
@@ -125,41 +124,39 @@ STEP_ROWS = end(during)
 _SMALLEST = 1e-9
 """A step that must be smaller than this share of Δt is a failure."""
 _STRETCH = 4
-"""Stretches are so many times as long as the longest step: rounding to whole steps then costs little, and the
-first calls, which do not yet know what belongs in a block, are short."""
+"""Length of a stretch over that of the longest step. Rounding to whole steps then costs little."""
 _MANY = 6
-"""So many lanes, of 16, go to order 3 at once; if there are fewer, others take their places first. More than
-there are lanes would wait for ever."""
+"""Least number of lanes, of 16, that go to order 3 together; fewer are set aside while others can run."""
 
 
 def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
-    """μ_f K_a/m, 1/s, with K_a in units of R."""
+    """Return μ_f K_a/m, 1/s, with K_a in units of R."""
     c = mu_f * (3.0 / (20.0 * math.pi)) * block[at.inertia * LANES + i]
     return c * k[0], c * k[1], c * k[2]
 
 
 def fluid_acceleration(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², of the flow at the start, seen by what moves with v through it."""
+    """Return ∂u/∂t + l·v, m/s², of the flow at the start of the step along a path of velocity v."""
     a, u = load3(block, at.DuDt, i), load3(block, during.start_u, i)
     c = dot_vector(load9(block, during.start_l, i), (v[0] - u[0], v[1] - u[1], v[2] - u[2]))
     return a[0] + c[0], a[1] + c[1], a[2] + c[2]
 
 
 def acceleration_at_end(block: Any, i: int, v: Vector) -> Vector:
-    """∂u/∂t + l·v, m/s², of the flow at the end of the step, seen by what moves with v through it."""
+    """Return ∂u/∂t + l·v, m/s², of the flow at the end of the step along a path of velocity v."""
     a, w = load3(block, during.end_ut, i), dot_vector(load9(block, during.end_l, i), v)
     return a[0] + w[0], a[1] + w[1], a[2] + w[2]
 
 
 def end_acceleration(block: Any, i: int) -> Vector:
-    """Du/Dt of the fluid at the end of the step, m/s²."""
+    """Return Du/Dt of the fluid at the end of the step, m/s²."""
     return acceleration_at_end(block, i, load3(block, during.end_u, i))
 
 
 def finish_path(block: Any, i: int, v: Vector) -> None:
-    """Store the velocity v at the end of the step, m/s, the place that it leads to, and the path's error.
+    """Store the velocity v at the end of the step, m/s, the position there, and the error of the path.
 
-    The place is that of Hermite's cubic: x + h/2 (v₀ + v) + h²/12 (a₀ − a), whose last part the error is.
+    The position is that of Hermite's cubic, x + h/2 (v₀ + v) + h²/12 (a₀ − a); its last term is the error.
     """
     h = block[at.dt * LANES + i]
     x, v0, a0 = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
@@ -177,75 +174,75 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
 
 
 def store_path_error(block: Any, i: int, error: Any) -> None:
-    """Store the error of the path; that of the shape is added to it."""
+    """Store the error of the path as that of the step."""
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error
 
 
 def judge_difference(block: Any, i: int, difference: Any, tolerance: float) -> None:
-    """Store δ₂, and as error of the step what exceeds the tolerance where δ₂^(4/3) does: δ₂⁴/tolerance²."""
+    """Store δ₂, and δ₂⁴/tolerance² as error of the step: it exceeds the tolerance where δ₂^(4/3) does."""
     block[during.difference * LANES + i] = difference
     square = difference * difference
     error = square * square * (1.0 / (tolerance * tolerance + 1e-300))
     block[at.error * LANES + i] = np.maximum(block[during.path * LANES + i], error)
 
 
-def note_disturbance(block: Any, i: int) -> None:
-    """Store whether models of the surroundings change the gradient that the body feels at the start."""
+def mark_disturbed(block: Any, i: int) -> None:
+    """Store whether models of the surroundings change the fluid's gradient at the start of the step."""
     l, felt = load9(block, during.start_l, i), load9(block, at.l, i)
     off = largest(add(felt, scale(-1.0, l)))
     block[during.disturbed * LANES + i] = select(off > 0.0, 1.0, 0.0)
 
 
 def judged_share(block: Any, i: int, rho: Any) -> Any:
-    """θ of :mod:`foamprb.body.error_control`, and 1 where the surroundings change what the body feels.
+    """Return θ of :mod:`foamprb.body.error_control`; 1 where models of the surroundings change the gradient.
 
-    They may do so faster than elasticity and the flow: near walls as fast as inertia gives way. ``rho`` is
-    the rate at which the elastic stress relaxes, 1/s.
+    They may change it faster than elasticity and the flow do. ``rho`` is the rate at which the elastic stress
+    relaxes, 1/s.
     """
     theta = share_of_slope(block[at.dt * LANES + i], rho, load9(block, during.start_l, i))
     return select(block[during.disturbed * LANES + i] > 0.0, 1.0, theta)
 
 
-def counted(block: Any, i: int, judged: Any) -> Any:
-    """What counts of θ δ₁ as an error of order 2: all where the surroundings change what the body feels."""
+def counted_error(block: Any, i: int, judged: Any) -> Any:
+    """Return the part of θ δ₁ that counts as error of order 2: all of it where ``disturbed`` is 1."""
     block[during.judged * LANES + i] = judged
     discount = select(block[during.disturbed * LANES + i] > 0.0, 0.0, block[during.discount * LANES + i])
     return (1.0 - discount) * judged
 
 
 def choose_order(block: Any, i: int, error: Any, tolerance: float) -> None:
-    """Store whether the step goes to order 3: where the error of order 2 is beyond the tolerance."""
+    """Store whether the step goes to order 3: where the error of order 2 exceeds the tolerance."""
     third = select(error <= tolerance, 0.0, 1.0)
     block[during.third * LANES + i] = third
-    # A lane that has done its steps goes through the stages still, and is saved after them.
+    # A finished lane still goes through the stages before it is saved.
     moving = block[at.moving * LANES + i] > 0.0
     block[during.demanding * LANES + i] = select(moving, third, block[during.demanding * LANES + i])
 
 
-def learn(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> None:
-    """Store what shall count from now on, where a step has gone to order 3, δ₂ being the difference."""
+def update_discount(block: Any, i: int, third: Any, difference: Any, tolerance: float) -> None:
+    """Store the discount of the next errors of order 2, where a step has gone to order 3 with δ₂."""
     judged = block[during.judged * LANES + i]
     share = learned_share(difference, judged)
     learns = third & (block[at.moving * LANES + i] > 0.0)
     block[during.discount * LANES + i] = select(learns, 1.0 - share, block[during.discount * LANES + i])
-    satisfied = learns & (counted(block, i, judged) <= tolerance)
+    satisfied = learns & (counted_error(block, i, judged) <= tolerance)
     block[during.demanding * LANES + i] = select(satisfied, 0.0, block[during.demanding * LANES + i])
 
 
 def keep_frame(block: Any, i: int, third: Any) -> None:
-    """Give lane i the frame of its own last evaluation; the third is made if any lane needs it."""
+    """Restore the frame of the second evaluation where lane i does not use the third."""
     Q, second = load9(block, at.Q, i), load9(block, during.second_Q, i)
     store9(block, at.Q, i, choose(third, Q, second))
 
 
 def no_stage(block: Any, medium: Medium) -> None:
-    """Stands for a stage that an integrator does not have, and until one is bound for those that it has."""
+    """Stand-in of a stage."""
 
 
 def no_choice(block: Any, medium: Medium, tolerance: float) -> None:
-    """The same for a slope that judges by the tolerance."""
+    """Stand-in of a stage that judges by the tolerance."""
 
 
 predict = first_slope = last_argument = end_slope = no_stage
@@ -254,30 +251,30 @@ second_slope = third_slope = no_choice
 
 @traced
 def begin_stage(block: Any) -> None:
-    """Let a step begin with the fluid as the flow has it.
-
-    What was sampled are ``start_u`` and ``start_l``, and ∂u/∂t in the place of Du/Dt.
-    """
+    """Start a step with the fluid as sampled: ``start_u``, ``start_l``, and ∂u/∂t in the rows of Du/Dt."""
     for i in range(LANES):
         l = load9(block, during.start_l, i)
         store_fluid(block, i, load3(block, during.start_u, i), l, load3(block, at.DuDt, i))
         store9(block, at.new_F, i, load9(block, at.F, i))
 
 
-def path_pace(block: Any, i: int, tolerance: float) -> None:
-    """Store how long the error of the path lets the next step of lane i be."""
+def limit_by_path(block: Any, i: int, tolerance: float) -> None:
+    """Store the length of the next step of lane i that the error of the path allows."""
     block[during.by_path * LANES + i] = path_factor(block[during.path * LANES + i], tolerance)
 
 
 ADAPTIVE_STAGES = (*BLOCK_STAGES, begin_stage)
-ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {"note_pace": path_pace, "MOST_MEMBERS": 2**40}
-"""What every integrator of this loop has beside its own stages."""
+ADAPTIVE_BINDINGS: dict[str, Callable[..., Any] | int] = {
+    "limit_next_step": limit_by_path,
+    "MOST_MEMBERS": 2**40,
+}
+"""Stages and bindings of every integrator of this loop, beside its own."""
 
 
 def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
-    """Frame, stretches and integrals of the shape that is in the block, and what surrounds it.
+    """Compute frame, stretches and integrals of the shape in the block, and apply the surroundings.
 
-    Once before each slope; ``share`` says how far on the way to new_x the body is.
+    It precedes each slope; ``share`` is the part of the way to new_x that the body has gone.
     """
     new_frames(block)
     new_integrals(block)
@@ -287,9 +284,13 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
 def sample_ahead(
     flow: Any, host: int, x: Vector, goal: Vector, t: float
 ) -> tuple[int, float, Vector, Tensor, Vector]:
-    """The flow at a place to which the step leads from x, as its host has it, or the last one on the way.
+    """Return the flow at the goal of a step from x.
 
-    That host comes first, and how far off the place may be along each axis, m, for it to hold it certainly.
+    Returns
+    -------
+    host, room, u, l_f, u_t
+        The host of the goal, or the last one on the way; the distance along each axis, m, within which this
+        host certainly holds any point around the goal; the flow there.
     """
     found, _, patch, _ = walk(flow, host, x, goal)
     last = host if patch == -2 else found
@@ -298,7 +299,7 @@ def sample_ahead(
 
 
 def _sample_end(flow: Any, s: Scratch, i: int) -> None:
-    """The flow where the step of lane i leads, and which host that is."""
+    """Store the flow at the end of the step of lane i, and the host there."""
     block = s.block
     place = load3(block, at.new_x, i)
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]
@@ -311,7 +312,7 @@ def _sample_end(flow: Any, s: Scratch, i: int) -> None:
 
 
 def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
-    """The flow half-way on the step of lane i."""
+    """Store the fluid's gradient half-way on the step of lane i."""
     half = 0.5 * block[at.dt * LANES + i]
     x, v, a = load3(block, at.x, i), load3(block, during.start_v, i), load3(block, during.start_a, i)
     f = 0.5 * half * half
@@ -325,9 +326,9 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
 
 
 def holds_end(block: Any, i: int, goal: Vector) -> bool:
-    """Whether the host to which the step of lane i was to lead certainly holds its end ``goal``, m."""
+    """Return True if the host found for the end of the step of lane i certainly holds ``goal``, m."""
     x, room = load3(block, during.ahead, i), block[during.room * LANES + i]
-    # A maximum of the three might leave out what is no number.
+    # A maximum of the three might hide NaN.
     return bool(abs(goal[0] - x[0]) < room and abs(goal[1] - x[1]) < room and abs(goal[2] - x[2]) < room)
 
 
@@ -345,21 +346,21 @@ def track_adaptive(
     tolerance: float,
     most: int,
 ) -> int:
-    """Carry particles through ``steps`` tracking steps, each in steps of its own.
+    """Advance particles by ``steps`` tracking steps, each with its own steps.
 
     Parameters
     ----------
-    As :func:`foamprb.cloud.integrators.paper.track_block`, with any number of members, a block of the
+    As in :func:`foamprb.cloud.integrators.paper.track_block`, with any number of members, a block of the
     integrator's rows, and
     tolerance
-        Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, cut
+        Largest error of a step (:mod:`foamprb.body.error_control`). Infinite for steps Δt of order 3, limited
         only by :func:`foamprb.body.error_control.longest_step`.
     most
-        How many tracking steps long one of their steps may be (:func:`stretch_of`).
+        Longest step in tracking steps (:func:`stretch_of`).
 
     Returns
     -------
-    The number of walks that failed and were mended by the tree.
+    The number of walks that needed the tree.
     """
     last, stretch = step + steps, stretch_of(most)
     enough = tolerance if tolerance < math.inf else 0.0
@@ -369,24 +370,24 @@ def track_adaptive(
 
     while True:
         if scratch.counts[WAITING] >= LANES:
-            give_way(scratch, WAITING)
+            swap_lanes(scratch, WAITING)
         moving = 0
         for i in range(LANES):
-            moving += has_steps(scratch, i, last)
+            moving += must_move(scratch, i, last)
         if moving < LANES:
             moving = fill_lanes(flow, patches, p, members, scratch, step, last, dt, start)
         if interrupted(scratch):
-            forget_unfinished(scratch)
+            drop_unfinished(scratch)
             break
-        if renews_end and (moving == 0 or scratch.counts[ENDED] >= LANES) and any_ended(scratch):
-            renew_ends(flow, medium, p, scratch, last)
+        if updates_end and (moving == 0 or scratch.counts[ENDED] >= LANES) and has_ended(scratch):
+            update_ends(flow, medium, p, scratch, last)
             continue
         if moving == 0:
             break
 
         for i in range(LANES):
             block[at.moving * LANES + i] = 0.0
-            if not has_steps(scratch, i, last):
+            if not must_move(scratch, i, last):
                 continue
             block[at.moving * LANES + i] = 1.0
             t = block[at.t * LANES + i]
@@ -398,7 +399,7 @@ def track_adaptive(
             rest = start + (current[i] + scratch.stride[i]) * dt - t
             left = steps_left(block, i, rest, l_f, dt, most)
             block[during.rest * LANES + i], block[at.dt * LANES + i] = rest, rest / left
-            if forgets(scratch, i, left, stretch):
+            if measures_again(scratch, i, left, stretch):
                 block[during.discount * LANES + i] = 0.0
         begin_stage(block)
         for i in range(LANES):
@@ -412,9 +413,9 @@ def track_adaptive(
         first_slope(block, medium)
         evaluate_shape(block, medium, 1.0)
         second_slope(block, medium, enough)
-        if thirds_of(scratch, len(members)):
+        if count_thirds(scratch, len(members)):
             for i in range(LANES):
-                if wants_third(block, i):
+                if needs_third(block, i):
                     _sample_middle(flow, scratch.host[i], block, i)
             last_argument(block, medium)
             evaluate_shape(block, medium, 1.0)
@@ -457,49 +458,48 @@ def track_adaptive(
             if whole:
                 end_tracking_steps(scratch, i)
     end_block(scratch)
-    return walks_mended(scratch)
+    return walks_relocated(scratch)
 
 
 def stretch_of(most: int) -> int:
-    """The stretch of tracking steps for which a particle takes as many steps as its error asks for.
+    """Return the length of a stretch in tracking steps: steps of a particle end at its end.
 
-    Within it they begin and end anywhere, up to ``most`` tracking steps long. It begins at a multiple of its
-    length: the steps of a particle are so the same wherever calls that begin and end at multiples of it cut a
-    run.
+    Within it they start and end anywhere, up to ``most`` tracking steps long. As stretches start at multiples
+    of their length, steps do not depend on calls that start and end there.
     """
     return 1 if most == 1 else _STRETCH * most
 
 
 def steps_left(block: Any, i: int, rest: float, l_f: Tensor, dt: float, most: int) -> float:
-    """How many steps of one length lane i takes for what is left of its stretch, if its size stays as it is.
+    """Return the number of equal steps of lane i for the rest of its stretch, at its present step size.
 
-    Close to a wall none is longer than Δt.
+    Close to a wall no step is longer than Δt.
 
     Parameters
     ----------
     rest
-        What is left, s; round-off is no step.
+        Rest of the stretch, s; a rest of round-off needs no step.
     l_f
         Velocity gradient of the fluid at the start, 1/s.
     dt, most
-        As of :func:`track_adaptive`.
+        As in :func:`track_adaptive`.
     """
     close = block[at.clearance * LANES + i] < CLOSE * block[at.R * LANES + i]
     size = min(block[at.h * LANES + i], dt if close else most * dt, longest_step(l_f))
     return float(max(1.0, np.ceil((rest - SHORTEST_STEP * dt) / size)))
 
 
-def forgets(s: Scratch, i: int, left: float, stretch: int) -> bool:
-    """Whether lane i measures anew what it has learned: with one step of eight, and early in a stretch."""
+def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
+    """Return True if lane i must re-estimate its error ratio: one step of eight, early in a stretch."""
     if s.block[at.taken * LANES + i] > 0.0 or left >= LEARNED_FOR:
         return left % LEARNED_FOR == 0.0
     return bool(s.step[i] // stretch % (LEARNED_FOR // left) == 0.0)
 
 
 def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
-    """Let lane i not take a step longer than a tracking step that comes to a patch or close to a wall.
+    """Reject a step of lane i that is longer than Δt and comes to a patch or close to a wall.
 
-    What happens there is found to Δt so, however long steps are elsewhere.
+    Contact is so resolved to Δt.
     """
     block = s.block
     long = block[at.dt * LANES + i] > (1.0 + SHORTEST_STEP) * dt
@@ -510,46 +510,47 @@ def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, to
             block[at.h * LANES + i] = dt
 
 
-def wants_third(block: Any, i: int) -> bool:
-    """Whether lane i takes a step that is to go to order 3."""
+def needs_third(block: Any, i: int) -> bool:
+    """Return True if lane i takes a step of order 3."""
     return bool(block[at.moving * LANES + i] > 0.0 and block[during.third * LANES + i] > 0.0)
 
 
-def thirds_of(s: Scratch, n: int) -> int:
-    """How many lanes go to order 3 now: none where so few want to that others of n particles go on first.
+def count_thirds(s: Scratch, n: int) -> int:
+    """Return the number of lanes that go to order 3 now.
 
-    A third evaluation costs a block as much for one lane as for all.
+    If they are few and others of n particles can run, they are set aside and none does: a third evaluation
+    costs a block as much for one lane as for all.
     """
-    block, wanted = s.block, 0
+    block, count = s.block, 0
     for i in range(LANES):
-        wanted += wants_third(block, i)
-    if wanted >= _MANY or wanted == 0 or not others(s, n):
-        return wanted
-    put_off(s)
+        count += needs_third(block, i)
+    if count >= _MANY or count == 0 or not others(s, n):
+        return count
+    set_thirds_aside(s)
     return 0
 
 
-def put_off(s: Scratch) -> None:
-    """Let the lanes that want to go to order 3 wait without a step, and others take their places."""
+def set_thirds_aside(s: Scratch) -> None:
+    """Set the lanes that need order 3 aside before their step, and load others."""
     block = s.block
     for i in range(LANES):
-        if wants_third(block, i):
+        if needs_third(block, i):
             block[at.moving * LANES + i] = 0.0
-            put_aside(s, i, WAITING)
+            set_aside(s, i, WAITING)
             if s.counts[READY] > 0:
                 take_back(s, i, READY)
 
 
-def any_ended(s: Scratch) -> bool:
-    """Whether particles are left whose ends are to be renewed, where no lane moves or many are put aside."""
+def has_ended(s: Scratch) -> bool:
+    """Return True if particles are left that need the rates at their ends, where no lane moves."""
     for i in range(LANES):
         if s.member[i] >= 0:
             return True
     return bool(s.counts[ENDED] > 0)
 
 
-def renew_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
-    """Find what ``end_slope`` does of particles that have done their steps, and save them.
+def update_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -> None:
+    """Apply ``end_slope`` to finished particles, and save them.
 
     ``last`` is the tracking step after the last.
     """
@@ -557,7 +558,7 @@ def renew_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -
     for i in range(LANES):
         block[at.moving * LANES + i] = 0.0
         if s.member[i] >= 0 and not (s.status[i] == ACTIVE and s.step[i] >= last):
-            put_aside(s, i, READY)
+            set_aside(s, i, READY)
         if s.member[i] < 0 and s.counts[ENDED] > 0:
             take_back(s, i, ENDED)
         if s.member[i] >= 0:
@@ -575,5 +576,5 @@ def renew_ends(flow: Any, medium: Medium, p: Particles, s: Scratch, last: int) -
             leave(p, s, i)
 
 
-RARE = (fill_lanes, put_off, give_way, renew_ends)
-"""What few steps need: compiled on its own, it does not swell the loop."""
+RARE = (fill_lanes, set_thirds_aside, swap_lanes, update_ends)
+"""Functions that few steps call, compiled as separate functions to keep the loop short."""

@@ -1,4 +1,13 @@
-"""What an integrator of the shape is: a loop over steps, the stages of a step, and the limits of both."""
+"""Integrators of the shape: a loop over steps, its stages, and its limits.
+
+Particles do not act on each other, so a block of :data:`LANES` of them advances by many steps while it stays
+in the processor's cache. In a step, the flow is sampled and the mesh walked particle by particle. The
+equations of the body are computed stage by stage over the lanes, in vector instructions. All lanes go
+through the same operations, so results depend neither on their order nor on the number of threads.
+
+The names of models (``traction``, ``drag``, ``sample``, ``walk``, …) are bound to the selected ones when the
+loop is compiled (:func:`foamprb.compile.link.link`), and ``track`` to the loop of the integrator.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +16,25 @@ from math import inf
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from foamprb.cloud.block import Medium, Scratch
-from foamprb.cloud.layout import Layout
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = ["Integrator", "apply_surroundings", "no_disturbance", "no_update", "update_surroundings"]
+from foamprb.cloud.block import Medium, Scratch
+from foamprb.cloud.layout import LANES, Layout
+from foamprb.cloud.motion import PatchTable
+from foamprb.cloud.state import Particles
+
+__all__ = [
+    "Integrator",
+    "apply_surroundings",
+    "no_disturbance",
+    "no_update",
+    "track_share",
+    "update_surroundings",
+]
+
+MOST_MEMBERS = LANES
+"""Particles that the loop of an integrator takes at once; bound with it."""
 
 
 def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
@@ -18,35 +42,32 @@ def _refuses_nothing(_traction: str, _material: str, _tense: bool) -> str:
 
 
 class Integrator(NamedTuple):
-    """One integrator, by the name that the settings have for it."""
+    """Integrator, with its name in the settings."""
 
     name: str
     description: str
-    """Half a sentence for the log."""
+    """Phrase for the log."""
     order: int
     """Order of accuracy in the time step."""
     track: Callable[..., int]
-    """The loop that carries a block of particles through steps."""
+    """Loop that advances a block of particles."""
     stages: tuple[Callable[..., Any], ...]
-    """The parts of the loop that do not depend on the flow: each is compiled once for all flows."""
+    """Parts of the loop that do not depend on the flow; each is compiled once for all flows."""
     layout: Layout
-    """Of its block."""
+    """Layout of its block."""
     rare: tuple[Callable[..., Any], ...] = ()
-    """Parts of the loop that depend on the flow and that few steps need, compiled on their own.
-
-    The longest comes first.
-    """
+    """Parts of the loop that few steps need, compiled as separate functions; the longest comes first."""
     bindings: Mapping[str, Callable[..., Any] | int] = MappingProxyType({})
-    """Functions and constants of its own, by the names by which the loop calls them."""
+    """Its own functions and constants, by their names in the loop."""
     adaptive: bool = False
-    """Whether it cuts a tracking step as its tolerance asks for, which the loop then takes as an option."""
+    """Whether it divides tracking steps to meet a tolerance, which is then an argument of its loop."""
     inertia: bool = True
     """Whether the solid has inertia."""
     stable_steps: float = inf
     """Largest stable Δt in relaxation times τ_s of a sphere's shape, less for an elongated body."""
     refuses: Callable[[str, str, bool], str] = _refuses_nothing
-    """``refuses(traction, material, tense)`` says why the integrator cannot take the traction, the material
-    or surface tension, as the end of a sentence that begins with its name; an empty text if it can."""
+    """``refuses(traction, material, tense)`` returns the reason against a traction, a material or surface
+    tension, as the end of a sentence that starts with the integrator's name; empty if there is none."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -86,3 +107,38 @@ def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: A
 update_all: Any = no_update
 prepare_all: Any = no_disturbance
 disturb_all: Any = no_disturbance
+
+
+track: Any = None
+
+
+def track_share(
+    flow: Any,
+    patches: PatchTable,
+    medium: Medium,
+    p: Particles,
+    rows: NDArray[np.int64],
+    step: int,
+    steps: int,
+    dt: float,
+    start: float,
+    scratch: Scratch,
+    options: tuple[float, ...],
+) -> int:
+    """Advance a thread's share of the particles, those of indices ``rows``.
+
+    Parameters
+    ----------
+    options
+        Further arguments of the integrator's loop; the others are as in
+        :func:`foamprb.cloud.integrators.paper.track_block`.
+
+    Returns
+    -------
+    The number of walks that needed the tree.
+    """
+    recovered = 0
+    for begin in range(0, len(rows), MOST_MEMBERS):
+        members = rows[begin : begin + MOST_MEMBERS]
+        recovered += track(flow, patches, medium, p, members, step, steps, dt, start, scratch, *options)
+    return recovered

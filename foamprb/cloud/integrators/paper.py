@@ -1,4 +1,4 @@
-"""The integrator ``paper``: the paper's implicit–explicit Euler scheme, with inertia, of first order.
+"""Integrator ``paper``: the implicit–explicit Euler scheme of the paper, with inertia, of first order.
 
 The formulas are those of :mod:`foamprb.body.imex`.
 """
@@ -61,7 +61,7 @@ _DENSE_STEPS = 25
 
 @traced
 def traction_stage(block: Any, medium: Medium) -> None:
-    """σ̃* of the old shape (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
+    """Compute σ̃* (46) less the viscous stress, and Newton's first iterate, in the particle frame."""
     for i in range(LANES):
         F, A, Q = load9(block, at.F, i), load9(block, at.A, i), load9(block, at.Q, i)
         l_f = to_frame(Q, load9(block, at.l, i))
@@ -77,7 +77,7 @@ def _kappa(block: Any, i: int) -> float:
 
 
 def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
-    """Store Fⁿ⁺¹ = Qᵀ·G, Aⁿ⁺¹ = (Fⁿ⁺¹ − Fⁿ)/Δt (47) and what tells whether they are sound."""
+    """Store Fⁿ⁺¹ = Qᵀ·G, Aⁿ⁺¹ = (Fⁿ⁺¹ − Fⁿ)/Δt (47), J and the error."""
     F = load9(block, at.F, i)
     F_new = dot(transpose(load9(block, at.Q, i)), G)
     store9(block, at.new_F, i, F_new)
@@ -88,7 +88,7 @@ def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
 
 @side_by_side
 def newton_stage(block: Any) -> None:
-    """The new deformation gradient."""
+    """Compute the new deformation gradient."""
     for i in range(LANES):
         G, error = advance(
             load9(block, at.predictor, i),
@@ -103,7 +103,7 @@ def newton_stage(block: Any) -> None:
 
 @traced
 def barycentre_stage(block: Any, medium: Medium) -> None:
-    """The new velocity, with the drag of the new shape (36) to (43)."""
+    """Compute the new velocity, with the drag of the new shape (36) to (43)."""
     for i in range(LANES):
         k = drag(load3(block, at.stretch, i), load_integrals(block, i))
         R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
@@ -117,7 +117,7 @@ def barycentre_stage(block: Any, medium: Medium) -> None:
 
 
 def _eliminate(M: Any, n: int) -> bool:
-    """Solve in place the n×n system with its right side in column n; false when it is singular."""
+    """Solve in place the n×n system with its right side in column n; return False if it is singular."""
     for k in range(n):
         p = k
         for i in range(k + 1, n):
@@ -138,7 +138,7 @@ def _eliminate(M: Any, n: int) -> bool:
 
 
 def dense_newton(block: Any, i: int, M: Any) -> None:
-    """The new deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
+    """Compute the deformation gradient of lane i by Newton's method with the full 9×9 tangent (50), in M."""
     predictor, stress = load9(block, at.predictor, i), load9(block, at.stress, i)
     mu, lame, kappa = block[at.mu * LANES + i], block[at.lame * LANES + i], _kappa(block, i)
     rest = load9(block, at.M, i)
@@ -183,16 +183,16 @@ def track_block(
     start: float,
     scratch: Scratch,
 ) -> int:
-    """Carry up to :data:`LANES` particles from step ``step`` through ``steps`` steps of Δt.
+    """Advance up to :data:`LANES` particles from step ``step`` by ``steps`` steps of Δt.
 
     Parameters
     ----------
     flow
-        Arrays of the flow, as its kernels want them.
+        Arrays of the flow.
     p
-        The cloud; only the rows in ``members`` are read and changed.
+        The cloud; only ``members`` are read and changed.
     members
-        Rows of particles, pending or active.
+        Indices of particles, pending or active.
     step
         Number of the first step: it goes from t = start + step Δt to start + (step + 1) Δt.
     scratch
@@ -200,7 +200,7 @@ def track_block(
 
     Returns
     -------
-    The number of walks that failed and were mended by the tree.
+    The number of walks that needed the tree.
     """
     recovered = 0
     block, status = scratch.block, scratch.status
@@ -218,7 +218,7 @@ def track_block(
         for i in range(len(members)):
             block[at.moving * LANES + i] = 0.0
             t0 = block[at.t0 * LANES + i]
-            # A first step of no length would divide round-off by nothing in Aⁿ⁺¹.
+            # A first step of length 0 would divide round-off by zero in Aⁿ⁺¹.
             if status[i] == PENDING and t0 < t_end - SHORTEST_STEP * dt:
                 release(flow, patches, scratch, i)
             if status[i] == ACTIVE:

@@ -1,4 +1,4 @@
-"""The integrator ``rosenbrock``: with inertia of the solid, of order 3(2), linearly implicit.
+"""Integrator ``rosenbrock``: with inertia of the solid, of order 3(2), linearly implicit.
 
 The formulas are those of :mod:`foamprb.body.inertial_runge_kutta` and :mod:`foamprb.body.inertial_path`.
 The shape's unknowns are F and l_s = A F⁻¹. Vectors and tensors of a step are components in the particle
@@ -79,7 +79,7 @@ from foamprb.cloud.integrators.adaptive import (
     STEP_ROWS,
     acceleration_at_end,
     choose_order,
-    counted,
+    counted_error,
     drag_rate,
     during,
     end_acceleration,
@@ -87,10 +87,10 @@ from foamprb.cloud.integrators.adaptive import (
     judge_difference,
     judged_share,
     keep_frame,
-    learn,
-    note_disturbance,
+    mark_disturbed,
     store_path_error,
     track_adaptive,
+    update_discount,
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
@@ -120,7 +120,7 @@ def leave_gradient(_block: Any, _i: int, _Q: Tensor, _l_s: Tensor, _wanted: Any)
 
 
 class StiffnessRows(NamedTuple):
-    """What a stage needs of those before it: the state at the start, and how stiff it is."""
+    """Rows that later stages read: the state at the start, and its stiffness."""
 
     G: Annotated[int, Row(9, "1", "Q·F at the start")]
     b_e: Annotated[int, Row(9, "1", "elastic b_e")]
@@ -157,7 +157,7 @@ own = offsets(StiffnessRows, STEP_ROWS)
 
 @traced
 def predict_inertial(block: Any, medium: Medium) -> None:
-    """Velocity and its rate at the start, and where they lead while the drag lasts."""
+    """Compute velocity and its rate at the start, and the position they predict with drag."""
     for i in range(LANES):
         h, Q = block[at.dt * LANES + i], load9(block, at.Q, i)
         v, x = load3(block, at.v, i), load3(block, at.x, i)
@@ -181,7 +181,7 @@ def predict_inertial(block: Any, medium: Medium) -> None:
 
 @traced
 def first_inertial(block: Any, medium: Medium) -> None:
-    """The state at the start, how stiff it is, and the state at a quarter of the step.
+    """Compute the state at the start, its stiffness, and the state at a quarter of the step.
 
     The shape's unknowns are F and l_s = A F⁻¹, with dF/dt = l_s F and dl_s/dt = Ȧ F⁻¹ − l_s l_s: the traction
     depends on l_s, so that what is stiff in l_s does not reappear in F.
@@ -192,7 +192,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
-        note_disturbance(block, i)
+        mark_disturbed(block, i)
         G = dot(Q, F)
         # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
@@ -248,7 +248,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
 
 @traced
 def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
-    """Slopes at a quarter of the step, the solution of order 2, and whether it is good enough."""
+    """Compute slopes at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
         n, start = _load_stiffness(block, i), (load9(block, own.l_s, i), load9(block, own.l_t, i))
@@ -258,7 +258,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         share = judged_share(block, i, relaxation_rate(n))
         two, judged = of_second_order(n, resolvent(n, h), h, start, change, k, (share, FLUID_SHARE))
         judged_size = 0.5 * h * _size(judged, h, b_e, strain_scale(b_e, two[0]))
-        size = counted(block, i, judged_size)
+        size = counted_error(block, i, judged_size)
         store9(block, own.slope_Omega, i, k[0])
         store9(block, own.slope_l, i, k[1])
         store9(block, own.second_Omega, i, two[0])
@@ -293,7 +293,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
 
 @traced
 def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
-    """The state for the evaluation at the end, in lanes that go to order 3."""
+    """Compute the state for the evaluation at the end, in lanes of order 3."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
         third = block[during.third * LANES + i] > 0.0
@@ -326,7 +326,7 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
 
 @traced
 def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
-    """Slopes at the end, and the solution of order 3."""
+    """Compute slopes at the end and the solution of order 3."""
     for i in range(LANES):
         h, Q0 = block[at.dt * LANES + i], load9(block, during.start_Q, i)
         third = block[during.third * LANES + i] > 0.0
@@ -339,7 +339,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         two = load9(block, own.second_Omega, i), load9(block, own.second_l, i)
         strain = strain_scale(b_e, two[0])
         difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
-        learn(block, i, third, difference, tolerance)
+        update_discount(block, i, third, difference, tolerance)
 
         rate, moving = (
             load3(block, own.rate, i),
@@ -372,7 +372,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
 
 
 def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
-    """dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in the frame of the shape.
+    """Return dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in its frame.
 
     Parameters
     ----------
@@ -395,7 +395,7 @@ def _squares(v: Vector) -> Vector:
 
 
 def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
-    """What the rate of Ω has beside l_s, 1/s, and the rate of l_s, 1/s², of the state that is evaluated."""
+    """Return the rate of Ω less l_s, 1/s, and the rate of l_s, 1/s², of the evaluated state."""
     Q, L = load9(block, at.Q, i), add(l_s, load9(block, own.dl, i))
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
@@ -405,46 +405,46 @@ def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
 
 
 def _argument(block: Any, i: int) -> Pair:
-    """Ω and the change of l_s of the state that is evaluated."""
+    """Return Ω and the change of l_s of the evaluated state."""
     return load9(block, own.Omega, i), load9(block, own.dl, i)
 
 
 def _set_shape(block: Any, i: int, Q: Tensor, G: Tensor, shape: Pair) -> None:
-    """Put the shape to be evaluated into the block."""
+    """Store the shape to be evaluated."""
     store9(block, own.Omega, i, shape[0])
     store9(block, own.dl, i, shape[1])
     store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(shape[0]), G)))
 
 
 def _set_motion(block: Any, i: int, Q: Tensor, moved: Motion) -> None:
-    """Put the way to the place to be evaluated, and the velocity there, into the block."""
+    """Store the displacement to the position to be evaluated, and the velocity there."""
     v, dv = load3(block, at.v, i), vector_dot(moved[1], Q)
     store3(block, own.dv, i, moved[1])
     store3(block, at.new_v, i, (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2]))
 
 
 def _new_shape(block: Any, i: int, Q: Tensor, l_s: Tensor, end: Pair) -> tuple[Tensor, Tensor, Any]:
-    """F and A at the end of the step, and J."""
+    """Return F, A and J at the end of the step."""
     G = dot(group_exponential(end[0]), load9(block, own.G, i))
     F = dot(transpose(Q), G)
     return F, dot(transpose(Q), dot(add(l_s, end[1]), G)), det(F)
 
 
 def _new_motion(block: Any, i: int, Q: Tensor, end: Motion) -> tuple[Vector, Vector]:
-    """Place and velocity at the end of the step."""
+    """Return position and velocity at the end of the step."""
     x, v = load3(block, at.x, i), load3(block, at.v, i)
     dx, dv = vector_dot(end[0], Q), vector_dot(end[1], Q)
     return (x[0] + dx[0], x[1] + dx[1], x[2] + dx[2]), (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
 
 
 def _forced(block: Any, i: int, medium: Medium, Q: Tensor) -> Vector:
-    """The rate of the velocity in the state that is evaluated."""
+    """Return the rate of the velocity in the evaluated state, m/s²."""
     v_t, _ = _acceleration(block, i, medium, load3(block, at.new_v, i))
     return dot_vector(Q, v_t)
 
 
 def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector, Vector]:
-    """Acceleration (34) of the body in the block when it has the velocity v, m/s², and drag's rates, 1/s.
+    """Return the acceleration (34) of the body in the block at velocity v, m/s², and drag's rates, 1/s.
 
     The rates are those without walls, along the particle's axes.
     """
@@ -459,14 +459,14 @@ def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector
 
 
 def _fluid_share(changes: tuple[Vector, Vector], s: float) -> Vector:
-    """What the fluid's velocity has changed of dv/dt after the share s of the step, m/s²."""
+    """Return the change of dv/dt by that of the fluid's velocity after the share s of the step, m/s²."""
     (x, y, z), (p, q, r) = changes
     c = s * s - s
     return s * x + c * p, s * y + c * q, s * z + c * r
 
 
 def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
-    """How the fluid's velocity begins to change, m/s²: of the parabola or of the chord, which has less error.
+    """Return the initial rate of the fluid's velocity, m/s², by parabola or chord, whichever has less error.
 
     Stores that error.
 
@@ -494,26 +494,26 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
 
 
 def _way(block: Any, i: int) -> Any:
-    """What an error of the path is compared with: the way of the fluid or of the body, and the radius, m."""
+    """Return the scale of path errors: the way of the fluid or of the body plus the radius, m."""
     h, v, u = block[at.dt * LANES + i], load3(block, at.v, i), load3(block, during.end_u, i)
     fastest = np.maximum(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
     return h * np.sqrt(fastest) + block[at.R * LANES + i]
 
 
 def _size(v: Pair, h: Any, b_e: Tensor, strain: Any) -> Any:
-    """Size of a small difference of two shapes; over the step, one of l_s is one of Ω."""
+    """Return the size of a small difference of two shapes; a difference of l_s counts times h."""
     return np.maximum(relative_size(v[0], b_e, strain), h * largest(v[1]))
 
 
 def _length(m: Motion, h: Any, way: Any) -> Any:
-    """Size of a small difference of two places and velocities, of the way."""
+    """Return the size of a small difference of two positions and velocities, over the way."""
     (x, y, z), (u, v, w) = m
     squares = np.maximum(x * x + y * y + z * z, h * h * (u * u + v * v + w * w))
     return np.sqrt(squares) / way
 
 
 def _bend(block: Any, i: int, n: Stiffness, Q: Tensor) -> Tensor:
-    """The part of dl_s/dt that is quadratic in time as the fluid's gradient is, 1/s²."""
+    """Return the part of dl_s/dt that is quadratic in time, from that of the fluid's gradient, 1/s²."""
     l, middle, l_end = (
         load9(block, during.start_l, i),
         load9(block, during.middle_l, i),

@@ -1,4 +1,4 @@
-"""The integrator ``stokes``: without inertia of the shape, of order 3(2), exactly incompressible.
+"""Integrator ``stokes``: without inertia of the shape, of order 3(2), exactly incompressible.
 
 The formulas are those of :mod:`foamprb.body.exponential_runge_kutta`. The shape's only unknown is F; its
 rate is that of the balance of forces in the state. The barycentre follows the flow and slips through it
@@ -45,7 +45,7 @@ from foamprb.cloud.integrators.adaptive import (
     RARE,
     STEP_ROWS,
     choose_order,
-    counted,
+    counted_error,
     drag_rate,
     during,
     end_acceleration,
@@ -54,9 +54,9 @@ from foamprb.cloud.integrators.adaptive import (
     judge_difference,
     judged_share,
     keep_frame,
-    learn,
-    note_disturbance,
+    mark_disturbed,
     track_adaptive,
+    update_discount,
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
@@ -64,7 +64,7 @@ from foamprb.compile.link import traced
 
 
 class RelaxationRows(NamedTuple):
-    """What a stage needs of those before it: the state at the start in its frame, and how it relaxes."""
+    """Rows that later stages read: the state at the start in its frame, and its relaxation."""
 
     start_slip: Annotated[int, Row(3, "m/s", "velocity relative to the fluid at the start")]
     end_slip: Annotated[int, Row(3, "m/s", "the same in the fluid at the end, of the shape at the start")]
@@ -92,7 +92,7 @@ own = offsets(RelaxationRows, STEP_ROWS)
 
 @traced
 def predict_inertialess(block: Any, medium: Medium) -> None:
-    """Velocity and acceleration at the start, and where they lead."""
+    """Compute velocity and acceleration at the start, and the position they predict."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         w = _slip(block, i, medium, load9(block, during.start_l, i), load3(block, at.DuDt, i))
@@ -109,13 +109,13 @@ def predict_inertialess(block: Any, medium: Medium) -> None:
 
 @traced
 def first_inertialess(block: Any, medium: Medium) -> None:
-    """The state at the start, how it relaxes, and the shape at a quarter of the step."""
+    """Compute the state at the start, its relaxation, and the shape at a quarter of the step."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q, stretches, F = load9(block, at.Q, i), load3(block, at.stretch, i), load9(block, at.F, i)
         # The flow's, and with what the surroundings do to it.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
-        note_disturbance(block, i)
+        mark_disturbed(block, i)
         G = dot(Q, F)
         b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
         m, sigma = _response(block, i, medium, stretches, b_e)
@@ -157,7 +157,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
 
 @traced
 def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
-    """The slope at a quarter of the step, the solution of order 2, and whether it is good enough."""
+    """Compute the slope at a quarter of the step and the solution of order 2, and choose the order."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
@@ -171,7 +171,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         share = judged_share(block, i, fastest(n))
         size = share * relative_size(by_slope, b_e, strain)
         size = size + FLUID_SHARE * relative_size(by_fluid, b_e, strain)
-        choose_order(block, i, counted(block, i, size), tolerance)
+        choose_order(block, i, counted_error(block, i, size), tolerance)
         store9(block, own.slope, i, k)
         store9(block, own.second, i, two)
         store9(block, during.second_Q, i, load9(block, at.Q, i))
@@ -202,7 +202,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
 
 @traced
 def last_inertialess(block: Any, medium: Medium) -> None:
-    """The shape for the evaluation at the end, in lanes that go to order 3."""
+    """Compute the shape for the evaluation at the end, in lanes of order 3."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q0, F = load9(block, during.start_Q, i), load9(block, at.F, i)
@@ -222,7 +222,7 @@ def last_inertialess(block: Any, medium: Medium) -> None:
 
 @traced
 def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
-    """The slope at the end, and the solution of order 3."""
+    """Compute the slope at the end and the solution of order 3."""
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q0, Omega = load9(block, during.start_Q, i), load9(block, own.quarter, i)
@@ -236,7 +236,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
         three = of_third_order(n, whole, h, l_s, change, curve, k, last)
         difference = relative_size(add(three, scale(-1.0, two)), b_e, strain_scale(b_e, two))
         third = block[during.third * LANES + i] > 0.0
-        learn(block, i, third, difference, tolerance)
+        update_discount(block, i, third, difference, tolerance)
         F_two, J_two, A_two = load9(block, at.new_F, i), block[at.J * LANES + i], load9(block, at.new_A, i)
         F = _finish_shape(block, i, Q0, three)
         store9(block, at.new_F, i, choose(third, F, F_two))
@@ -248,7 +248,7 @@ def third_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
 
 @traced
 def end_inertialess(block: Any, medium: Medium) -> None:
-    """A and v of the balance at the end; the stages leave those that the last step has found on its way."""
+    """Compute A and v of the balance at the end of the last step."""
     for i in range(LANES):
         moving = block[at.moving * LANES + i] > 0.0
         l_s = _gradient(block, i, medium)
@@ -268,19 +268,19 @@ def end_inertialess(block: Any, medium: Medium) -> None:
 
 
 def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
-    """Mobility, and elastic stress over μ_f, 1/s, in the particle frame."""
+    """Return the mobility, and the elastic stress over μ_f, 1/s, in the particle frame."""
     m = mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
     tau = incompressible_stress(block, i, stretches, b_e)
     return m, scale(1.0 / medium.mu, tau)
 
 
 def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
-    """l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
+    """Return l_s of the shape new_F, whose frame and integrals are in the block, 1/s."""
     return from_frame(load9(block, at.Q, i), _gradient_in_frame(block, i, medium))
 
 
 def _gradient_in_frame(block: Any, i: int, medium: Medium) -> Tensor:
-    """The same in that frame."""
+    """Return the same in that frame."""
     Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
     b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     m, sigma = _response(block, i, medium, stretches, b_e)
@@ -288,18 +288,18 @@ def _gradient_in_frame(block: Any, i: int, medium: Medium) -> Tensor:
 
 
 def _fluid_at_node(block: Any, i: int) -> Vector:
-    """Velocity of the fluid at a quarter of the step, as the flow has it, m/s."""
+    """Return the velocity of the undisturbed fluid at a quarter of the step, m/s."""
     u, v = load3(block, during.start_u, i), load3(block, during.end_u, i)
     return u[0] + NODE * (v[0] - u[0]), u[1] + NODE * (v[1] - u[1]), u[2] + NODE * (v[2] - u[2])
 
 
 def _seen(m: Mobility, dl_f: Tensor) -> Tensor:
-    """Change of l_s by one of the fluid's gradient, 1/s."""
+    """Return the change of l_s by a change of the fluid's gradient, 1/s."""
     return velocity_gradient(m, ZERO, dl_f)
 
 
 def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
-    """The part of l_s that is quadratic in time as the fluid's gradient is, 1/s."""
+    """Return the part of l_s that is quadratic in time, from that of the fluid's gradient, 1/s."""
     l, middle, l_end = (
         load9(block, during.start_l, i),
         load9(block, during.middle_l, i),
@@ -314,14 +314,14 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
 
 
 def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
-    """Velocity relative to a fluid of the shape that is in the block, m/s."""
+    """Return the velocity relative to the fluid of the shape in the block, m/s."""
     rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
     steady, push, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 
 
 def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
-    """Store the new deformation gradient, its volume restored exactly, and its volume before; return it."""
+    """Store and return the new deformation gradient with its exact volume; store its volume before."""
     F = dot(transpose(Q), dot(group_exponential(Omega), dot(Q, load9(block, at.F, i))))
     J = det(F)
     F = isochoric(F, J)
@@ -331,7 +331,7 @@ def _finish_shape(block: Any, i: int, Q: Tensor, Omega: Tensor) -> Tensor:
 
 
 def _load_relaxation(block: Any, i: int) -> tuple[Relaxation, Response]:
-    """How the state at the start relaxes, and the functions of the whole step."""
+    """Return the relaxation of the state at the start, and the functions of the whole step."""
     b_e = load9(block, own.b_e, i)
     n = Relaxation(
         (b_e[0], b_e[4], b_e[8]),
@@ -374,7 +374,7 @@ STOKES = Integrator(
         "last_argument": last_inertialess,
         "third_slope": third_inertialess,
         "end_slope": end_inertialess,
-        "renews_end": 1,
+        "updates_end": 1,
     },
     adaptive=True,
     inertia=False,
