@@ -120,7 +120,7 @@ def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) 
     except (OSError, EOFError, ValueError, zlib.error) as error:
         raise mistake(getattr(error, "strerror", None) or str(error) or "cannot be read") from error
     if spent.bytes > MOST_BYTES:
-        raise mistake(f"has more than {MOST_BYTES >> 20} MiB, and so is no dictionary")
+        raise mistake(f"has more than {MOST_BYTES >> 20} MiB, too large for a dictionary")
     return text
 
 
@@ -299,7 +299,9 @@ class _Parser:
         """Count the words to which a macro expands: without a limit, n lines could expand to 2ⁿ."""
         self.spent.words += words
         if self.spent.words > MOST_WORDS:
-            raise self.mistake(token, f"expands to too much: all macros, to more than {MOST_WORDS} words.")
+            raise self.mistake(
+                token, f"expands too far: all macros together to more than {MOST_WORDS} words."
+            )
 
     def require_depth(self, token: _Token, depth: int) -> None:
         """Raise InputError if dictionaries are nested too deeply."""
@@ -346,12 +348,12 @@ class _Parser:
             return
         self.spent.files += 1
         if self.spent.files > MOST_FILES:
-            raise self.mistake(name, f"is the file after {MOST_FILES} others that are included.")
+            raise self.mistake(name, f"exceeds the limit of {MOST_FILES} included files.")
         text = _read_text(path, self.spent, lambda why: self.mistake(name, f"cannot be included: {why}."))
         if real(path) in self.files:
             raise self.mistake(name, "includes itself.")
         if len(self.files) > MOST_NESTED:
-            raise self.mistake(name, f"is included too deeply: by more than {MOST_NESTED} files.")
+            raise self.mistake(name, f"is included too deeply: more than {MOST_NESTED} levels.")
         _Parser(Source(path, self.source.case), text, self.files, self.spent).fill(dictionary)
         dictionary.entries.pop(_HEADER, None)
 
@@ -393,7 +395,7 @@ class _Parser:
     def mistake(self, token: _Token, what: str) -> InputError:
         """Return the error for a token; of what is included from outside the case, nothing is shown."""
         if len(self.files) > 1 and not self.files[-1].is_relative_to(real(self.source.case)):
-            return self.source.mistake(token.line, "this is no dictionary; it was included.")
+            return self.source.mistake(token.line, "the included file is not a dictionary.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
 
 

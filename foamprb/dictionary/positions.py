@@ -144,7 +144,7 @@ def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, 
         if name not in known:
             raise _mistake(path, text, at, f"There is no column {name}. {suggestion(name, known)[:-1]}")
         if names.count(name) > 1:
-            raise _mistake(path, text, at, f"The column {name} is there twice")
+            raise _mistake(path, text, at, f"The column {name} appears twice")
     for name in _COORDINATES:
         if name not in names:
             raise _mistake(path, text, at, f"The column {name} is missing")

@@ -111,8 +111,8 @@ class Checkpoints:
             return checkpoint
         if files:
             raise InputError(
-                f"{self.folder}: none of the {len(files)} checkpoints is whole. Begin anew: -overwrite, or "
-                "startFrom startTime."
+                f"{self.folder}: no intact checkpoint ({len(files)} damaged). Begin again with -overwrite "
+                "or startFrom startTime."
             )
         return None
 
@@ -149,7 +149,7 @@ def read_checkpoint(path: Path) -> Checkpoint:
     Raises
     ------
     DamagedError
-        If not.
+        If the file is damaged.
     InputError
         If it is intact, but of another version.
     """
@@ -202,14 +202,14 @@ class _Summed:
 def _check(file: IO[bytes]) -> None:
     """Compare the checksum at the end with the bytes before it, and rewind the file."""
     if file.read(len(_FORMAT)) != _FORMAT:
-        raise DamagedError("it does not begin as a checkpoint does")
+        raise DamagedError("it has no checkpoint header")
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
     rest, checksum = size - _SUM_BYTES, xxhash.xxh3_64()
     while rest > 0:
         data = file.read(min(rest, _CHUNK))
         if not data:
-            raise DamagedError("it became shorter while it was read")
+            raise DamagedError("it was truncated during reading")
         checksum.update(data)
         rest -= len(data)
     matches = file.read() == checksum.digest()
@@ -218,6 +218,6 @@ def _check(file: IO[bytes]) -> None:
     file.seek(0)
     if not matches and version != b"%d" % VERSION and version.isdigit():
         # Other versions have other checksums.
-        raise DamagedError(f"it says that it is of format {version.decode()}, not {VERSION}")
+        raise DamagedError(f"its format is {version.decode()}, not {VERSION}")
     if not matches:
         raise DamagedError("its contents do not match its checksum")

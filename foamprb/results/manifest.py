@@ -94,7 +94,7 @@ class Manifest:
 def _names(content: Any) -> list[str]:
     """Return the names in a manifest; raise ValueError if it is damaged."""
     if not isinstance(content, dict) or not isinstance(content.get("files"), list):
-        raise ValueError("it is no list of files.")
+        raise ValueError("it is not a list of files.")
     if content.get("format") != FORMAT:
         raise ValueError(f"its format is {content.get('format')}, not {FORMAT}.")
     names: list[str] = content["files"]

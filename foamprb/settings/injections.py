@@ -198,7 +198,7 @@ def _injection(
     mistakes = Mistakes()
     name = unquoted(dictionary.key)
     if fault := fault_of_word(name):
-        mistakes.add(dictionary.mistake(f"is no name of an injection model: {fault}."))
+        mistakes.add(dictionary.mistake(f"is not a valid name of an injection model: {fault}."))
     own = {key for model in INJECTIONS.values() for key in names_of(model)}
     with mistakes:
         kind = selected(INJECTIONS, dictionary)

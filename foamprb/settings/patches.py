@@ -237,7 +237,7 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
     if patch.type in _MIRRORS:
         return Mirror()
     if patch.type == "cyclic":
-        raise InputError(f"{where}: the cyclic patch '{patch.name}' names no neighbourPatch to go on from.")
+        raise InputError(f"{where}: the cyclic patch '{patch.name}' has no neighbourPatch.")
     if patch.type.startswith(_COUPLED):
         raise InputError(
             f"{file}: particles cannot pass through '{patch.name}', a patch of type {patch.type}. They "

@@ -301,7 +301,7 @@ def explain(word: str | None) -> list[str]:
 
 def _overview() -> list[str]:
     lines = [
-        "Entries of constant/softCloudProperties. More of an entry, a dictionary or a type: foamprb help NAME"
+        "Entries of constant/softCloudProperties. Details of an entry, dictionary or type: foamprb help NAME"
     ]
     for name, section in SECTIONS.items():
         words: Sequence[str] = tuple(section.models) or tuple(

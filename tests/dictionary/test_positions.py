@@ -151,7 +151,7 @@ def test_what_excel_and_numpy_write_is_read(tmp_path: Path) -> None:
         ("0 0 0\n0 1e400 0", "line 2: found '0 1e400 0'. Expected: for y, a finite number"),
         ("0 0 0\n0 nan 0", "line 2: found '0 nan 0'. Expected: 3 numbers"),
         ("x,y,d\n0,0,1", "line 1: found 'x,y,d'. The column z is missing"),
-        ("x,y,z,x\n0,0,1,1", "line 1: found 'x,y,z,x'. The column x is there twice"),
+        ("x,y,z,x\n0,0,1,1", "line 1: found 'x,y,z,x'. The column x appears twice"),
         (
             "x,y,z,D\n0,0,1,1",
             "There is no column D. Did you mean 'd'? Allowed: Ca, d, rho, viscosity, x, y, z.",

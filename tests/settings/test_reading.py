@@ -503,7 +503,9 @@ def test_a_wrong_cloud_function_has_its_message(read: Reader, function: str, mes
 
 def test_names_that_are_no_words_are_refused(case: Path, read: Reader) -> None:
     text = CLOUD[CLOUD.index("        inlet\n") : CLOUD.index("        {\n            type patchInj")]
-    with pytest.raises(InputError, match=r"injectionModels/a/b is no name of an injection model: it cont"):
+    with pytest.raises(
+        InputError, match=r"injectionModels/a/b is not a valid name of an injection model: it cont"
+    ):
         read((text, "        a/b\n"))
     for file in ("constant/..Properties", "constant/a bProperties"):
         (case / file).write_text(CLOUD)
