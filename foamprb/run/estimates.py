@@ -1,4 +1,4 @@
-"""``foamprb estimate``: which effects matter to a soft sphere, from a few numbers."""
+"""``foamprb estimate``: orders of magnitude of all effects on a soft sphere."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ _NUMBERS = (
     ("--rho0", "rho0", "RHO", "density of the particle, kg/m3", None),
     ("--mu", "mu", "MU", "viscosity of the fluid, Pa s", None),
     ("--rhoInf", "rhoInf", "RHO", "density of the fluid, kg/m3", None),
-    ("--shearRate", "shearRate", "RATE", "of the flow where the particle is, 1/s", None),
-    ("--residenceTime", "residenceTime", "T", "that it spends in the flow, s", None),
-    ("--wallDistance", "wallDistance", "H", "of its centre, m [no wall]", math.inf),
-    ("--temperature", "temperature", "T", "K [293.15]", 293.15),
-    ("--gravity", "gravity", "G", "m/s2 [9.81]", 9.81),
-    ("--epsilon", "epsilon", "EPS", "dissipation by turbulence, m2/s3 [0, laminar]", 0.0),
+    ("--shearRate", "shearRate", "RATE", "shear rate of the flow at the particle, 1/s", None),
+    ("--residenceTime", "residenceTime", "T", "residence time in the flow, s", None),
+    ("--wallDistance", "wallDistance", "H", "distance of its centre from a wall, m [no wall]", math.inf),
+    ("--temperature", "temperature", "T", "temperature, K [293.15]", 293.15),
+    ("--gravity", "gravity", "G", "gravity, m/s2 [9.81]", 9.81),
+    ("--epsilon", "epsilon", "EPS", "turbulent dissipation, m2/s3 [0, laminar]", 0.0),
 )
 _MAY_VANISH = ("gravity", "epsilon")
 
@@ -33,7 +33,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
         )  # fmt: skip
     stiffness = parser.add_mutually_exclusive_group(required=True)
     stiffness.add_argument("--Ca", type=float, metavar="CA", help="capillary number, mu*rate/modulus")
-    stiffness.add_argument("--shearModulus", type=float, metavar="G", help="of the particle, Pa")
+    stiffness.add_argument(
+        "--shearModulus", type=float, metavar="G", help="shear modulus of the particle, Pa"
+    )
 
 
 def lines(arguments: argparse.Namespace) -> list[str]:
@@ -63,19 +65,19 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     e = estimate(Sphere(d, given["rho0"], modulus), around, given["residenceTime"])
     facts = [
         ("shear modulus [Pa]", modulus, ""),
-        ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere would do"),
+        ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere suffices"),
         (
             "Reynolds number",
             e.reynolds_number,
-            "above 0.01 to 0.1 the fluid's inertia lifts, which is left out",
+            "above 0.01 to 0.1 fluid inertia causes lift, which is not modelled",
         ),
         ("Stokes number", e.stokes_number, "below 0.01 the particle follows the flow"),
-        ("Peclet number", e.peclet_number, "below 10 molecules turn and move it: BrownianMotion"),
-        ("thermal strain", e.thermal_strain, "of the shape"),
+        ("Peclet number", e.peclet_number, "below 10 BrownianMotion turns and moves it"),
+        ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
         ("settling speed [m/s]", e.settling_speed, ""),
         ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
         ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
-        ("settling length [m]", e.settling_length, "in the residence time, as those that follow"),
+        ("settling length [m]", e.settling_length, "in the residence time; so are the next two"),
         ("lift length [m]", e.lift_length, ""),
         ("diffusion length [m]", e.diffusion_length, ""),
         ("lift-off height [m]", e.lift_height, "where lift balances weight"),
@@ -84,8 +86,8 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         nu = given["mu"] / given["rhoInf"]
         rate, length = kolmogorov_rate(given["epsilon"], nu), kolmogorov_length(given["epsilon"], nu)
         facts += [
-            ("eddies' shear [1/s]", rate, "of the smallest, which dispersionModel leaves out"),
-            ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform it"),
-            ("their size over d", length / d, "below 1 it is no point to them"),
+            ("eddies' shear [1/s]", rate, "of the smallest eddies; not in dispersionModel"),
+            ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform the particle"),
+            ("their size over d", length / d, "below 1 the particle is not small against them"),
         ]
     return [f"{name:22s} {value:<12.4g} {text}".rstrip() for name, value, text in facts]

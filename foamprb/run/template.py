@@ -1,4 +1,4 @@
-"""The dictionary that ``foamprb init`` writes: the entries to begin with, filled with what a case says."""
+"""Initial settings of ``foamprb init``: a dictionary with the values of a case."""
 
 from __future__ import annotations
 
@@ -34,39 +34,39 @@ __all__ = ["FlowScales", "FluidGuess", "scales_of", "template", "write_template"
 
 NAME = "softCloudProperties"
 PARTICLES = 1000
-"""About as many as the first run releases."""
+"""Approximate number of particles of the first run."""
 _TIMES, _MOST_STEPS = 50, 5000
 _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
-"""Of a first stiffness, at the mean shear rate and the largest: an extension may tear softer bodies apart."""
+"""Capillary numbers of the initial stiffness, at mean and largest shear rate; softer bodies may fail."""
 _TEMPERATURE = 300.0
-"""Where the viscosity depends on it, K."""
+"""Temperature for a viscosity that depends on it, K."""
 
 
 @dataclass(frozen=True)
 class FlowScales:
-    """Numbers of a flow from which a first guess of the settings follows."""
+    """Scales of a flow for initial settings."""
 
     speed: float
-    """The largest, at cells and boundary, m/s; 0 for a fluid at rest."""
+    """Largest speed, at cells and boundary, m/s; 0 for a fluid at rest."""
     step: float
-    """Time in which the fluid crosses a fifth of a cell, s; of the fastest in twenty the longest."""
+    """Time in which the fluid crosses a fifth of a cell, s: the 5 % quantile."""
     duration: float
     """Time in which the fluid is replaced, or crosses a closed domain ten times, s."""
     shear: float
     """Mean shear rate, 1/s."""
     most_shear: float
-    """Shear rate that one node in a thousand exceeds, 1/s."""
+    """Shear rate exceeded at one node in a thousand, 1/s."""
     cell: float
-    """Size of a cell that one in twenty is smaller than, m."""
+    """Cell size, m: the 5 % quantile."""
     volume: float
-    """Of the domain, m³."""
+    """Volume of the domain, m³."""
     inlet: str
-    """The patch through which most fluid enters; empty if none does."""
+    """Patch with the largest inflow; empty without inflow."""
 
 
 @dataclass(frozen=True)
 class FluidGuess:
-    """The fluid that the case names, and the entries that it leaves to the cloud's dictionary."""
+    """Fluid of the case, and the entries left to the cloud's dictionary."""
 
     rho: float
     nu: float
@@ -93,8 +93,8 @@ def write_template(case: Path, source: Source | None = None) -> Path:
     present = case / of_region(case, source.region, NAME)
     if file.exists() or present.exists():
         raise InputError(
-            f"{file if file.exists() else present} is there already, and is left as it is. Check it with: "
-            "foamprb run -dry-run; or rename it to have a new one."
+            f"{file if file.exists() else present} exists and is not changed. Check it with "
+            "foamprb run -dry-run, or rename it to get a new one."
         )
     text = template(case, read_flow(case, "latestTime", source), source)
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -102,7 +102,7 @@ def write_template(case: Path, source: Source | None = None) -> Path:
         with file.open("x", encoding="utf-8") as out:
             out.write(text)
     except FileExistsError:
-        raise InputError(f"{file} is there already, and is left as it is.") from None
+        raise InputError(f"{file} exists and is not changed.") from None
     return file
 
 
@@ -135,7 +135,7 @@ def template(case: Path, flow: MeshFlow, source: Source) -> str:
                 "",
                 "solid",
                 "{",
-                _line("    type", "neoHooke", "foamprb help solid lists all"),
+                _line("    type", "neoHooke", "all types: foamprb help solid"),
                 _line("    poissonsRatio", "0.499", "nearly incompressible"),
                 _line(
                     "    shearModulus",
@@ -187,7 +187,7 @@ def scales_of(flow: MeshFlow) -> FlowScales:
 
 
 def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
-    """The patch through which most fluid enters, and how much in all, m³/s."""
+    """Return the patch with the largest inflow, and the total inflow, m³/s."""
     rates = {}
     for patch in flow.patches:
         if not needs_entry(patch) or patch.type in WALLS:
@@ -206,7 +206,7 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
 
 
 def times(scales: FlowScales) -> tuple[float, float, float]:
-    """Step, write interval and end of a first run, s: whole multiples of each other, in few digits."""
+    """Return step, write interval and end of a first run, s: integer multiples with few digits."""
     if scales.speed == 0.0:
         return 0.01, 0.02, 1.0
     shortest = scales.duration / _MOST_STEPS
@@ -226,7 +226,7 @@ def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
 
 
 def _nice(value: float, *, up: bool) -> float:
-    """The nearest of 1, 2, 5, 10, … that is not above the value, or not below it."""
+    """Return the nearest of 1, 2, 5, 10, … not above the value, or not below it."""
     power = math.floor(math.log10(value))
     steps = [float(f"{m}e{e}") for e in (power - 1, power, power + 1) for m in (1, 2, 5)]
     slack = 1e-9 * value
@@ -248,7 +248,7 @@ def _fluid(case: Path, source: Source) -> FluidGuess:
     try:
         if file is not None:
             nu, mu, _ = read_viscosity(file, case)
-            lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: that of {where}")
+            lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: from {where}")
     except InputError as error:
         try:
             assert file is not None
@@ -258,21 +258,19 @@ def _fluid(case: Path, source: Source) -> FluidGuess:
             lines.append(_line("TInf", f"{_TEMPERATURE:g}", _said("constantProperties", "TInf")))
         except InputError:
             nu = _some_viscosity(file, case)
-            lines.append(_line("nu", f"{nu:g}", f"m2/s, kinematic viscosity; {where} has no single one"))
+            lines.append(_line("nu", f"{nu:g}", f"m2/s, kinematic viscosity; {where} has no constant value"))
     if nu is None and mu is None:
         nu = 1e-6
-        lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; the case does not say, water has this"))
+        lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; not in the case: like water"))
     rho, origin = _density(case, file, source.region, where)
     if rho is None:
         # Gases have some 1e-5 m²/s, or 1e-5 Pa s.
         water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
         rho = 1000.0 if water else 1.2
         kind = "like water" if water else "like air"
-        lines.append(
-            _line("rhoInf", f"{rho:g}", f"kg/m3, density of the fluid; the case does not say: {kind}")
-        )
+        lines.append(_line("rhoInf", f"{rho:g}", f"kg/m3, density of the fluid; not in the case: {kind}"))
     else:
-        lines.append(f"// {'rhoInf':12s}{rho:g}: that of {origin}")
+        lines.append(f"// {'rhoInf':12s}{rho:g}: from {origin}")
     return FluidGuess(rho, nu if nu is not None else float(mu or 0.0) / rho, tuple(lines))
 
 
@@ -287,7 +285,7 @@ def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[fl
 
 
 def _some_viscosity(file: Path | None, case: Path) -> float:
-    """A viscosity that a dictionary of another model names, m²/s: that at rest, if there is one."""
+    """Return a viscosity from a dictionary of another model, m²/s: that at rest, if present."""
     try:
         root = read_dictionary(file, case) if file is not None else None
     except InputError:
@@ -312,7 +310,7 @@ def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
 
 
 def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
-    """How particles are seen in the zones of ``MRFProperties``, if there are any."""
+    """Return the entries for zones of ``MRFProperties``, if any."""
     if source.file is not None:
         return []
     try:
@@ -320,18 +318,18 @@ def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
         for zone in zones:
             flow.cell_zone(zone.zone)
     except InputError:
-        return [_line("rotatingZones", "absolute", "MRFProperties has what is not modelled")]
+        return [_line("rotatingZones", "absolute", "MRFProperties has features that are not modelled")]
     if not zones:
         return []
     names = ", ".join(zone.name for zone in zones)
     return [
-        _line("rotatingZones", "relative", f"{names} of MRFProperties; absolute: as if blades stood still"),
-        "integrationSchemes  { shape stokes; } // the one that rotating zones can have",
+        _line("rotatingZones", "relative", f"{names} of MRFProperties; absolute: as with fixed blades"),
+        "integrationSchemes  { shape stokes; } // required for rotating zones",
     ]
 
 
 def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
-    """The choice of a model of the eddies, where the flow is a mean and the case has what it needs."""
+    """Return the entry for turbulent dispersion, if the case has its fields."""
     if source.file is not None:
         return []
     divided = source.decomposed or is_only_decomposed(case, source.region)
@@ -339,22 +337,22 @@ def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
     fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
     if not fields:
         return []
-    why = f"or stochasticDispersionRAS: {' and '.join(fields)} are there"
+    why = f"or stochasticDispersionRAS: {' and '.join(fields)} are available"
     return [_line("dispersionModel", "none", why), ""]
 
 
 def _transient(case: Path, source: Source) -> list[str]:
-    """A hint, where the flow has been written at several times."""
+    """Return a hint on transient flow, if the case has several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
     if len(names) < 2 or _steady(case, source.region):
         return []
     return [
-        f"// transient       true;   // the flow at its times {names[0]} to {names[-1]}; without: the latest"
+        f"// transient       true;   // transient flow, times {names[0]} to {names[-1]}; default: the latest"
     ]
 
 
 def _steady(case: Path, region: str) -> bool:
-    """Whether the times of a case are iterations of a steady solver, as ``fvSchemes`` says."""
+    """Return whether ``fvSchemes`` is that of a steady solver, whose times are iterations."""
     try:
         schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
     except InputError:
@@ -367,8 +365,8 @@ def _steady(case: Path, region: str) -> bool:
 # Text
 
 _HEAD = """\
-// Written by foamprb init from what the case says. To check: foamprb run -dry-run; to learn of an entry:
-// foamprb help ENTRY. What is worth changing first: diameter, density and stiffness of the particles.
+// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run. Explain an entry:
+// foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
 FoamFile
 {{
     version     2.0;
@@ -422,7 +420,7 @@ def _injection(scales: FlowScales, end: float, size: Sequence[str]) -> list[str]
         rate = _rounded(PARTICLES / duration)
         own = [
             _line("type", "patchInjection"),
-            _line("patch", _word(scales.inlet), "through which most fluid enters"),
+            _line("patch", _word(scales.inlet), "largest inflow"),
             _line(
                 "parcelsPerSecond",
                 f"{rate:g}",
@@ -433,7 +431,7 @@ def _injection(scales: FlowScales, end: float, size: Sequence[str]) -> list[str]
     else:
         density = _rounded(PARTICLES / scales.volume)
         own = [
-            _line("type", "cellZoneInjection", "no fluid enters through a patch"),
+            _line("type", "cellZoneInjection", "no patch has inflow"),
             _line("selectionMode", "all", "all cells"),
             _line("numberDensity", f"{density:g}", f"1/m3, of {scales.volume:.3g} m3"),
         ]
@@ -464,7 +462,7 @@ def _patches(patches: Sequence[Patch]) -> list[str]:
     others = [f"{patch.name} ({patch.type})" for patch in patches if not needs_entry(patch)]
     if others:
         more = ", …" if len(others) > 4 else ""
-        lines.append(f"// need no entry: {', '.join(others[:4])}{more}")
+        lines.append(f"// without entry: {', '.join(others[:4])}{more}")
     return lines
 
 
@@ -489,7 +487,7 @@ def _functions(steps: float) -> str:
 
 
 def _said(section: str, entry: str, more: str = "", model: str = "") -> str:
-    """What the documentation says of an entry, its unit first, up to the first stop."""
+    """Return the documentation of an entry, its unit first, up to the first stop."""
     text = meaning(section, entry, model)
     said = re.split(r"[;:,]", plain(text.meaning))[0]
     unit = text.unit.replace("³", "3").replace("²", "2")
@@ -502,7 +500,7 @@ def _line(key: str, value: str, comment: str = "") -> str:
 
 
 def _word(name: str) -> str:
-    """A name as a keyword; one that is none is quoted, which makes it a regular expression."""
+    """Return a name as a keyword; other names are quoted, which makes them regular expressions."""
     return name if re.fullmatch(r"[A-Za-z_][\w.:+-]*", name) else f'"{re.escape(name)}"'
 
 

@@ -38,11 +38,11 @@ def test_what_is_written_is_accepted_without_a_doubt(case, capsys):
 
 def test_it_says_what_the_case_says(case):
     text = write_template(case).read_text()
-    assert re.search(r"^ +patch +inlet; +// through which most fluid enters$", text, re.MULTILINE)
+    assert re.search(r"^ +patch +inlet; +// largest inflow$", text, re.MULTILINE)
     assert re.search(r"^ +wall +\{ type stick; \} // wall", text, re.MULTILINE)
     assert re.search(r"^ +outlet +\{ type escape; \}$", text, re.MULTILINE)
     assert "constant/g: (0 -9.81 0) m/s2" in text
-    assert re.search(r"// nu +\S+: that of constant/transportProperties", text)
+    assert re.search(r"// nu +\S+: from constant/transportProperties", text)
     assert len(text.splitlines()) < 110
     assert max(map(len, text.splitlines())) <= 110
 
@@ -67,7 +67,7 @@ def test_nothing_is_ever_overwritten(case, capsys):
     file = case / "constant/softCloudProperties"
     file.write_text("mine")
     assert main(["init", "-case", str(case)]) == 1
-    assert "is there already, and is left as it is" in capsys.readouterr().err
+    assert "exists and is not changed" in capsys.readouterr().err
     assert file.read_text() == "mine"
 
 
