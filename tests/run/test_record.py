@@ -58,7 +58,7 @@ def test_a_record_that_is_damaged_stays_as_it_is(tmp_path):
 
 def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):
     file = case / "constant/softCloudProperties"
-    models = "wallLift; faxenCorrection; BrownianMotion { T 293; }"
+    models = "wallLift; faxenCorrection; BrownianMotion { T 30000; }"
     text = file.read_text().replace("gravity;", f"gravity; {models}", 1)
     file.write_text(text)
     change(case, "shape", "rosenbrock")
