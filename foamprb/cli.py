@@ -20,7 +20,6 @@ from foamprb.run.estimates import declare as declare_numbers
 from foamprb.view.command import declare, declare_export, declare_report, export, report, view
 
 if TYPE_CHECKING:
-    from foamprb.compile.helper import Helper
     from foamprb.flow.read.source import Source
     from foamprb.parallel.ranks import Ranks
     from foamprb.settings.solution import StartFrom
@@ -111,34 +110,19 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
-    from foamprb.compile.helper import early_helper
-
-    alone = ranks is None and not arguments.dry_run
-    helper = early_helper("foamprb.run.precompile") if alone else None
-    try:
-        return _run_with(helper, arguments, ranks)
-    finally:
-        if helper is not None:
-            helper.stop()
-
-
-def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks | None) -> int:
-    from foamprb.cloud.executor import Threads
     from foamprb.run.job import prepare
     from foamprb.run.log import log_description, log_dry_run
     from foamprb.run.loop import execute_until_signal
 
     if arguments.threads is not None and arguments.threads < 1:
         raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
-    executor = ranks or Threads()
     job = prepare(
         arguments.case,
         "latestTime" if arguments.latestTime else arguments.time,
         arguments.dict,
-        arguments.threads or executor.threads,
+        arguments.threads or (ranks.threads if ranks else None),
         _source(arguments),
-        precompile=executor.precompiles and not arguments.dry_run,
-        helper=helper,
+        precompile=ranks is None and not arguments.dry_run,
         tables=arguments.tables,
     )
     log_description(job.description)
@@ -148,7 +132,7 @@ def _run_with(helper: Helper | None, arguments: argparse.Namespace, ranks: Ranks
     start_from: StartFrom | None = None
     if arguments.resume or arguments.overwrite:
         start_from = "latestTime" if arguments.resume else "startTime"
-    execute_until_signal(job, executor, start_from)
+    execute_until_signal(job, start_from, ranks)
     return 0
 
 
@@ -218,7 +202,7 @@ def _estimate(arguments: argparse.Namespace, _: Ranks | None) -> int:
 
 
 def _compile(_: argparse.Namespace, __: Ranks | None) -> int:
-    from foamprb.run.precompile import compile_all
+    from foamprb.run.compilation import compile_all
 
     compile_all()
     return 0

@@ -1,4 +1,4 @@
-"""A cloud of particles in a flow: what a run advances."""
+"""A cloud of particles in a flow, and the stepper that advances it."""
 
 from __future__ import annotations
 
@@ -13,22 +13,20 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.executor import Executor, Threads
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import shape_stokes_number
-from foamprb.cloud.motion import SEEN
+from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.tracker import Models, Tracker, check, never
-from foamprb.compile.helper import available_threads
+from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.compile.link import link, read_by
 from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
-__all__ = ["Cloud", "Snapshot"]
+__all__ = ["Cloud", "Snapshot", "Stepper", "longest_semi_axis"]
 
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
 _ROUND_OFF = 1e-6
@@ -36,7 +34,7 @@ _ROUND_OFF = 1e-6
 
 
 class Snapshot(NamedTuple):
-    """A :class:`Cloud` as it was at one moment, whatever has become of it since."""
+    """Copy of a :class:`Cloud` at one time."""
 
     particles: Particles
     flow: Flow
@@ -59,23 +57,23 @@ class Cloud:
     medium
         The fluid's viscosity (Pa s) and density (kg/m³), and gravity (m/s²).
     interactions
-        What each of the flow's patches does, in their order.
+        Interactions of the flow's patches, in their order.
     dt
         Tracking step Δt, s. Step n goes from start + n Δt to start + (n + 1) Δt.
     models
         Names of traction, drag, material and wall test.
     threads
-        Number of threads; the answer does not depend on it.
+        Number of threads; results do not depend on it.
     step
         Number of steps done.
     start
         Time at step 0, on the axis of the flow's and the injections' times, s.
     recovered
-        Number of walks so far that failed and were mended by the tree.
+        Number of failed walks so far that a tree search repaired.
     reach
         Distance, m, to which walls are listed: it grows with the longest particle so far.
     limits
-        What no particle may pass.
+        Limits of each particle.
 
     Raises
     ------
@@ -132,37 +130,28 @@ class Cloud:
             tense=tense,
             patches=self.flow.patches,
         )
-        self.executor: Executor = Threads()
-        self.executor.take(self)
-
-    @property
-    def compiled(self) -> bool:
-        """Whether the loop is compiled; if not, the first :meth:`advance` takes some seconds to do it."""
-        return self.executor.compiled
 
     @property
     def time(self) -> float:
-        """Time to which the cloud has come, s."""
+        """Time after the last step, s."""
         return self.start + self.step * self.dt
 
     def advance(self, steps: int) -> None:
-        """Take ``steps`` time steps, whatever becomes of single particles.
+        """Take ``steps`` time steps with the threads of this process.
 
-        A :class:`~foamprb.errors.FailedParticlesWarning` tells of those that fail. Ctrl-C leaves the cloud so
-        that it can go on. Where another executor than this process' threads carries the particles,
-        :meth:`gather` brings the result.
+        A :class:`~foamprb.errors.FailedParticlesWarning` reports failed particles; the others continue. After
+        Ctrl-C the cloud can be advanced further.
 
         Raises
         ------
         InputError
-            If the flow ends before, or cannot be read; the steps so far are done.
+            If the flow ends before, or cannot be read; earlier steps are kept.
         """
-        before = self.counts()[Status.FAILED]
-        self.carry(steps)
-        failed = self.counts()[Status.FAILED] - before
+        p = self.particles
+        before = p.counts()[Status.FAILED]
+        Stepper(self).advance(steps)
+        failed = p.counts()[Status.FAILED] - before
         if failed:
-            self.gather()
-            p = self.particles
             k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
             warnings.warn(
                 f"{failed} of {p.size} particles failed until t = {self.time:g} s; particle {k}, at "
@@ -171,41 +160,9 @@ class Cloud:
                 stacklevel=2,
             )
 
-    def carry(self, steps: int, stop: Callable[[], bool] = never) -> None:
-        """Take ``steps`` time steps, of which nobody is warned.
-
-        Where another executor than this process' threads carries the particles, :meth:`gather` brings the
-        result.
-
-        Parameters
-        ----------
-        steps
-            Their number.
-        stop
-            Asked some times a second: true to end at once. Then :attr:`step` is that to which all particles
-            have come; some may be ahead, and wait for the others when the cloud goes on. So it is after
-            Ctrl-C.
-
-        Raises
-        ------
-        InputError
-            If the flow ends before, or cannot be read; the steps so far are done.
-        """
-        last = self.step + steps
-        while self.step < last:
-            flow, ready = self.load_flow(last - self.step)
-            outcome = self.executor.advance(flow, ready, stop)
-            self.recovered += outcome.mended
-            if outcome.outgrown:
-                self._extend_reach()
-            elif outcome.finished:
-                self.step += ready
-            elif not outcome.crowded or stop():
-                return
-
     @property
     def bounds(self) -> LoopLimits:
-        """What no particle may pass, and how far walls are listed."""
+        """Limits of the compiled loop, and the distance to which walls are listed."""
         limits = self.limits
         length = limits.maxSize * self.flow.width
         listed = self.flow.lists_walls and bool(self._touchable)
@@ -216,11 +173,11 @@ class Cloud:
         )  # fmt: skip
 
     def load_flow(self, steps: int) -> tuple[Any, int]:
-        """Make the flow ready for the next ``steps`` steps, or for as many of them as it can be.
+        """Prepare the flow for the next ``steps`` steps, or as many as its loaded times cover.
 
         Returns
         -------
-        What the flow's kernels read, and the number of steps, at least 1.
+        The arguments of the flow's kernels, and the number of steps, at least 1.
 
         Raises
         ------
@@ -232,43 +189,34 @@ class Cloud:
         self._grow_reach()
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
-    def hand_over(self, executor: Executor) -> None:
-        """Let an executor carry the particles from now on."""
-        self.gather()
-        executor.take(self)
-        self.executor = executor
-
-    def counts(self) -> dict[Status, int]:
-        """Number of particles of each status, whether they were gathered or not."""
-        return self.executor.counts()
-
-    def gather(self) -> None:
-        """Make sure that :attr:`particles` are as they were left by the last step."""
-        self.executor.gather()
-
     def take_rebounds(self) -> NDArray[np.float64]:
-        """The rebounds since it was last asked, if the models have ``rebounds``.
+        """Return the rebounds since the last call, if the models have ``rebounds``, and forget them.
 
         Returns
         -------
-        A row for each, in the order of their times; :func:`foamprb.cloud.rebounds.rebounds_of` explains them.
+        A row for each, in the order of their times; see :func:`foamprb.cloud.rebounds.rebounds_of`.
         """
-        return self.executor.take_rebounds()
+        return self.tracker.take_rebounds()
 
     def snapshot(self, before: Snapshot | None = None) -> Snapshot:
-        """A copy of what will change.
+        """Return a copy of the arrays that steps change, and the other arrays themselves.
 
         Parameters
         ----------
         before
-            An earlier copy that nobody needs any more, whose memory is used again.
+            An earlier copy whose memory is overwritten.
         """
         into = None if before is None else before.particles
         particles = self.particles.copy_changing(into, self.tracker.changing, self.threads)
         return Snapshot(particles, self.flow, self.time, self.step, self.recovered, self.reach)
 
     def contact_normals(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Unit normals, into the fluid, of the patches on which particles ended, (n, 3); NaN if not found."""
+        """Return unit normals, into the fluid, of the walls on which particles ended.
+
+        Returns
+        -------
+        Normals, (n, 3); NaN where no wall is found.
+        """
         bindings = dict(self.flow.kernels)
         if self.models.touching == "centre":
             bindings["gap"] = gap_free
@@ -279,38 +227,38 @@ class Cloud:
         return normals
 
     def flow_arrays(self) -> Any:
-        """What the flow's kernels read, with walls listed to :attr:`reach`, and as far as models see."""
+        """Return the arguments of the flow's kernels, with walls within :attr:`reach` or a model's range."""
         sight, seen = self._sight
         return self.flow.arrays(self.reach, self._touchable, sight, seen)
 
     @property
     def _touchable(self) -> list[int]:
-        """The patches that a body may touch."""
+        """Indices of the patches that a body may touch."""
         return [] if self.models.touching == "centre" else self._solid
 
     @property
     def _solid(self) -> list[int]:
-        """The patches that stop a body."""
+        """Indices of the patches that stop a body."""
         return [i for i, action in enumerate(self.interactions) if action.code in (STICK, REBOUND)]
 
     @property
     def _sight(self) -> tuple[float, list[int]]:
-        """How far models see walls, m, and which patches."""
+        """Range within which models need walls, m, and the indices of their patches."""
         radii = max((model.wall_range for model in self.models.surroundings), default=0.0)
         seen = {i for model in self.models.surroundings for i in model.wall_patches(self.flow.patches)}
         return radii * self._largest, [i for i in self._solid if i in seen]
 
     def make_ready(self) -> Any:
-        """Do what the first step wants done of the flow, and would do; return what the kernels read."""
+        """Prepare the flow for the first step; return the arguments of its kernels."""
         self._grow_reach()
         return self.flow_arrays()
 
     def _grow_reach(self) -> None:
-        """Let the reach at the start be beyond what the longest particle sees."""
+        """Set the reach at the start beyond the range of the longest particle."""
         if self.reach == 0.0:
-            self.reach = SEEN * _REACH_MARGIN * self.executor.longest()
+            self.reach = SEEN * _REACH_MARGIN * longest_semi_axis(self.particles)
 
-    def _extend_reach(self) -> None:
+    def extend_reach(self) -> None:
         """List walls farther away, unless the lists would be too long: then bodies that need it fail."""
         before, self.reach = self.reach, _REACH_GROWTH * self.reach
         try:
@@ -330,6 +278,70 @@ class Cloud:
                 f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.maxSize:g} "
                 "times the width; are diameters in m"
             )
+
+
+class Stepper:
+    """Stepper that advances a cloud with the threads of this process.
+
+    A subclass may keep the particles elsewhere; :meth:`gather` then updates the arrays of the cloud.
+
+    Parameters
+    ----------
+    cloud
+        The cloud; its arrays change in place.
+    """
+
+    def __init__(self, cloud: Cloud) -> None:
+        self.cloud = cloud
+
+    def advance(self, steps: int, stop: Callable[[], bool] = never) -> None:
+        """Advance by ``steps`` time steps, without warnings about failed particles.
+
+        Parameters
+        ----------
+        steps
+            Number of steps.
+        stop
+            Called several times a second; the steps end early if it returns True, as after Ctrl-C. Then
+            ``cloud.step`` is the step that all particles have reached. Particles ahead of it stay there until
+            the others have caught up in a later call.
+
+        Raises
+        ------
+        InputError
+            If the flow ends before, or cannot be read; earlier steps are kept.
+        """
+        cloud = self.cloud
+        last = cloud.step + steps
+        while cloud.step < last:
+            flow, ready = cloud.load_flow(last - cloud.step)
+            outcome = self._carry(flow, ready, stop)
+            cloud.recovered += outcome.mended
+            if outcome.outgrown:
+                cloud.extend_reach()
+            elif outcome.finished:
+                cloud.step += ready
+            elif not outcome.crowded or stop():
+                return
+
+    def gather(self) -> None:
+        """Bring the arrays of the cloud and its rebounds up to date."""
+
+    def counts(self) -> dict[Status, int]:
+        """Return the number of particles of each status, gathered or not."""
+        return self.cloud.particles.counts()
+
+    def _carry(self, flow: Any, steps: int, stop: Callable[[], bool]) -> Outcome:
+        """Advance with the arguments of the flow's kernels, once."""
+        cloud = self.cloud
+        return cloud.tracker.advance(
+            flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
+        )
+
+
+def longest_semi_axis(p: Particles) -> float:
+    """Return an upper bound of the semi-axes of active and pending particles, m; 0 without any."""
+    return float(link(longest_of)(p))
 
 
 def _refuse_early(p: Particles, start: float) -> None:

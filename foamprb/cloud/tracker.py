@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
@@ -41,12 +42,17 @@ from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
 from foamprb.flow.meshflow import LONG
 
-__all__ = ["Models", "Outcome", "Tracker", "never"]
+__all__ = ["Models", "Outcome", "Tracker", "available_threads", "never"]
 
 
 def never() -> bool:
-    """Return false: nobody asks to stop."""
+    """Return False: the default stop callback."""
     return False
+
+
+def available_threads() -> int:
+    """Return the number of processors that this process may use."""
+    return len(os.sched_getaffinity(0))
 
 
 class Outcome(NamedTuple):
@@ -181,7 +187,7 @@ class Tracker:
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
         self.whole = stretch_of(self.stride)
         """Calls that begin and end at multiples of so many steps may cut a run anywhere: no bit changes."""
-        self._rebounds: list[NDArray[np.float64]] = []
+        self.rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
         self._track = link(track_share, {**self.bindings, "track": integrator.track}, self.separate)
 
@@ -301,7 +307,7 @@ class Tracker:
                 flow, self.table, self.medium, p, *share, self.dt, self.start, scratch, self.options
             )
             if scratch.noted[1]:
-                self._rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
+                self.rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
             return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 
@@ -323,8 +329,8 @@ class Tracker:
         return outcome
 
     def take_rebounds(self) -> NDArray[np.float64]:
-        """The rebounds since it was last asked, as :func:`foamprb.cloud.rebounds.in_order` has them."""
-        found, self._rebounds = self._rebounds, []
+        """Return the rebounds since the last call, as :func:`foamprb.cloud.rebounds.in_order` does."""
+        found, self.rebounds = self.rebounds, []
         return in_order(found)
 
 

@@ -165,12 +165,10 @@ class CloudFunctions:
         step = self._cloud.cloud.step
         for name, function in self.functions.items():
             if function.interval and step % function.interval == 0:
-                self._cloud.cloud.gather()
                 function.sample(self._memory[name], self._cloud)
 
     def write(self, folder: Path) -> None:
         """Let every function observe the cloud and write into a folder of its name."""
-        self._cloud.cloud.gather()
         self._note_rebounds()
         for name, function in self.functions.items():
             function.sample(self._memory[name], self._cloud)

@@ -20,8 +20,8 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     Parameters
     ----------
     lead
-        Called on the first process with an executor of all processes, None if there is only one; it returns
-        an exit status. The others meanwhile do what that executor tells them.
+        Called on the first process with all processes, None if there is only one; it returns
+        an exit status. The others meanwhile carry out its orders.
 
     Returns
     -------

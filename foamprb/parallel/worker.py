@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.executor import longest_semi_axis
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.measures import injected
 from foamprb.cloud.report import report
@@ -45,8 +44,6 @@ class Share(NamedTuple):
 
     counts: NDArray[np.int64]
     """Number of each status."""
-    longest: float
-    """Longest semi-axis of those that move or will, m."""
     outcome: Outcome = Outcome()
     """How far they came in the steps that they were ordered to take."""
 
@@ -137,7 +134,7 @@ class Worker:
     def share(self) -> Share:
         """Tell of the particles."""
         counts = np.bincount(self.particles.status, minlength=len(Status))
-        return Share(counts, longest_semi_axis(self.particles))
+        return Share(counts)
 
     def use_flow(self, flow: bytes) -> None:
         """Use from now on what the flow's kernels read, with places in shared memory for its arrays."""

@@ -27,10 +27,8 @@ from foamprb.cloud.measures import shear_rate_at
 from foamprb.cloud.patches import REBOUND, Rebound
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
-from foamprb.cloud.tracker import Models, Tracker
+from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud, SeesRebounds, wants_rebounds
-from foamprb.compile.cache import cache_directory
-from foamprb.compile.helper import Helper, available_threads
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
@@ -46,8 +44,8 @@ from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.tables import require_kind
+from foamprb.run.compilation import Compilation
 from foamprb.run.description import describe
-from foamprb.run.precompile import Precompiler
 from foamprb.settings.injections import InjectionSettings, Solid
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import Settings, read_settings
@@ -66,8 +64,8 @@ class Job:
     settings: Settings
     cloud: Cloud
     functions: CloudFunctions
-    precompiler: Precompiler | None = None
-    """The other process that compiles the loop, if there is one."""
+    compilation: Compilation | None = None
+    """The second process that compiles the loop, if there is one."""
     tables: str = "csv"
     """The kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
 
@@ -115,7 +113,6 @@ def prepare(
     threads: int | None = None,
     source: Source | None = None,
     precompile: bool = False,
-    helper: Helper | None = None,
     tables: str = "csv",
 ) -> Job:
     """Read a case and place its particles.
@@ -134,9 +131,7 @@ def prepare(
     source
         The mesh file or region to read, and the names of its fields, if they are not the usual ones.
     precompile
-        Whether to compile the loop in another process meanwhile, if it has never been compiled.
-    helper
-        That process, if it has been started already.
+        Whether to compile the loop in a second process meanwhile, if it is not in the cache.
     tables
         ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
 
@@ -156,7 +151,7 @@ def prepare(
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative)
     rotating = bool(rotations_of(case, source))
-    precompiler = _precompile(settings, rotating, helper) if precompile else None
+    compilation = _compile(settings, rotating) if precompile else None
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
@@ -164,18 +159,18 @@ def prepare(
             # Caveats are warnings of the description.
             if not isinstance(note, Caveat):
                 log.info("    %s", note)
-        return replace(assemble(settings, flow, threads, tables), precompiler=precompiler)
+        return replace(assemble(settings, flow, threads, tables), compilation=compilation)
     except BaseException:
-        if precompiler:
-            precompiler.stop()
+        if compilation is not None:
+            compilation.stop()
         raise
 
 
-def _precompile(settings: Settings, rotating: bool, helper: Helper | None) -> Precompiler:
-    """Begin to compile the loop that the settings will want, as far as they tell."""
+def _compile(settings: Settings, rotating: bool) -> Compilation:
+    """Begin to compile the loop that the settings select, as far as they determine it."""
     scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
-    # From which patches they bounce off is not known before these are read.
+    # The patches are not known before the mesh is read.
     bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
     seen = any(isinstance(function, SeesRebounds) for function in settings.functions.values())
     models = replace(models, rebounds=bounce and seen)
@@ -183,12 +178,7 @@ def _precompile(settings: Settings, rotating: bool, helper: Helper | None) -> Pr
     tense = any(injection.solid.surfaceTension != 0.0 for injection in settings.injections)
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
-    tracker = Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense)
-    precompiler = Precompiler(tracker, flow, helper)
-    if precompiler:
-        log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
-        precompiler.help()
-    return precompiler
+    return Compilation(Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow)
 
 
 def likely_integrator(settings: Settings) -> str:

@@ -19,7 +19,6 @@ from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
-from foamprb.compile.cache import cache_directory
 from foamprb.results.folder import FAILURES
 from foamprb.run.job import Job
 
@@ -94,11 +93,6 @@ def log_dry_run(job: Job) -> None:
     )
 
 
-def log_compiling() -> None:
-    """Say that the loop over the particles is compiled now."""
-    log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
-
-
 class RunLog:
     """The log of a run from the start of its time loop on."""
 
@@ -109,9 +103,7 @@ class RunLog:
         self._unstable = 0
 
     def begin(self) -> None:
-        """Say that the time loop starts, and whether its loop over the particles has yet to be compiled."""
-        if not self._job.cloud.compiled:
-            log_compiling()
+        """Log the start of the time loop."""
         log.info("\nStarting time loop\n")
 
     def write_time(self) -> None:

@@ -6,50 +6,48 @@ import math
 import time as clock
 from collections.abc import Callable
 
-import numpy as np
-
-from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import Executor
+from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.injection.room import BYTES
-from foamprb.cloud.measures import context
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.memory import require, wants
+from foamprb.parallel.ranks import Ranks, RankStepper
 from foamprb.parallel.signals import caught_signals
 from foamprb.results.folder import FAILURES
+from foamprb.run.compilation import compile_run
 from foamprb.run.job import Job
-from foamprb.run.log import RunLog, log_compiling, progress_bar
+from foamprb.run.log import RunLog, progress_bar
 from foamprb.run.results import HOW_TO_GO_ON, Results, open_results
 from foamprb.settings.solution import StartFrom
 
 _COPIES, _BESIDE = 0.5 * BYTES, 1e8
-"""Address space for each particle, for the copy that is written; and for threads and libraries, bytes."""
+"""Address space per particle for the copy that is written; and for threads and libraries, bytes."""
 
 
 def execute(
     job: Job,
     start_from: StartFrom | None = None,
     stop: Callable[[], bool] = lambda: False,
-    executor: Executor | None = None,
+    ranks: Ranks | None = None,
 ) -> dict[Status, int]:
     """Advance a cloud to the end time, or until no particle moves, and write its results.
 
-    A checkpoint is written with the results of every write time, after them. The particles go on while the
+    A checkpoint is written with the results of every write time, after them. The particles advance while the
     files are written, until the next are due. Whatever ends a run, another one started from ``latestTime``
-    ends with the same state and the same files, bit for bit, as a run never interrupted.
+    ends with the same state and the same files, bit for bit, as an uninterrupted run.
 
     Parameters
     ----------
     job
         A cloud that has not been advanced.
     start_from
-        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to go on from the last
-        checkpoint, if there is one. By default what the settings say. If they say nothing, a run begins anew,
-        but not in place of an unfinished one.
+        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to continue from the last
+        checkpoint, if there is one. By default, the entry of the settings. Without it, a run begins anew, but
+        not in place of an unfinished one.
     stop
-        Asked some times a second: true to write a checkpoint and end the run.
-    executor
-        Who carries the particles; by default the threads of this process.
+        Called several times a second; True to write a checkpoint and end the run.
+    ranks
+        Processes of ``mpirun``; by default the threads of this process.
 
     Returns
     -------
@@ -58,93 +56,64 @@ def execute(
     Raises
     ------
     InputError
-        If the run cannot go on from its checkpoints, or the user must say whether it shall; if another run is
-        writing to the same folder.
+        If the run cannot continue from its checkpoints, or the user must decide whether it shall; if another
+        run writes to the same folder.
     RunStopped
-        If ``stop`` said so, too many particles failed, or results could not be written.
+        If ``stop`` returned True, too many particles failed, or results could not be written.
     OutOfMemory
         If the address space of this process is limited, and too small.
     """
-    wants("particles", job.cloud.particles.size, BYTES)
-    require(_COPIES * job.cloud.particles.size + _BESIDE)
+    cloud = job.cloud
+    wants("particles", cloud.particles.size, BYTES)
+    require(_COPIES * cloud.particles.size + _BESIDE)
+    compile_run(cloud, job.compilation, alone=ranks is None)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
         log = RunLog(job)
-        _make_ready(job, executor)
+        stepper = Stepper(cloud) if ranks is None else RankStepper(cloud, ranks)
+        schedule = _Schedule(stepper)
         results.write_start()
         log.begin()
-        pace = _Pace()
-        with progress_bar(job.cloud.start, job.settings.solution.endTime) as show:
-            while _goes_on(job):
-                if not _advance(job, results, stop, show, pace):
-                    results.save()
-                    raise RunStopped(f"stopped at t = {job.cloud.time:.12g} s. {HOW_TO_GO_ON}")
-                results.write()
+        with progress_bar(cloud.start, job.settings.solution.endTime) as show:
+            while cloud.step < job.steps and (cloud.step == 0 or _moving(stepper)) and not _failing(job):
+                if not _advance_to_write(job, results, schedule, stop, show):
+                    results.save(stepper)
+                    raise RunStopped(f"stopped at t = {cloud.time:.12g} s. {HOW_TO_GO_ON}")
+                results.write(stepper)
                 log.write_time()
-        results.end()
+        results.end(stepper)
         failing = _failing(job)
         log.end(finished=not failing)
     if failing:
         raise RunStopped(f"{failing} The results until then are in {job.folder.path}.")
-    return job.cloud.particles.counts()
+    return cloud.particles.counts()
 
 
-def execute_until_signal(job: Job, executor: Executor, start_from: StartFrom | None = None) -> None:
+def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: Ranks | None = None) -> None:
     """Execute a job as :func:`execute`; Ctrl-C or SIGTERM to any of its processes stops it in order.
 
     Raises
     ------
     RunInterrupted
-        If a signal was the reason to stop.
+        If a signal stopped the run.
     InputError, RunStopped
-        As of :func:`execute`.
+        See :func:`execute`.
     """
-    _compile(job, executor)
+    # Until the loop is compiled, signals act at once.
+    compile_run(job.cloud, job.compilation, alone=ranks is None)
     with caught_signals() as caught:
+        received = caught if ranks is None else ranks.signals
         try:
-            execute(job, start_from, lambda: bool(caught or executor.signals), executor)
+            execute(job, start_from, lambda: bool(caught or received), ranks)
         except RunStopped as stopped:
-            signals = [*caught, *executor.signals]
+            signals = [*caught, *received]
             if not signals:
                 raise
             raise RunInterrupted(str(stopped), signals[0]) from stopped
 
 
-def _compile(job: Job, executor: Executor) -> None:
-    """Compile the loop, if this process needs it; a signal acts at once until then."""
-    cloud = job.cloud
-    if not executor.precompiles:
-        return
-    if job.precompiler:
-        cloud.make_ready()
-        job.precompiler.wait()
-    if not cloud.compiled:
-        log_compiling()
-    cloud.tracker.compile(cloud.make_ready())
-
-
-def _make_ready(job: Job, executor: Executor | None) -> None:
-    """Hand the particles over, and compile what is needed beside the loop."""
-    cloud = job.cloud
-    # Code may not be linked in two threads at once, and the thread that writes measures the particles.
-    first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
-    first.status[:] = Status.ACTIVE
-    context(first, cloud.flow, cloud.medium.mu, cloud.time)
-    if executor is not None:
-        cloud.hand_over(executor)
-    if job.precompiler:
-        cloud.make_ready()
-        job.precompiler.wait()
-
-
-def _goes_on(job: Job) -> bool:
-    """Whether there are steps left, particles to take them, and not too many that failed."""
-    cloud = job.cloud
-    return cloud.step < job.steps and (cloud.step == 0 or _moving(cloud)) and not _failing(job)
-
-
 def _failing(job: Job) -> str:
-    """Say that too many particles have failed; nothing if not."""
+    """Return a sentence if too many particles have failed; empty if not."""
     p, most = job.cloud.particles, job.settings.solution.maxFailedFraction
     counts = p.counts()
     injected = p.size - counts[Status.PENDING]
@@ -156,62 +125,69 @@ def _failing(job: Job) -> str:
     )
 
 
-def _moving(cloud: Cloud) -> bool:
-    counts = cloud.counts()
-    return counts[Status.PENDING] + counts[Status.ACTIVE] > 0
+def _moving(stepper: Stepper) -> int:
+    """Return the number of active and pending particles."""
+    counts = stepper.counts()
+    return counts[Status.PENDING] + counts[Status.ACTIVE]
 
 
-def _advance(
-    job: Job, results: Results, stop: Callable[[], bool], show: Callable[[float], None], pace: _Pace
+def _advance_to_write(
+    job: Job,
+    results: Results,
+    schedule: _Schedule,
+    stop: Callable[[], bool],
+    show: Callable[[float], None],
 ) -> bool:
-    """Advance to the next write time; return whether it was reached before ``stop`` said so."""
+    """Advance to the next write time; return whether it was reached before ``stop`` returned True."""
     cloud, target = job.cloud, job.next_write(job.cloud.step)
-    while cloud.step < target and _moving(cloud):
+    while cloud.step < target and _moving(schedule.stepper):
         results.check()
         if stop():
             return False
         until = results.next_observation(target)
-        pace.advance(cloud, until, stop)
+        schedule.advance(until, stop)
         if cloud.step == until:
-            results.observe()
+            results.observe(schedule.stepper)
         show(cloud.time)
     cloud.step = target
     return True
 
 
+MOST_STEPS = 200_000_000
+"""Largest number of steps of one particle in a call of the stepper; it takes about a minute."""
 _FIRST_CALL = 1 / 800
-"""Share of the most that an executor takes in a call: some tenths of a second."""
+"""Share of it in the first call: some tenths of a second."""
 _CALL = 2.0
-"""Seconds that a call should take."""
+"""Intended duration of a call, s."""
 _FEW, _LONG = 100, 30.0
-"""Smallest number of steps of a call, unless they take longer than so many seconds."""
+"""Smallest number of steps of a call, unless it takes longer than so many seconds."""
 _SLOWER, _FASTER = 0.1, 4.0
 
 
-class _Pace:
-    """How many steps are taken at once: so many that to take particles up and put them down costs little."""
+class _Schedule:
+    """Number of steps per call of the stepper, large enough that loading and storing particles is cheap."""
 
-    def __init__(self) -> None:
+    def __init__(self, stepper: Stepper) -> None:
+        self.stepper = stepper
         self._steps: float = 0.0
 
-    def advance(self, cloud: Cloud, target: int, stop: Callable[[], bool]) -> None:
+    def advance(self, target: int, stop: Callable[[], bool]) -> None:
         """Take some steps towards a target."""
-        steps = self._at_once(cloud, target)
-        # What is compiled at the first call says nothing of the next.
-        compiled, started = cloud.compiled, clock.perf_counter()
-        cloud.carry(steps, stop)
+        steps = self._next_steps(target)
+        # A call that includes compilation is no measure of the next.
+        compiled, started = self.stepper.cloud.tracker.compiled, clock.perf_counter()
+        self.stepper.advance(steps, stop)
         if compiled:
             seconds = clock.perf_counter() - started
             wanted = max(_CALL, min(_LONG, _FEW * seconds / steps))
             self._steps = steps * min(_FASTER, max(_SLOWER, wanted / (seconds + 1e-9)))
 
-    def _at_once(self, cloud: Cloud, target: int) -> int:
-        counts = cloud.counts()
-        work = counts[Status.PENDING] + counts[Status.ACTIVE]
-        most = cloud.executor.at_once / work
+    def _next_steps(self, target: int) -> int:
+        cloud = self.stepper.cloud
+        most = MOST_STEPS / _moving(self.stepper)
         steps = min(most, self._steps or _FIRST_CALL * most)
         rest, whole = target - cloud.step, cloud.tracker.whole
-        # Calls of like length: not a long one and the rest.
+        # Calls of similar length: not a long one and a remainder.
         steps = max(1, min(int(most), math.ceil(rest / max(1, round(rest / max(1.0, steps))))))
-        # Where steps may go through several, the answer depends on where calls end unless it is there.
+        # Steps of several Δt end at multiples of the stretch: calls that end elsewhere would change results.
         return min(rest, -(-(cloud.step + steps) // whole) * whole - cloud.step)

@@ -12,14 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Snapshot
-from foamprb.cloud.measures import released
+from foamprb.cloud.cloud import Cloud, Snapshot, Stepper
+from foamprb.cloud.measures import gradients, released
 from foamprb.cloud.reasons import explain
 from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
 from foamprb.memory import OutOfMemory, ran_out
+from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoint, Checkpoints
@@ -147,11 +148,12 @@ class Results:
         """The step, at most ``last``, up to which the cloud may advance unobserved by cloud functions."""
         return self._job.functions.next_sample(last)
 
-    def observe(self) -> None:
-        """Let those cloud functions observe the cloud that do so at this step."""
+    def observe(self, stepper: Stepper) -> None:
+        """Let the cloud functions observe the cloud that sample at this step."""
+        stepper.gather()
         self._job.functions.sample()
 
-    def write(self) -> None:
+    def write(self, stepper: Stepper) -> None:
         """Write what a write time leaves: snapshot, tables of the cloud functions, checkpoint.
 
         Snapshot and checkpoint are written from a copy, while the cloud may go on.
@@ -161,16 +163,18 @@ class Results:
         OSError
             If a file cannot be written, now or the last time.
         """
-        cloud = self._gathered()
+        cloud = self._gathered(stepper)
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
-        files = cloud.executor.snapshot_files(self._series.next(cloud.time))
+        stem = self._series.next(cloud.time)
+        ranks = stepper if isinstance(stepper, RankStepper) else None
+        files = ranks.piece_files(stem) if ranks else (with_ending(stem, ".vtp"),)
         self._manifest.expect([*tables, self._job.folder.pvd, *files, *self._checkpoint_files()])
-        end_write = cloud.executor.begin_write(self._series, snapshot, self._names)
-        self._writer.begin(partial(self._end_write, end_write, snapshot, memory))
+        write_cloud = self._begin_pieces(ranks, stem) if ranks else self._begin_cloud(snapshot)
+        self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory))
 
-    def save(self) -> None:
+    def save(self, stepper: Stepper) -> None:
         """Write a checkpoint alone, of a run that is stopped between two write times.
 
         Raises
@@ -178,11 +182,11 @@ class Results:
         OSError
             If it cannot be written.
         """
-        cloud = self._gathered()
+        cloud = self._gathered(stepper)
         self._manifest.expect(self._checkpoint_files())
         self._write_checkpoint(cloud, self._job.functions.state())
 
-    def end(self) -> None:
+    def end(self, stepper: Stepper) -> None:
         """Write ``fates``, a row per particle, and ``failed`` if any failed.
 
         ``fates`` says that the run is done: it takes its name after the last snapshot and checkpoint, beside
@@ -193,7 +197,7 @@ class Results:
         OSError
             If a file cannot be written, now or the last time.
         """
-        self._job.cloud.gather()
+        stepper.gather()
         failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
 
         def list_them() -> None:
@@ -204,16 +208,30 @@ class Results:
         if len(failed):
             _write_failures(self._failures, self._job, failed)
 
-    def _gathered(self) -> Cloud:
-        """The cloud with all particles as they are now; what was being written before is done."""
-        self._job.cloud.gather()
+    def _gathered(self, stepper: Stepper) -> Cloud:
+        """Return the cloud with the state of the last step, after earlier writes have ended."""
+        stepper.gather()
         self._writer.finish()
-        return self._job.cloud
+        return stepper.cloud
+
+    def _begin_cloud(self, snapshot: Snapshot) -> Callable[[], object]:
+        """Return a function that writes and lists a snapshot while the cloud advances."""
+        p, flow, time = snapshot.particles, snapshot.flow, snapshot.time
+        # A transient flow may have gone on to other times by then.
+        seen = flow if flow.span == (-np.inf, np.inf) else gradients(p, flow, time)
+        cloud = report(p, seen, self._job.cloud.medium.mu, time, self._names)
+        return lambda: self._series.append(cloud)
+
+    def _begin_pieces(self, stepper: RankStepper, stem: Path) -> Callable[[], object]:
+        """Let all processes write their pieces; return a function that lists them."""
+        time = stepper.cloud.time
+        list_pieces = stepper.begin_pieces(stem, time, self._names)
+        return lambda: self._series.add(time, list_pieces())
 
     def _end_write(
-        self, end_write: Callable[[], object], snapshot: Snapshot, memory: Mapping[str, NDArray[Any]]
+        self, write_cloud: Callable[[], object], snapshot: Snapshot, memory: Mapping[str, NDArray[Any]]
     ) -> None:
-        end_write()
+        write_cloud()
         self._write_checkpoint(snapshot, memory)
 
     def _write_checkpoint(self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]]) -> None:

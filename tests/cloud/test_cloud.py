@@ -10,7 +10,7 @@ from foamprb.body.ellipsoid import integrals, reach
 from foamprb.body.imex import relaxation_time
 from foamprb.body.material import MATERIALS, stored_energy
 from foamprb.cloud.block import ROWS, Medium, new_scratch
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.integrators.paper import track_block
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
@@ -206,7 +206,7 @@ class TestBookkeeping:
         cloud = pipe_cloud([1e-3, 1.0, 1.0], dt=4e-4)
         p = cloud.particles
         p.R[0] *= 20  # a larger sphere relaxes 400 times slower
-        cloud.carry(300)
+        Stepper(cloud).advance(300)
         assert p.status[0] != Status.FAILED
         assert (p.status[1:] == Status.FAILED).all()
         assert all(p.reason[1:] != Reason.NONE)
@@ -235,7 +235,7 @@ class TestBookkeeping:
 
     def test_a_particle_that_the_tree_does_not_find_fails_with_its_reason_and_place(self):
         cloud = self.with_walks_that_fail(recover_nowhere)
-        cloud.carry(7)
+        Stepper(cloud).advance(7)
         p = cloud.particles
         assert (p.status[0], p.reason[0]) == (Status.FAILED, Reason.LOST)
         assert np.isfinite(p.x).all()
@@ -438,11 +438,11 @@ class TestBody:
 def test_not_a_number_ends_its_particle_with_a_reason_and_no_other(array, integrator):
     clean, spoilt = (scattered_cloud(integrator=integrator) for _ in range(2))
     for cloud in (clean, spoilt):
-        cloud.carry(300)
+        Stepper(cloud).advance(300)
     k = int(np.flatnonzero(spoilt.particles.status == Status.ACTIVE)[3])
     getattr(spoilt.particles, array)[k] = np.nan
     for cloud in (clean, spoilt):
-        cloud.carry(100)
+        Stepper(cloud).advance(100)
     p = spoilt.particles
     assert p.status[k] == Status.FAILED
     assert p.reason[k] == Reason.NOT_FINITE

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from foamprb.cloud.block import ROWS, SHELF, Medium, new_scratch
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.integrators import adaptive
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.lanes import (
@@ -58,8 +58,8 @@ def in_vortex(flow, integrator, rows=slice(None), models=()):
 
 def go(cloud):
     """Through 20 steps. Those that move share blocks from the second call on."""
-    cloud.carry(4)
-    cloud.carry(16)
+    Stepper(cloud).advance(4)
+    Stepper(cloud).advance(16)
 
 
 def assert_same(a, b, rows=slice(None)):
@@ -123,10 +123,10 @@ def test_a_call_that_is_stopped_leaves_each_particle_at_its_begin_or_end(coarse_
     """And the same steps, taken again by those, take all to the state of a run that was not stopped."""
     whole, cloud = (in_vortex(coarse_vortex, integrator) for _ in range(2))
     for each in (whole, cloud):
-        each.carry(4)
+        Stepper(each).advance(4)
         each.take_rebounds()
     begun = Particles(*(array.copy() for array in whole.particles))
-    whole.carry(16)
+    Stepper(whole).advance(16)
     # So that calls end for want of it, each time a little later.
     cloud.tracker._room = 1
     seen = []
@@ -135,10 +135,10 @@ def test_a_call_that_is_stopped_leaves_each_particle_at_its_begin_or_end(coarse_
         seen.append(Particles(*(array.copy() for array in cloud.particles)))
         return False
 
-    cloud.carry(16, watch)
+    Stepper(cloud).advance(16, watch)
     while cloud.step < 20:
         seen.append(Particles(*(array.copy() for array in cloud.particles)))
-        cloud.carry(20 - cloud.step, watch)
+        Stepper(cloud).advance(20 - cloud.step, watch)
     assert_same(whole.particles, cloud.particles)
     np.testing.assert_array_equal(whole.take_rebounds(), cloud.take_rebounds())
     for p in seen:

@@ -18,7 +18,7 @@ from small_clouds import box_cloud, pipe_cloud
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import ROWS, Medium, accept_stage, at, load9, store9
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape, Rebound, Stick
@@ -83,7 +83,7 @@ class TestStretch:
         cloud = Cloud(
             cloud.particles, cloud.flow, OIL, (), 1e-2, cloud.models, 1, limits=Limits(maxStretch=3.0)
         )
-        cloud.carry(700)
+        Stepper(cloud).advance(700)
         assert reasons(cloud) == [Reason.STRETCHED]
         assert cloud.particles.t[0] > 1.0
 
@@ -100,7 +100,7 @@ class TestSize:
         walls = (Rebound(), Escape(), Escape())
         flow = analytic.pipe(0.15, 0.5, 100.0)
         cloud = Cloud(p, flow, OIL, walls, 1e-2, Models(), 1, limits=Limits(maxSize=0.1))
-        cloud.carry(1000)
+        Stepper(cloud).advance(1000)
         assert reasons(cloud) == [Reason.TOO_LARGE]
         assert 0.02 < 0.01 * np.linalg.norm(p.F[0].reshape(3, 3), 2) < 0.03
 
@@ -151,7 +151,7 @@ class TestCells:
         models = Models(integrator=integrator, touching="centre")
         walls = [Rebound() for _ in flow.patches]
         cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
-        cloud.carry(200)
+        Stepper(cloud).advance(200)
         assert reasons(cloud) == [Reason.CELLS_TOO_MANY, Reason.NONE]
         longest = p.R * np.linalg.norm(p.F.reshape(-1, 3, 3), 2, axis=(1, 2)) / flow.cell_size(p.host)
         # What is compared is a bound of the longest stretch from above.
@@ -165,7 +165,7 @@ class TestCells:
         walls = [Rebound() for _ in flow.patches]
         models, limits = Models(touching="centre"), Limits(maxSize=1e3)
         cloud = Cloud(p, flow, OIL, walls, 1e-2, models, 1, limits=limits)
-        cloud.carry(10)
+        Stepper(cloud).advance(10)
         assert p.status[0] == Status.ACTIVE
 
 
@@ -173,16 +173,16 @@ class TestCost:
     def test_a_particle_that_needs_more_steps_than_it_may_fails(self):
         for most, reason in ((3, Reason.SUB_STEPS), (1e6, Reason.NONE)):
             cloud = in_extension([0.2], Limits(maxSubSteps=most), dt=1.0)
-            cloud.carry(1)
+            Stepper(cloud).advance(1)
             assert reasons(cloud) == [reason]
             assert (cloud.particles.t[0] < 1.0) == (reason == Reason.SUB_STEPS)
 
     def test_steps_are_counted_with_those_that_are_repeated(self):
         cloud = in_extension([0.2], dt=1e-5)
-        cloud.carry(1)
+        Stepper(cloud).advance(1)
         assert cloud.particles.substeps[0] == 1
         coarse = in_extension([0.2], dt=1.0)
-        coarse.carry(1)
+        Stepper(coarse).advance(1)
         assert coarse.particles.substeps[0] > 5
 
 
@@ -193,7 +193,7 @@ class TestReasons:
             p = cloud.particles
             flow = analytic.linear(np.full((3, 3), np.nan))
             cloud = Cloud(p, flow, OIL, (), 1e-4, cloud.models, 1)
-            cloud.carry(3)
+            Stepper(cloud).advance(3)
             assert reasons(cloud) == [Reason.FLOW_NOT_FINITE] * 2
 
     def test_each_has_words_and_only_steps_of_fixed_size_blame_the_step(self):
@@ -219,7 +219,7 @@ class TestReasons:
         p = spheres(np.zeros((1, 3)), d=1e-5, rho=1000.0, mu=1.0, poissons_ratio=0.3)
         models = Models(material="saintVenantKirchhoff", integrator="rosenbrock")
         cloud = Cloud(p, analytic.extension(-3.0), OIL, (), 0.01, models, 1)
-        cloud.carry(500)
+        Stepper(cloud).advance(500)
         assert reasons(cloud) == [Reason.VOLUME_RATIO]
         text = explain(p.reason[0], models, cloud.limits)
         assert "gives way when it is compressed" in text
@@ -233,7 +233,7 @@ class TestWalls:
         # The default; a cell's width more; so little that it must grow.
         clouds[1].reach, clouds[2].reach = 0.6, 1e-3
         for cloud in clouds:
-            cloud.carry(12)
+            Stepper(cloud).advance(12)
             assert_same(cloud.particles, clouds[0].particles)
         assert clouds[2].reach > 1e-2
         assert Status.STUCK in clouds[0].particles.status
@@ -242,11 +242,11 @@ class TestWalls:
         cloud, whole = box_cloud("rosenbrock"), box_cloud("rosenbrock")
         for c in (cloud, whole):
             c.particles.mu[:], c.particles.lame[:] = 1e6, 1e8
-        cloud.carry(1)
-        whole.carry(12)
+        Stepper(cloud).advance(1)
+        Stepper(whole).advance(12)
         monkeypatch.setattr("foamprb.flow.wall_lists._MOST_ENTRIES", 1)
         cloud.particles.R[2] *= 1.5
-        cloud.carry(11)
+        Stepper(cloud).advance(11)
         assert cloud.particles.reason[2] == Reason.WALLS_TOO_MANY
         others = [0, 1, 3, 4]
         assert_same(cloud.particles.take(others), whole.particles.take(others))
@@ -267,13 +267,13 @@ class TestStop:
         for each in (whole, parts):
             each.tracker.compile(each.make_ready())
         begun = time.perf_counter()
-        whole.carry(1)
+        Stepper(whole).advance(1)
         took = time.perf_counter() - begun
         slow, count = 0.0, 0
         while parts.step == 0:
             count += 1
             due = time.perf_counter() + 0.2 * took * count
-            parts.carry(1, lambda due=due: time.perf_counter() > due)
+            Stepper(parts).advance(1, lambda due=due: time.perf_counter() > due)
             slow = max(slow, time.perf_counter() - due)
         assert slow < 0.5 * took
         assert count > 1
@@ -283,16 +283,16 @@ class TestStop:
         for make in (pipe_cloud, box_cloud):
             for integrator in INTEGRATORS:
                 whole, parts = make(integrator), make(integrator)
-                whole.carry(12)
-                parts.carry(3)
+                Stepper(whole).advance(12)
+                Stepper(parts).advance(3)
                 flow, _ = parts.load_flow(9)
                 rest = parts.particles
                 ahead = rest.take(np.arange(2))
                 parts.tracker.advance(flow, ahead, 3, 5, 1, parts.bounds)
                 for name, array in zip(Particles._fields, rest, strict=True):
                     array[:2] = getattr(ahead, name)
-                parts.carry(2)
-                parts.carry(7)
+                Stepper(parts).advance(2)
+                Stepper(parts).advance(7)
                 assert_same(whole.particles, parts.particles)
 
     def test_an_exception_in_the_thread_that_waits_ends_the_loop(self):
@@ -308,7 +308,7 @@ class TestStop:
         cloud.tracker.compile(cloud.make_ready())
         started = time.perf_counter()
         with pytest.raises(KeyboardInterrupt):
-            cloud.carry(1, stop)
+            Stepper(cloud).advance(1, stop)
         assert time.perf_counter() - started < 2.0
         assert threading.active_count() < 10
         assert cloud.step == 0

@@ -24,7 +24,7 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.traction import disturbance
 from foamprb.cloud import measures
-from foamprb.cloud.executor import longest_semi_axis
+from foamprb.cloud.cloud import longest_semi_axis
 from foamprb.cloud.measures import (
     MEASURES,
     context,

@@ -9,7 +9,7 @@ import pytest
 
 from foamprb import analytic
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.rebounds import rebounds_of
 from foamprb.cloud.state import Status, spheres
@@ -85,7 +85,7 @@ def test_none_is_noted_twice_if_a_call_is_stopped():
     while cloud.step < 300:
         # Every other call is stopped at once.
         begun = next(asked)
-        cloud.carry(min(40, 300 - cloud.step), lambda begun=begun: begun % 2 == 0)
+        Stepper(cloud).advance(min(40, 300 - cloud.step), lambda begun=begun: begun % 2 == 0)
         assert begun < 100
     np.testing.assert_array_equal(cloud.take_rebounds(), whole.take_rebounds())
 
@@ -95,7 +95,7 @@ def test_a_stop_counts_though_there_is_no_room():
     cloud = many()
     cloud.tracker._room = 1
     # All bodies bounce at the bottom in these steps.
-    cloud.carry(300, lambda: True)
+    Stepper(cloud).advance(300, lambda: True)
     assert cloud.step == 0
     room = cloud.tracker._room
     assert room in (1, 4)

@@ -55,7 +55,7 @@ def test_a_stopped_run_goes_on_with_what_its_functions_saw(kind, tmp_path, monke
         edit(case, r"endTime\s+\S+;", "endTime 0.012;")
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
-            monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 1000)
+            monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 1000)
             job = prepare(case, threads=1, tables=kind)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 261)
@@ -81,7 +81,7 @@ def test_a_stopped_run_goes_on_with_the_rebounds_it_saw(tmp_path, monkeypatch):
         edit(case, r"cloudFunctions\s*\{\}", BLOCK)
         edit(case, r"writeInterval\s+\S+;", "writeInterval 0.004;")
         if name == "parts":
-            monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 1000)
+            monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 1000)
             job = prepare(case, threads=2)
             with pytest.raises(RunStopped):
                 execute(job, stop=lambda job=job: job.cloud.step > 61)

@@ -10,7 +10,7 @@ from foam_writer import write_case
 from mesh_shapes import block, box_patches
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.tracker import Models
@@ -170,7 +170,7 @@ def test_the_answer_does_not_depend_on_how_the_work_is_split(mesh, integrator, d
         cloud = cloud_in(flow, dt, integrator, start=0.2, n=40, spread=0.5, tolerance=1e-2, threads=threads)
         for part in parts:
             # With Δt beyond its limit `paper` loses them, however the work is split.
-            cloud.carry(part)
+            Stepper(cloud).advance(part)
         return cloud.particles
 
     whole = moved([steps])

@@ -334,6 +334,7 @@ import json, pathlib, sys
 import numpy as np
 from foamprb import prepare
 from foamprb.parallel.launch import connect
+from foamprb.parallel.ranks import RankStepper
 from foamprb.parallel.worker import Worker
 
 def private():
@@ -354,18 +355,18 @@ def mapping(array):
 
 def touch(self):
     self.before = private()
-    return float(self.windows.arrays[0].sum())
+    return float(self.windows.arrays[max(self.windows.arrays)].sum())
 
 def tell(self):
-    return *mapping(self.windows.arrays[0]), private() - self.before
+    return *mapping(self.windows.arrays[max(self.windows.arrays)]), private() - self.before
 
 Worker.touch, Worker.tell = touch, tell
 found = connect()
 if isinstance(found, Worker):
     sys.exit(found.serve(()))
-shared = found.published.move(np.full(1 << 24, 1.5))
 job = prepare(sys.argv[1], threads=1)
-job.cloud.hand_over(found)
+stepper = RankStepper(job.cloud, found)
+shared = stepper.published.move(np.full(1 << 24, 1.5))
 # The flow's own arrays and those of its mesh are the shared ones.
 flow, windows = job.cloud.flow, found.worker.windows.arrays.values()
 for array in (flow.arrays().nodes, flow.arrays().tets, flow.arrays().neighbours):

@@ -96,7 +96,7 @@ def test_leaving_with_an_error_waits_and_keeps_the_error() -> None:
 @pytest.fixture
 def case(tmp_path, monkeypatch):
     # A few steps at a time: 50 to each of six write times.
-    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 3000)
     return short_case(tmp_path)
 
 

@@ -276,7 +276,7 @@ def test_a_stiffness_beyond_all_numbers_is_one_message(case, capsys):
 
 def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     monkeypatch.setattr(
-        "foamprb.compile.helper.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")
+        "foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")
     )
     monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(case / "cache"))
     monkeypatch.setattr("foamprb.compile.link._parts", {})

@@ -10,7 +10,7 @@ from mesh_shapes import block, box_patches
 from small_clouds import box_cloud
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
@@ -62,7 +62,7 @@ def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
 
 def test_steps_of_the_last_tracking_step_are_counted(caplog):
     cloud = box_cloud("stokes")
-    cloud.carry(3)
+    Stepper(cloud).advance(3)
     moved = (cloud.particles.status == 1) & (cloud.particles.substeps > 0)
     job = type("Job", (), {"cloud": cloud})
     with caplog.at_level(logging.INFO, "foamprb"):

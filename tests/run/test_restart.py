@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import gzip
+import itertools
 import json
 import logging
 import os
@@ -12,7 +13,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -22,11 +23,9 @@ from pipe_case import END, edit, message, results, short_case, time_folder
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.cloud import Snapshot
-from foamprb.cloud.executor import Threads
 from foamprb.errors import RunStopped
 from foamprb.results import atomic
-from foamprb.results.pvd import Series
+from foamprb.results.background import Writer
 from foamprb.run import restart
 
 KILL_TEST = ROOT / "tools/hardening/kill_test"
@@ -82,7 +81,7 @@ def test_walls_and_molecules_go_on_where_they_were(case, monkeypatch):
         r"^\s+gravity;",
         "wallLift { cutOff 100; } BrownianMotion { T 293.15; } faxenCorrection; gravity;",
     )
-    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 3000)
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     shutil.rmtree(case / "postProcessing")
@@ -98,7 +97,7 @@ def test_walls_and_molecules_go_on_where_they_were(case, monkeypatch):
 
 def test_a_run_stopped_between_two_write_times_goes_on(case, truth, monkeypatch):
     # A few steps at a time, so that it stops at any of them.
-    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 3000)
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     assert expected["fates.csv"] == truth["fates.csv"]
@@ -116,7 +115,7 @@ def test_steps_through_several_tracking_steps_do_not_depend_on_where_a_run_stops
     assert main(["run", "-case", str(case)]) == 0
     expected = results(case)
     shutil.rmtree(case / "postProcessing")
-    monkeypatch.setattr("foamprb.cloud.executor.Threads.at_once", 3000)
+    monkeypatch.setattr("foamprb.run.loop.MOST_STEPS", 3000)
     for time in (0.0, 0.0009, 0.0017, 0.0043):
         stop_after(case, time)
     stopped = prepare(case).cloud
@@ -285,16 +284,16 @@ def test_two_runs_do_not_write_to_one_folder(stopped, capsys):
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
     before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
-    begin_write = Threads.begin_write
+    begin = Writer.begin
 
-    def interrupted(
-        threads: Threads, series: Series, snapshot: Snapshot, names: Mapping[str, Sequence[str]]
-    ) -> Callable[[], object]:
-        if snapshot.step == 100:
+    writes = itertools.count(1)
+
+    def interrupted(writer: Writer, write: Callable[[], object]) -> None:
+        if next(writes) == 2:
             signal.raise_signal(number)
-        return begin_write(threads, series, snapshot, names)
+        begin(writer, write)
 
-    monkeypatch.setattr(Threads, "begin_write", interrupted)
+    monkeypatch.setattr(Writer, "begin", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert (

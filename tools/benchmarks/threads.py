@@ -14,7 +14,7 @@ import numpy as np
 import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, interleaved, rows, wall_of
-from foamprb.compile.helper import available_threads
+from foamprb.cloud.tracker import available_threads
 
 
 def _timed(cloud, steps: int) -> float:

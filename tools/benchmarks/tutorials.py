@@ -27,6 +27,7 @@ from benchmarks.records import Options, Row, interleaved, isolated, rows
 from benchmarks.report import WORST_TUTORIAL
 from benchmarks.tracker import SOLVER, openfoam_cost, openfoam_environment
 from benchmarks.whole import costs, run
+from foamprb.cloud.cloud import Stepper
 
 EXAMPLES = Path("/usr/share/doc/openfoam-examples/examples/incompressible")
 RHO = 1.2
@@ -173,7 +174,7 @@ def our_places(case: str, dictionary: str, steps: int, tolerance: float | None =
         p, flow, medium, walls = cloud.particles, cloud.flow, cloud.medium, cloud.interactions
         cloud = foamprb.Cloud(p, flow, medium, walls, cloud.dt, models)
     cloud.particles.v[:] = 0.0
-    cloud.carry(steps)
+    Stepper(cloud).advance(steps)
     p = cloud.particles
     found: list[list[float]] = np.where((p.status == Status.ACTIVE)[:, None], p.x, p.x0).tolist()
     return found

@@ -8,8 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from foamprb.cloud.tracker import Models
-from foamprb.compile.helper import available_threads
+from foamprb.cloud.tracker import Models, available_threads
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
 from validation.references import soft

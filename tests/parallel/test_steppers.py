@@ -1,4 +1,4 @@
-"""How executors advance a cloud, and how the processes of a parallel run end."""
+"""Steppers that advance a cloud, and the end of the processes of a parallel run."""
 
 from __future__ import annotations
 
@@ -10,71 +10,50 @@ import numpy as np
 import pytest
 from small_clouds import pipe_cloud
 
-from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.executor import Threads
-from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.tracker import never
-from foamprb.compile.helper import available_threads
+from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.state import Particles
+from foamprb.cloud.tracker import available_threads, never
 from foamprb.errors import RunStopped
 from foamprb.parallel import launch
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.signals import caught_signals
-from foamprb.results.folder import ResultsFolder
-from foamprb.results.pvd import Series, read_pvd
 
 
-class Apart(Threads):
-    """Carries copies of the particles, as an executor with memory of its own does."""
+class Apart(Stepper):
+    """Advances copies of the particles, as a stepper with memory of its own does."""
 
-    def take(self, cloud: Cloud) -> None:
-        super().take(cloud)
+    def __init__(self, cloud: Cloud) -> None:
+        super().__init__(cloud)
         self.own = Particles(*(array.copy() for array in cloud.particles))
 
-    def advance(self, flow, steps, stop=never):
-        cloud = self._cloud
+    def _carry(self, flow, steps, stop=never):
+        cloud = self.cloud
         return cloud.tracker.advance(flow, self.own, cloud.step, steps, cloud.threads, cloud.bounds, stop)
 
     def counts(self):
         return self.own.counts()
 
     def gather(self):
-        for array, own in zip(self._cloud.particles, self.own, strict=True):
+        for array, own in zip(self.cloud.particles, self.own, strict=True):
             array[:] = own
 
 
-def test_whoever_carries_the_particles_they_come_to_the_same():
-    """Handed over on the way to executors that have them elsewhere and to those that do not."""
+def test_steppers_with_and_without_own_memory_agree():
     alone, handed = pipe_cloud("paper"), pipe_cloud("paper")
     alone.advance(12)
-    for executor, steps in ((Apart(), 3), (Threads(), 4), (Apart(), 5)):
-        handed.hand_over(executor)
-        handed.advance(steps)
-    assert handed.counts() == alone.counts()
-    assert handed.particles.t[0] < alone.particles.t[0]
-    handed.gather()
+    for kind, steps in ((Apart, 3), (Stepper, 4), (Apart, 5)):
+        stepper = kind(handed)
+        stepper.advance(steps)
+        if steps == 5:
+            assert stepper.counts() == alone.particles.counts()
+            assert handed.particles.t[0] < alone.particles.t[0]
+        stepper.gather()
     for array, expected in zip(handed.particles, alone.particles, strict=True):
         np.testing.assert_array_equal(array, expected)
 
 
-def test_a_snapshot_is_in_the_files_that_were_told(tmp_path):
-    cloud = pipe_cloud("paper")
-    cloud.advance(2)
-    series, names = (
-        Series(ResultsFolder(tmp_path, "pipe")),
-        {"status": tuple(status.name for status in Status)},
-    )
-    told = cloud.executor.snapshot_files(series.next(cloud.time))
-    end_write = cloud.executor.begin_write(series, cloud.snapshot(), names)
-    cloud.advance(2)
-    end_write()
-    assert {*tmp_path.iterdir()} == {*told, series.folder.pvd}
-    assert [entry.time for entry in read_pvd(series.folder.pvd)] == [2 * cloud.dt]
-
-
-def test_threads_are_those_that_the_process_may_use():
-    executor = Threads()
-    assert executor.threads == available_threads() == len(os.sched_getaffinity(0))
-    assert tuple(executor.signals) == ()
+def test_default_threads_are_the_processors_of_the_process():
+    assert pipe_cloud("paper").threads == available_threads() == len(os.sched_getaffinity(0))
 
 
 class Dismissed(Ranks):

@@ -1,0 +1,160 @@
+"""Compilation of the particle loop: for one run with a second process, or for all common runs beforehand.
+
+If the loop is not in the cache and there is a processor to spare, a second process compiles it while this one
+compiles some of its parts and reads the flow. Each process finds the other's code in the cache. If the second
+process fails, or compiled another loop than the run needs, this process compiles.
+"""
+
+from __future__ import annotations
+
+import atexit
+import gc
+import logging
+import os
+import pickle
+import subprocess
+import sys
+from contextlib import suppress
+
+import numpy as np
+
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.measures import Gradients, context, measure
+from foamprb.cloud.state import Status, empty, spheres
+from foamprb.cloud.tracker import Models, Tracker, available_threads
+from foamprb.compile.cache import cache_directory
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.rotating import RotatingFlow
+from foamprb.flow.series import SeriesFlow
+
+__all__ = ["Compilation", "compile_all", "compile_run"]
+
+log = logging.getLogger("foamprb")
+
+
+class Compilation:
+    """Second process that compiles a loop; a run does not depend on its success.
+
+    Parameters
+    ----------
+    tracker
+        The loop that the settings select, as far as they determine it without the flow.
+    flow
+        Class of the flow.
+    """
+
+    def __init__(
+        self, tracker: Tracker, flow: type[MeshFlow] | type[SeriesFlow] | type[RotatingFlow]
+    ) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        if tracker.compiled or available_threads() == 1:
+            return
+        log_compiling()
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", "-m", __name__],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        atexit.register(self.stop)
+        assert self._process.stdin is not None
+        # The process may have ended already, if it cannot import its modules.
+        with suppress(BrokenPipeError), self._process.stdin as pipe:
+            pickle.dump((tracker, flow), pipe)
+        # The parts that the other process compiles last, and the measures: about half of the work.
+        arguments = flow.nothing()
+        tracker.compile_contact(arguments)
+        tracker.compile_stages()
+        context(empty(0), Gradients(np.empty((0, 9))), 1.0, 0.0)
+
+    def wait(self) -> None:
+        """Wait until the process has ended."""
+        if self._process is not None:
+            self._process.wait()
+
+    def stop(self) -> None:
+        """End the process; code compiled so far stays in the cache."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+            atexit.unregister(self.stop)
+
+
+def log_compiling() -> None:
+    """Log that the particle loop is being compiled."""
+    log.info("Compiling the particle loop, once; the code is kept in %s", cache_directory())
+
+
+def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> None:
+    """Compile the code of a run; no-op for compiled code.
+
+    Parameters
+    ----------
+    cloud
+        The cloud, before its first step.
+    compilation
+        The second process, if there is one.
+    alone
+        Whether this process takes all steps, so that it needs the loop.
+    """
+    arguments = cloud.make_ready()
+    # The thread that writes measures the particles, and code may not be linked in two threads at once.
+    first = cloud.particles.take(np.arange(min(1, cloud.particles.size)))
+    first.status[:] = Status.ACTIVE
+    context(first, cloud.flow, cloud.medium.mu, cloud.time)
+    if compilation is not None:
+        compilation.wait()
+    if alone:
+        if not cloud.tracker.compiled:
+            log_compiling()
+        cloud.tracker.compile(arguments)
+
+
+def compile_all() -> None:
+    """Compile the code of runs with default models: reading of meshes, all loops, output.
+
+    There is a loop for each integrator in steady flows, and another in transient flows.
+    """
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, vtkUnstructuredGrid
+
+    from foamprb.cloud.block import Medium
+    from foamprb.cloud.patches import Stick
+    from foamprb.flow.mesh.mesh import build_mesh
+    from foamprb.flow.reconstruct import Reconstruction
+
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    cube, points = vtkUnstructuredGrid(), vtkPoints()
+    points.SetData(numpy_to_vtk(np.array(corners, dtype=float), deep=True))
+    cube.SetPoints(points)
+    cube.InsertNextCell(VTK_HEXAHEDRON, 8, range(8))
+    mesh = build_mesh(cube)
+    nodes = Reconstruction(mesh)(np.zeros((1, 3)), np.zeros((len(mesh.boundary_centres), 3)))
+    steady, transient = MeshFlow(mesh, *nodes), SeriesFlow(mesh, [0.0, 1.0], lambda _: nodes)
+    flows: dict[str, MeshFlow | SeriesFlow] = {"steady": steady, "transient": transient}
+    medium = Medium(1.0, 1.0, (0.0, 0.0, 0.0))
+    for kind, flow in flows.items():
+        for integrator in INTEGRATORS:
+            log.info("Compiling the particle loop of integrationScheme %s in %s flows", integrator, kind)
+            particle = spheres([(0.5, 0.5, 0.5)], d=1e-3, rho=1.0, mu=1.0)
+            models = Models(integrator=integrator)
+            cloud = Cloud(particle, flow, medium, [Stick()] * len(mesh.patches), 1e-3, models, threads=1)
+            cloud.advance(1)
+        measure(context(cloud.particles, flow, medium.mu, cloud.time))
+    log.info("The code is kept in %s", cache_directory())
+
+
+def main() -> None:
+    """Compile the loop that the standard input describes."""
+    # The process lives for seconds: collecting garbage would only delay the other one.
+    gc.disable()
+    tracker, flow = pickle.load(sys.stdin.buffer)
+    tracker.compile_moves(flow.nothing())
+    tracker.compile(flow.nothing())
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+"""A second process compiles the loop while the flow is read; its code is that of the first process."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from mesh_shapes import block
+from paths import PIPE
+
+import foamprb
+from foamprb.cli import main
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.integrators.registry import INTEGRATORS
+from foamprb.cloud.tracker import Models, Tracker
+from foamprb.compile import link as compiling
+from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.series import SeriesFlow
+from foamprb.run.compilation import Compilation
+
+AIR = Medium(1.8e-5, 1.2, (0.0, -9.81, 0.0))
+
+
+def steady(mesh):
+    return MeshFlow(mesh, 0.1 * np.ones((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
+
+
+def transient(mesh):
+    u = 0.1 * np.ones((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
+    return SeriesFlow(mesh, [0.0, 1.0], lambda _: u)
+
+
+@pytest.mark.parametrize("make", [steady, transient])
+def test_what_was_precompiled_is_what_is_wanted(make, tmp_path, monkeypatch):
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
+    flow = make(build_mesh(block(1, 0.0, "mixed")))
+    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
+    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
+    assert not cloud.tracker.compiled
+    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    Compilation(early, type(flow)).wait()
+    assert cloud.tracker.compiled
+    cloud.advance(1)
+    stats = cloud.tracker._track.stats
+    assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
+    assert p.x[0, 0] > 0.5
+    # The stages as the first process would compile them are those that the loop is made of.
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert not [stage.__name__ for stage in early.integrator.stages if early._compile(stage, {})]
+
+
+def loop():
+    return Tracker(
+        Models(integrator="paper"), MeshFlow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False
+    )
+
+
+@pytest.fixture
+def two_processors(tmp_path, monkeypatch):
+    """An empty cache, and a processor to spare."""
+    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(compiling, "_parts", {})
+    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
+
+
+def test_one_processor_compiles_alone(two_processors, monkeypatch):
+    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 1)
+    monkeypatch.setattr("foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("a process"))
+    Compilation(loop(), MeshFlow).wait()
+
+
+def test_no_process_outlives_an_error_in_the_input(two_processors, tmp_path, monkeypatch, capsys):
+    started, popen = [], subprocess.Popen
+
+    def start(*arguments, **options):
+        started.append(popen(*arguments, **options))
+        return started[0]
+
+    monkeypatch.setattr("foamprb.run.compilation.subprocess.Popen", start)
+    shutil.copytree(PIPE, tmp_path / "pipe", ignore=shutil.ignore_patterns("postProcessing", "249"))
+    assert main(["run", "-case", str(tmp_path / "pipe")]) == 1
+    assert "--> foamprb Error" in capsys.readouterr().err
+    assert started[0].returncode is not None
+
+
+def test_a_stopped_process_is_not_waited_for(two_processors):
+    tracker = loop()
+    compilation = Compilation(tracker, MeshFlow)
+    compilation.stop()
+    compilation.stop()
+    compilation.wait()
+    assert not tracker.compiled
+
+
+def test_a_process_that_cannot_start_is_ignored(two_processors, monkeypatch):
+    monkeypatch.setattr("foamprb.run.compilation.sys.executable", "/bin/false")
+    tracker = loop()
+    Compilation(tracker, MeshFlow).wait()
+    assert not tracker.compiled
+
+
+def test_the_process_runs_no_code_of_the_current_folder(two_processors, tmp_path, monkeypatch):
+    (tmp_path / "numpy.py").write_text("open('executed', 'w')")
+    monkeypatch.chdir(tmp_path)
+    tracker = loop()
+    Compilation(tracker, MeshFlow).wait()
+    assert tracker.compiled
+    assert not (tmp_path / "executed").exists()
+
+
+def test_after_compile_no_run_has_to(capsys):
+    """Where other tests keep their code as well, as much of it is theirs."""
+    assert main(["compile"]) == 0
+    assert "The code is kept in" in capsys.readouterr().out
+    for kind in (MeshFlow, SeriesFlow):
+        for integrator in INTEGRATORS:
+            models = Models(integrator=integrator)
+            assert Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False).compiled
