@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
+from typing import TYPE_CHECKING
 
 from foamprb.errors import InputError
 
-__all__ = ["declare", "lines"]
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "estimate from a few numbers which effects matter to a particle"
 
 _NUMBERS = (
     ("-d", "diameter", "D", "diameter, m", None),
@@ -25,7 +29,7 @@ _MAY_VANISH = ("gravity", "epsilon")
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments."""
+    """Add the options of the command."""
     for option, name, metavar, text, default in _NUMBERS:
         parser.add_argument(
             option, dest=name, type=float, metavar=metavar, help=text, default=default,
@@ -38,15 +42,21 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    print("\n".join(lines(arguments)))
+    return 0
+
+
 def lines(arguments: argparse.Namespace) -> list[str]:
-    """What the numbers come to, line by line.
+    """Return the estimates, line by line.
 
     Raises
     ------
     InputError
         If a number is not positive.
     """
-    # What takes arrays of numbers is slow to import, which other commands need not wait for.
+    # Slow imports, which other commands do not need.
     from foamprb.body.estimate import Sphere, Surroundings, estimate, shear_modulus
     from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
 

@@ -1,27 +1,28 @@
-"""Commands ``foamprb view``, ``report`` and ``export``: their options, and the calls that they make."""
+"""``foamprb view``: a page, a picture or a film of the bodies."""
 
 from __future__ import annotations
 
 import argparse
-import logging
 import re
 import sys
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from foamprb.cli.options import add_cloud, add_flow, source_of
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
-    from foamprb.flow.read.source import Source
+    from foamprb.parallel.ranks import Ranks
 
-log = logging.getLogger("foamprb")
+PURPOSE = "show the bodies of a run: a page for any browser"
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    """Add the options of ``foamprb view``, besides the options of the flow."""
+    """Add the options of the command."""
+    add_flow(parser)
+    add_cloud(parser)
     add = parser.add_argument
-    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
     add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/CLOUD.html]")
     add("--noBrowser", action="store_true", help="write the page, do not open it")
     kind = parser.add_mutually_exclusive_group()
@@ -50,34 +51,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--dark", action="store_true", help="dark background of a picture, film or window")
 
 
-def declare_export(parser: argparse.ArgumentParser) -> None:
-    """Add the options of ``foamprb export``, besides the options of the flow."""
-    add = parser.add_argument
-    add("kind", choices=("openfoam", "vtkhdf", "ovito"), help="format of the files")
-    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
-    add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
-    add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow with the mesh [latest]")
-
-
-def export(arguments: argparse.Namespace, source: Source) -> int:
-    """Write the files of another program; return the exit status."""
-    from foamprb.view.export import export as write
-
-    target = write(
-        arguments.kind, arguments.case, arguments.cloud, source, arguments.flowTime, arguments.output
-    )
-    log.info("Written: %s", target)
-    return 0
-
-
-def view(arguments: argparse.Namespace, source: Source) -> int:
-    """Write a page, a picture or a film, or open a window; return the exit status."""
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
     from foamprb.view.show import Request, open_in_browser, picture_of, write_page
 
     request = Request(
         arguments.case,
         arguments.cloud,
-        source,
+        source_of(arguments),
         arguments.flowTime,
         arguments.time,
         arguments.colour,
@@ -93,29 +74,6 @@ def view(arguments: argparse.Namespace, source: Source) -> int:
     path = write_page(request, arguments.output, arguments.maxSize, version("foamprb"))
     if not arguments.noBrowser and sys.stdout.isatty():
         open_in_browser(path)
-    return 0
-
-
-def declare_report(parser: argparse.ArgumentParser) -> None:
-    """Add the options of ``foamprb report``, besides the options of the flow."""
-    add = parser.add_argument
-    add("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
-    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
-    add("--paths", metavar="IDS", help="particles whose D is plotted over time, 3,17,20 [a selection]")
-    add("--noBrowser", action="store_true", help="write the page, do not open it")
-
-
-def report(arguments: argparse.Namespace, source: Source) -> int:
-    """Write a report; return the exit status."""
-    from foamprb.view.report.report import write_report
-    from foamprb.view.show import open_in_browser
-
-    words = (arguments.paths or "").replace(",", " ").split()
-    if not all(word.isascii() and word.isdigit() for word in words):
-        raise InputError(f"-paths {arguments.paths}: numbers of particles are needed, such as 3,17,20.")
-    target = write_report(arguments.case, arguments.output, arguments.cloud, source, [int(w) for w in words])
-    if not arguments.noBrowser and sys.stdout.isatty():
-        open_in_browser(target)
     return 0
 
 

@@ -1,0 +1,23 @@
+"""``foamprb compile``: compilation of the particle loops."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "compile the particle loops before the first run"
+
+
+def declare(_parser: argparse.ArgumentParser) -> None:
+    """Add no options."""
+
+
+def execute(_: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.run.compilation import compile_all
+
+    compile_all()
+    return 0

@@ -1,0 +1,43 @@
+"""``foamprb export``: results in the files of other programs."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.cli.options import add_cloud, add_flow, source_of
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "write the results for OpenFOAM, for OVITO, or as one VTKHDF file"
+
+log = logging.getLogger("foamprb")
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    add_flow(parser)
+    add_cloud(parser)
+    add = parser.add_argument
+    add("kind", choices=("openfoam", "vtkhdf", "ovito"), help="format of the files")
+    add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
+    add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow with the mesh [latest]")
+
+
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.view.export import export as write
+
+    target = write(
+        arguments.kind,
+        arguments.case,
+        arguments.cloud,
+        source_of(arguments),
+        arguments.flowTime,
+        arguments.output,
+    )
+    log.info("Written: %s", target)
+    return 0

@@ -1,0 +1,24 @@
+"""``foamprb help``: explanation of a settings entry."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "explain an entry, a dictionary or a type of the settings"
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    parser.add_argument("entry", nargs="?", metavar="ENTRY", help="deltaT, solution/deltaT, patchInjection")
+
+
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.settings.reference import explain
+
+    print("\n".join(explain(arguments.entry)))
+    return 0

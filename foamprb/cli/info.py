@@ -1,0 +1,26 @@
+"""``foamprb info``: contents of a case."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from foamprb.cli.options import add_flow, source_of
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "show the contents of a case"
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    add_flow(parser)
+
+
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.flow.read.source import describe_source
+
+    print("\n".join(describe_source(arguments.case, source_of(arguments))))
+    return 0

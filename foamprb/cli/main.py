@@ -1,0 +1,165 @@
+"""Entry point of the command line: parser, log and exit status."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import re
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, NoReturn, Protocol, TextIO
+
+import foamprb
+from foamprb.cli import compile as compile_
+from foamprb.cli import estimate, export, info, init, paraview, report, run, view
+from foamprb.cli import help as help_
+from foamprb.errors import InputError, RankError, RunInterrupted, RunStopped, suggestion
+from foamprb.memory import OutOfMemory, forget, ran_out, require_start
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+
+class Command(Protocol):
+    """Module of a command."""
+
+    PURPOSE: str
+    """Help text."""
+
+    def declare(self, parser: argparse.ArgumentParser, /) -> None:
+        """Add the options of the command."""
+
+    def execute(self, arguments: argparse.Namespace, ranks: Ranks | None, /) -> int:
+        """Execute the command; return the exit status."""
+
+
+COMMANDS: dict[str, Command] = {
+    "init": init,
+    "run": run,
+    "info": info,
+    "view": view,
+    "paraview": paraview,
+    "report": report,
+    "export": export,
+    "estimate": estimate,
+    "help": help_,
+    "compile": compile_,
+}
+
+
+class _Parser(argparse.ArgumentParser):
+    """Parser whose errors are one message with exit status 1."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(f"{message}. Try: {self.prog} -help")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="foamprb",
+        description="Track soft micro-particles through a flow computed by OpenFOAM.",
+        epilog="Options take a single or a double dash.",
+        add_help=False,
+        allow_abbrev=False,
+    )
+    version = f"foamprb {foamprb.__version__}"
+    parser.add_argument("-h", "--help", action="help", help="show this text and exit")
+    parser.add_argument("--version", action="version", version=version, help="show the version and exit")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
+    for name, command in COMMANDS.items():
+        added = commands.add_parser(name, help=command.PURPOSE, add_help=False, allow_abbrev=False)
+        added.add_argument("-h", "--help", action="help", help="show this text and exit")
+        added.add_argument("--debug", action="store_true", help="show the traceback of an error")
+        command.declare(added)
+    return parser
+
+
+class _Handler(logging.StreamHandler[TextIO]):
+    """Handler that writes plain lines, and warnings in OpenFOAM's manner."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        text = record.getMessage()
+        return f"--> foamprb Warning : {text}" if record.levelno >= logging.WARNING else text
+
+    def handleError(self, record: logging.LogRecord) -> None:
+        """End the program where the reader of its log has gone."""
+        if isinstance(sys.exception(), BrokenPipeError):
+            raise
+        super().handleError(record)
+
+
+def _log_to_stdout() -> None:
+    logger = logging.getLogger("foamprb")
+    logger.handlers[:] = [_Handler(sys.stdout)]
+    logger.setLevel(logging.INFO)
+    logger.propagate = False
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit status.
+
+    It is 0; 1 for a mistake in the input or a run that had to end early; 130 after Ctrl-C, 143 after
+    SIGTERM, and 141 if the reader of the output has closed it.
+    """
+    given = sys.argv[1:] if arguments is None else arguments
+    words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
+    _log_to_stdout()
+
+    def answer(ranks: Ranks | None) -> int:
+        return _exit_status(words, lambda: _do(words, ranks))
+
+    if "--parallel" not in words:
+        return answer(None)
+    from foamprb.parallel.launch import run_together
+
+    return _exit_status(words, lambda: run_together(answer))
+
+
+def _do(words: Sequence[str], ranks: Ranks | None) -> int:
+    """Execute the command line."""
+    if words and not words[0].startswith("-") and words[0] not in COMMANDS:
+        raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
+    parsed = _parser().parse_args(words)
+    if parsed.command is None:
+        _parser().print_help()
+        return 1
+    forget()
+    if parsed.command != "help":
+        require_start()
+    return COMMANDS[parsed.command].execute(parsed, ranks)
+
+
+def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
+    """Call a command, print what went wrong, and return the exit status."""
+    try:
+        try:
+            status = command()
+        except SystemExit as done:
+            status = 1 if done.code else 0
+        sys.stdout.flush()
+        return status
+    except RunInterrupted as stopped:
+        print(f"--> foamprb {stopped}", file=sys.stderr)
+        return 128 + stopped.signal
+    except BrokenPipeError:
+        # Buffered output is dropped; otherwise Python reports at its end that it could not be written.
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 128 + signal.SIGPIPE
+    except Exception as error:
+        reason = ran_out(error) or error
+        known = isinstance(reason, InputError | RunStopped | RankError | OSError | OutOfMemory)
+        if not known or "--debug" in words:
+            raise
+        print(f"--> foamprb Error : {reason}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("--> foamprb stopped by the user.", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,67 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.errors import InputError
+
+if TYPE_CHECKING:
+    from foamprb.flow.read.source import Source
+
+__all__ = ["add_case", "add_cloud", "add_flow", "source_of"]
+
+
+def add_case(parser: argparse.ArgumentParser) -> None:
+    """Add the options ``-case`` and ``-region``."""
+    parser.add_argument("--case", type=Path, default=Path(), metavar="DIR", help="case folder [.]")
+    parser.add_argument("--region", default="", metavar="NAME", help="region of the mesh")
+
+
+def add_cloud(parser: argparse.ArgumentParser) -> None:
+    """Add the option ``-cloud``."""
+    parser.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+
+
+def add_flow(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a case and its flow."""
+    add_case(parser)
+    add = parser.add_argument
+    add("--decomposed", action="store_true", help="read the processor folders")
+    add("--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's")
+    add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
+    add("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+    divided = parser.add_mutually_exclusive_group()
+    divided.add_argument(
+        "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
+    )
+    divided.add_argument(
+        "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
+    )
+
+
+def source_of(arguments: argparse.Namespace) -> Source:
+    """Return the source of the flow that the options of :func:`add_flow` select.
+
+    Raises
+    ------
+    InputError
+        If the feature angle is out of range.
+    """
+    from foamprb.flow.read.division import Division
+    from foamprb.flow.read.source import Source
+
+    angle = arguments.featureAngle
+    if angle is not None and not 0.0 < angle < 180.0:
+        raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
+    divided = arguments.patchArray or angle is not None
+    return Source(
+        arguments.flow,
+        arguments.region,
+        arguments.velocity,
+        arguments.gradient,
+        Division(arguments.patchArray, angle) if divided else None,
+        arguments.decomposed,
+    )

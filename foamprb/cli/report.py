@@ -1,0 +1,42 @@
+"""``foamprb report``: a page about a run."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.cli.options import add_cloud, add_flow, source_of
+from foamprb.errors import InputError
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+
+PURPOSE = "write a page about a run and its results"
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    add_flow(parser)
+    add_cloud(parser)
+    add = parser.add_argument
+    add("--output", type=Path, metavar="FILE", help="the page [postProcessing/CLOUD/report.html]")
+    add("--paths", metavar="IDS", help="particles whose D is plotted over time, 3,17,20 [a selection]")
+    add("--noBrowser", action="store_true", help="write the page, do not open it")
+
+
+def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.view.report.report import write_report
+    from foamprb.view.show import open_in_browser
+
+    words = (arguments.paths or "").replace(",", " ").split()
+    if not all(word.isascii() and word.isdigit() for word in words):
+        raise InputError(f"-paths {arguments.paths}: numbers of particles are needed, such as 3,17,20.")
+    target = write_report(
+        arguments.case, arguments.output, arguments.cloud, source_of(arguments), [int(w) for w in words]
+    )
+    if not arguments.noBrowser and sys.stdout.isatty():
+        open_in_browser(target)
+    return 0

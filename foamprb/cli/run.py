@@ -1,0 +1,70 @@
+"""``foamprb run``: particles through the flow of a case."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from foamprb.cli.options import add_flow, source_of
+from foamprb.errors import InputError
+
+if TYPE_CHECKING:
+    from foamprb.parallel.ranks import Ranks
+    from foamprb.settings.solution import StartFrom
+
+PURPOSE = "track the particles of constant/softCloudProperties"
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the command."""
+    add_flow(parser)
+    when = parser.add_mutually_exclusive_group()
+    when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
+    when.add_argument(
+        "--latestTime", action="store_true", help="the latest time of the flow (the default of a steady one)"
+    )
+    parser.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
+    start = parser.add_mutually_exclusive_group()
+    start.add_argument(
+        "--resume", action="store_true", help="continue from the last checkpoint, if there is one"
+    )
+    start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
+    parser.add_argument(
+        "--threads", type=int, metavar="N", help="number of threads, of each process [all processors]"
+    )
+    parser.add_argument(
+        "--parallel", action="store_true", help="share the particles among the processes of mpirun"
+    )
+    parser.add_argument(
+        "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
+    )
+    parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
+
+
+def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
+    """Execute the command; return the exit status."""
+    from foamprb.run.job import prepare
+    from foamprb.run.log import log_description, log_dry_run
+    from foamprb.run.loop import execute_until_signal
+
+    if arguments.threads is not None and arguments.threads < 1:
+        raise InputError(f"-threads {arguments.threads}: a number >= 1 is needed.")
+    job = prepare(
+        arguments.case,
+        "latestTime" if arguments.latestTime else arguments.time,
+        arguments.dict,
+        arguments.threads or (ranks.threads if ranks else None),
+        source_of(arguments),
+        precompile=ranks is None and not arguments.dry_run,
+        tables=arguments.tables,
+    )
+    log_description(job.description)
+    if arguments.dry_run:
+        log_dry_run(job)
+        return 0
+    start_from: StartFrom | None = None
+    if arguments.resume or arguments.overwrite:
+        start_from = "latestTime" if arguments.resume else "startTime"
+    execute_until_signal(job, start_from, ranks)
+    return 0
