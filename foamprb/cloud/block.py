@@ -122,7 +122,7 @@ class Medium(NamedTuple):
 
 
 REBOUND_NUMBERS = 21
-"""Numbers that are recorded of a rebound (:func:`foamprb.cloud.rebounds.note`)."""
+"""Numbers that are recorded of a rebound (:func:`foamprb.cloud.contact.note`)."""
 
 
 class Scratch(NamedTuple):

@@ -13,20 +13,19 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
-from foamprb.cloud.integrators.registry import automatic
+from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import REBOUND, STICK, Interaction
-from foamprb.cloud.reasons import explain
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.compile.link import link, read_by
 from foamprb.errors import FailedParticlesWarning, InputError
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
-__all__ = ["Cloud", "Snapshot", "Stepper", "longest_semi_axis"]
+__all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
 _ROUND_OFF = 1e-6
@@ -194,7 +193,7 @@ class Cloud:
 
         Returns
         -------
-        A row for each, in the order of their times; see :func:`foamprb.cloud.rebounds.rebounds_of`.
+        A row for each, in the order of their times; see :func:`foamprb.cloud.contact.rebounds_of`.
         """
         return self.tracker.take_rebounds()
 
@@ -337,6 +336,32 @@ class Stepper:
         return cloud.tracker.advance(
             flow, cloud.particles, cloud.step, steps, cloud.threads, cloud.bounds, stop
         )
+
+
+def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
+    """Return the reason of a failure, with the limit or a hint, as the end of a sentence."""
+    reason = Reason(reason)
+    scheme = INTEGRATORS[models.integrator]
+    hint = ""
+    if reason == Reason.STRETCHED:
+        hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there"
+    elif reason == Reason.TOO_LARGE:
+        hint = f"maxSize is {limits.maxSize:g}; no gradient is uniform over such a body"
+    elif reason == Reason.CELLS_TOO_MANY:
+        hint = f"maxCells is {limits.maxCells:g}"
+    elif reason == Reason.WALLS_TOO_MANY:
+        hint = "no gradient is uniform over such a body"
+    elif reason == Reason.SUB_STEPS:
+        hint = f"maxSubSteps is {limits.maxSubSteps:g}"
+    elif reason == Reason.VOLUME_RATIO and models.material == "saintVenantKirchhoff":
+        hint = "a Saint Venant-Kirchhoff solid gives way when it is compressed"
+    elif reason == Reason.VOLUME_RATIO and scheme.adaptive:
+        hint = "the solid is too soft to keep its volume"
+    elif not scheme.adaptive and reason in (
+        Reason.VOLUME_RATIO, Reason.NOT_FINITE, Reason.NOT_CONVERGED,
+    ):  # fmt: skip
+        hint = "Δt beyond stability?"
+    return f"{REASONS[reason]} ({hint})" if hint else REASONS[reason]
 
 
 def longest_semi_axis(p: Particles) -> float:

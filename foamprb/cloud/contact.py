@@ -1,20 +1,86 @@
-"""The wall that a particle has met: its normal, for what is reported of impacts.
+"""Contacts with walls: records of rebounds, and the normals of walls where particles ended.
 
-The names ``gap``, ``walk`` and ``normal`` are bound to the flow when the loop is compiled.
+The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.tensor import Tensor, Vector
+from foamprb.cloud.block import REBOUND_NUMBERS, Scratch, at, load3, load9
 from foamprb.cloud.state import Particles
 from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import walk_free as walk
+
+__all__ = ["CROWDED", "Rebounds", "contact_normals", "in_order", "note", "rebounds_of"]
+
+CROWDED = 2
+"""In :attr:`~foamprb.cloud.block.Scratch.outgrown`: there is no room for a rebound."""
+
+
+class Rebounds(NamedTuple):
+    """Some rebounds, n of them, in the order of their times."""
+
+    number: NDArray[np.int64]
+    """Which particles of the whole cloud they are of, (n,)."""
+    patch: NDArray[np.int64]
+    """The patches, (n,)."""
+    t: NDArray[np.float64]
+    """When, (n,), s."""
+    x: NDArray[np.float64]
+    """Where the centre was, (n, 3), m."""
+    v: NDArray[np.float64]
+    """Its velocity before, (n, 3), m/s."""
+    n: NDArray[np.float64]
+    """The wall's unit normals into the fluid, (n, 3)."""
+    F: NDArray[np.float64]
+    """Deformation gradients at the end of the step, (n, 9)."""
+
+
+def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
+    """Note a rebound of the particle in lane i; its velocity is still that before.
+
+    Parameters
+    ----------
+    t, x
+        When and where its centre then is, s and m.
+    n
+        The wall's unit normal into the fluid.
+    """
+    k = s.noted[0]
+    if k >= s.rebounds.shape[0]:
+        s.outgrown[0] = CROWDED
+        return
+    s.noted[0] = k + 1
+    b, v, F = s.rebounds, load3(s.block, at.v, i), load9(s.block, at.F, i)
+    b[k, 0], b[k, 1], b[k, 2] = s.number[i], patch, t
+    b[k, 3], b[k, 4], b[k, 5] = x[0], x[1], x[2]
+    b[k, 6], b[k, 7], b[k, 8] = v[0], v[1], v[2]
+    b[k, 9], b[k, 10], b[k, 11] = n[0], n[1], n[2]
+    b[k, 12], b[k, 13], b[k, 14] = F[0], F[1], F[2]
+    b[k, 15], b[k, 16], b[k, 17] = F[3], F[4], F[5]
+    b[k, 18], b[k, 19], b[k, 20] = F[6], F[7], F[8]
+
+
+def in_order(rows: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Rows of :func:`note`, (n, 21), in the order of their times; of the same time, in the particles'."""
+    found = np.concatenate([np.empty((0, REBOUND_NUMBERS)), *rows])
+    return found[np.lexsort((found[:, 0], found[:, 2]))]
+
+
+def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
+    """What rows of :func:`note` say."""
+    whole = rows[:, :2].astype(np.int64)
+    return Rebounds(
+        whole[:, 0], whole[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
+    )
 
 
 def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:

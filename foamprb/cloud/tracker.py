@@ -24,6 +24,7 @@ from foamprb.body.rosenbrock import (
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.block import Medium, Scratch, new_scratch
+from foamprb.cloud.contact import CROWDED, in_order, note
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.base import track_share
@@ -32,7 +33,6 @@ from foamprb.cloud.layout import LANES, rows_of
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.motion import RARE, UNLISTED, PatchTable, beyond, clearance_of, reach_end
 from foamprb.cloud.patches import MIRROR, Interaction, Rebound
-from foamprb.cloud.rebounds import CROWDED, in_order, note
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
@@ -329,7 +329,7 @@ class Tracker:
         return outcome
 
     def take_rebounds(self) -> NDArray[np.float64]:
-        """Return the rebounds since the last call, as :func:`foamprb.cloud.rebounds.in_order` does."""
+        """Return the rebounds since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
         found, self.rebounds = self.rebounds, []
         return in_order(found)
 

@@ -10,9 +10,9 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import REBOUND
-from foamprb.cloud.rebounds import Rebounds, in_order, rebounds_of
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
 from foamprb.cloudfunctions.rows import columns, masses, names_of

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.cloud import Cloud, Snapshot, Stepper
+from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain
 from foamprb.cloud.measures import gradients, released
-from foamprb.cloud.reasons import explain
 from foamprb.cloud.report import report
 from foamprb.cloud.state import REASONS, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES

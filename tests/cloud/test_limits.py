@@ -18,11 +18,10 @@ from small_clouds import box_cloud, pipe_cloud
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
 from foamprb.body.material import MATERIALS
 from foamprb.cloud.block import ROWS, Medium, accept_stage, at, load9, store9
-from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.cloud import Cloud, Stepper, explain
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.reasons import explain
 from foamprb.cloud.state import REASONS, Particles, Reason, Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError

@@ -10,8 +10,8 @@ import pytest
 from foamprb import analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.contact import rebounds_of
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.rebounds import rebounds_of
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 

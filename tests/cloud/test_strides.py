@@ -12,9 +12,9 @@ from foamprb import analytic
 from foamprb.body.error_control import GROWTH
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.contact import rebounds_of
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
-from foamprb.cloud.rebounds import rebounds_of
 from foamprb.cloud.state import Particles, Status, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.tracker import Models
