@@ -1,0 +1,112 @@
+"""Public names and their modules; ``__init__.py`` imports each when it is first used."""
+
+from .body.material import Material as Material
+from .body.material import Parameter as Parameter
+from .body.material import add_material as add_material
+from .body.tensor import log_ratio as log_ratio
+from .cloud.block import Medium as Medium
+from .cloud.cloud import Cloud as Cloud
+from .cloud.forces import (
+    Gravity as Gravity,
+)
+from .cloud.forces import (
+    PressureGradient as PressureGradient,
+)
+from .cloud.forces import (
+    VirtualMass as VirtualMass,
+)
+from .cloud.limits import Limits as Limits
+from .cloud.measures import context as context
+from .cloud.measures import measure as measure
+from .cloud.patches import Escape as Escape
+from .cloud.patches import Rebound as Rebound
+from .cloud.patches import Stick as Stick
+from .cloud.state import (
+    Particles as Particles,
+)
+from .cloud.state import (
+    Status as Status,
+)
+from .cloud.state import (
+    set_rest_shape as set_rest_shape,
+)
+from .cloud.state import (
+    spheres as spheres,
+)
+from .cloud.surroundings.brownian import BrownianMotion as BrownianMotion
+from .cloud.surroundings.dispersion import (
+    GradientDispersion as GradientDispersion,
+)
+from .cloud.surroundings.dispersion import (
+    StochasticDispersion as StochasticDispersion,
+)
+from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
+from .cloud.surroundings.wall_lift import WallLift as WallLift
+from .cloud.tracker import Models as Models
+from .errors import (
+    FailedParticlesWarning as FailedParticlesWarning,
+)
+from .errors import (
+    InputError as InputError,
+)
+from .errors import (
+    RunStopped as RunStopped,
+)
+from .flow import analytic as analytic
+from .flow.read.case import select_times as select_times
+from .flow.read.division import Division as Division
+from .flow.read.meshfile import read_mesh_file as read_mesh_file
+from .flow.read.meshfile import read_mesh_series as read_mesh_series
+from .flow.read.openfoam import read_case as read_case
+from .flow.read.series import read_series as read_series
+from .flow.series import SeriesFlow as SeriesFlow
+from .run.job import Job as Job
+from .run.job import prepare as prepare
+from .run.loop import execute as execute
+from .settings.fluid import read_medium as read_medium
+from .view.results import open_run as open_run
+
+__all__ = [
+    "BrownianMotion",
+    "Cloud",
+    "Division",
+    "Escape",
+    "FailedParticlesWarning",
+    "FaxenCorrection",
+    "GradientDispersion",
+    "Gravity",
+    "InputError",
+    "Job",
+    "Limits",
+    "Material",
+    "Medium",
+    "Models",
+    "Parameter",
+    "Particles",
+    "PressureGradient",
+    "Rebound",
+    "RunStopped",
+    "SeriesFlow",
+    "Status",
+    "Stick",
+    "StochasticDispersion",
+    "VirtualMass",
+    "WallLift",
+    "add_material",
+    "analytic",
+    "context",
+    "execute",
+    "log_ratio",
+    "measure",
+    "open_run",
+    "prepare",
+    "read_case",
+    "read_medium",
+    "read_mesh_file",
+    "read_mesh_series",
+    "read_series",
+    "select_times",
+    "set_rest_shape",
+    "spheres",
+]
+__version__: str
