@@ -22,37 +22,37 @@ from foamprb.flow.analytic import walk_free as walk
 __all__ = ["CROWDED", "Rebounds", "contact_normals", "in_order", "note", "rebounds_of"]
 
 CROWDED = 2
-"""In :attr:`~foamprb.cloud.block.Scratch.outgrown`: there is no room for a rebound."""
+"""Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: the buffer of rebounds is full."""
 
 
 class Rebounds(NamedTuple):
-    """Some rebounds, n of them, in the order of their times."""
+    """Records of n rebounds, in the order of their times."""
 
     number: NDArray[np.int64]
-    """Which particles of the whole cloud they are of, (n,)."""
+    """Numbers of the particles in the whole cloud, (n,)."""
     patch: NDArray[np.int64]
-    """The patches, (n,)."""
+    """Patches, (n,)."""
     t: NDArray[np.float64]
-    """When, (n,), s."""
+    """Times, (n,), s."""
     x: NDArray[np.float64]
-    """Where the centre was, (n, 3), m."""
+    """Positions of the centres, (n, 3), m."""
     v: NDArray[np.float64]
-    """Its velocity before, (n, 3), m/s."""
+    """Velocities before the rebounds, (n, 3), m/s."""
     n: NDArray[np.float64]
-    """The wall's unit normals into the fluid, (n, 3)."""
+    """Unit normals of the walls, into the fluid, (n, 3)."""
     F: NDArray[np.float64]
     """Deformation gradients at the end of the step, (n, 9)."""
 
 
 def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
-    """Note a rebound of the particle in lane i; its velocity is still that before.
+    """Record a rebound of the particle in lane i, before its velocity changes.
 
     Parameters
     ----------
     t, x
-        When and where its centre then is, s and m.
+        Time, s, and position of its centre, m.
     n
-        The wall's unit normal into the fluid.
+        Unit normal of the wall, into the fluid.
     """
     k = s.noted[0]
     if k >= s.rebounds.shape[0]:
@@ -70,13 +70,13 @@ def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None
 
 
 def in_order(rows: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Rows of :func:`note`, (n, 21), in the order of their times; of the same time, in the particles'."""
+    """Return rows of :func:`note`, (n, 21), in the order of their times, then of particle numbers."""
     found = np.concatenate([np.empty((0, REBOUND_NUMBERS)), *rows])
     return found[np.lexsort((found[:, 0], found[:, 2]))]
 
 
 def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
-    """What rows of :func:`note` say."""
+    """Return the records in rows of :func:`note`."""
     whole = rows[:, :2].astype(np.int64)
     return Rebounds(
         whole[:, 0], whole[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
@@ -84,10 +84,10 @@ def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
 
 
 def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:
-    """Find the normals, into the fluid, of the boundary on which the particles of some rows have ended.
+    """Find the normals, into the fluid, of the walls on which the particles of some rows have ended.
 
-    The nearest wall counts if it is of the patch that the particle stuck to, else what its path would cross
-    within a radius; NaN where neither is found.
+    The normal is that of the nearest wall if it belongs to the particle's patch, otherwise of the face that
+    its path would cross within a radius; NaN where neither is found.
     """
     for i in range(len(rows)):
         k = rows[i]

@@ -1,4 +1,4 @@
-"""What is reported of a particle: shape, orientation, rotation and load, derived from its state.
+"""Measures of a particle: shape, orientation, rotation and load, derived from its state.
 
 The formulas are compiled, and go through the particles by blocks of lanes as those of the particle loop do.
 Measuring a large cloud takes no memory that grows with it: :func:`contexts` gives some thousands of particles
@@ -59,11 +59,11 @@ from foamprb.flow.base import Flow, Sampled
 Floats = NDArray[np.float64]
 
 PER_CONTEXT = 1 << 14
-"""Most particles of one of :func:`contexts`: so few that their numbers stay in the processor's cache."""
+"""Most particles of one of :func:`contexts`; their arrays stay in the processor's cache."""
 
 
 class FoundRows(NamedTuple):
-    """Below the rows of a block, what is found out about its particles."""
+    """Rows of computed values below the rows of a block."""
 
     gradient: Annotated[int, Row(9, "1", "F·F₀⁻¹, the deformation gradient from the shape at rest")]
     glyph: Annotated[int, Row(9, "m", "columns of R F one after the other")]
@@ -82,7 +82,7 @@ _SIZES = dict(zip(result._fields, np.diff((*result, ALL_ROWS)).tolist(), strict=
 
 
 class Context(NamedTuple):
-    """Particles with what several measures need of them."""
+    """Particles with the values that several measures share."""
 
     particles: Particles
     F: Tensor
@@ -93,7 +93,7 @@ class Context(NamedTuple):
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
     found: Mapping[str, Floats]
-    """The :class:`FoundRows` of all particles by name, (n, k)."""
+    """Values of :class:`FoundRows` of all particles by name, (n, k)."""
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
@@ -102,14 +102,14 @@ class Context(NamedTuple):
 
 
 class Gradients(NamedTuple):
-    """What a flow was around the particles of a cloud at one moment."""
+    """Velocity gradients around the particles of a cloud at one time."""
 
     l_f: Floats
     """∂u_i/∂x_j, (n, 9), 1/s; NaN where the fluid is unknown."""
 
 
 class Measure(NamedTuple):
-    """A reported quantity: its unit, and the function that computes it for all particles."""
+    """Reported quantity: its unit, and the function that computes it for all particles."""
 
     unit: str
     value: Callable[[Context], NDArray[Any]]
@@ -120,13 +120,13 @@ class Measure(NamedTuple):
 
 
 def shear_rate(l_f: Tensor) -> Any:
-    """Shear rate γ̇ = √(2 d_f:d_f) of a velocity gradient, 1/s."""
+    """Return the shear rate γ̇ = √(2 d_f:d_f) of a velocity gradient, 1/s."""
     d = sym(l_f)
     return np.sqrt(2.0 * ddot(d, d))
 
 
 def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-    """Unit quaternion (w, x, y, z), w ≥ 0, of the rotation that carries the fixed axes onto the rows of Q.
+    """Return the unit quaternion (w, x, y, z), w ≥ 0, of the rotation of the fixed axes onto the rows of Q.
 
     Of the four quaternions that follow from the sums and differences of components, that with the largest
     norm (Shepperd 1978).
@@ -146,7 +146,7 @@ def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
 
 
 def sort_stage(block: Any) -> None:
-    """Put the axes of the frames in falling order of length."""
+    """Sort the axes of the frames by length, the longest first."""
     for i in range(LANES):
         Q, stretches = sorted_frame(load9(block, at.Q, i), load3(block, at.stretch, i))
         store9(block, at.Q, i, Q)
@@ -154,7 +154,7 @@ def sort_stage(block: Any) -> None:
 
 
 def report_stage(block: Any, mu: float) -> None:
-    """All that the frames, the stretches and their integrals are needed for.
+    """Compute the values that need frames, stretches and their integrals.
 
     The stresslet is S = V μ_f dev sym s̃(d, w), the body's extra stress times volume (Batchelor 1970), where
     s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
@@ -194,7 +194,7 @@ def find_out(
     frames: Floats,
     found: tuple[Floats, ...],
 ) -> None:
-    """Find out the frames, the stretches and the :class:`FoundRows` of n particles.
+    """Compute the frames, the stretches and the :class:`FoundRows` of n particles.
 
     Parameters
     ----------
@@ -242,7 +242,7 @@ def find_out(
 
 
 _STAGES = (stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage)
-"""Compiled each on its own; the particle loop has most of them as well."""
+"""Stages that are compiled separately; the particle loop has most of them too."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -250,7 +250,7 @@ _STAGES = (stretch_stage, straighten_stage, compact_stage, elongated_stage, sort
 
 
 def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
-    """Shear rate γ̇ of the flow where the particles are, at ``time`` (s), (n,), 1/s."""
+    """Return the shear rate γ̇ of the flow at the particles at ``time`` (s), (n,), 1/s."""
     rate = np.empty(p.size)
     for start in range(0, p.size, PER_CONTEXT):
         part = slice(start, start + PER_CONTEXT)
@@ -260,7 +260,7 @@ def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
 
 
 def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
-    """The largest γ̇ τ_s of the particles where they start, at ``time`` (s), in a fluid of μ_f (Pa s)."""
+    """Return the largest γ̇ τ_s of the particles at ``time`` (s) in a fluid of viscosity μ_f (Pa s)."""
     if p.size == 0:
         return 0.0
     rate = shear_rate_at(flow, p, time)
@@ -268,7 +268,7 @@ def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> flo
 
 
 def _found(name: str) -> Callable[[Context], Floats]:
-    """What was found out, by its name among the :class:`FoundRows`."""
+    """Return a function that reads a value of :class:`FoundRows` by its name."""
     return lambda c: c.found[name] if _SIZES[name] > 1 else c.found[name][:, 0]
 
 
@@ -335,7 +335,7 @@ def contexts(
     time: float,
     ids: NDArray[np.int64] | None = None,
 ) -> Iterator[Context]:
-    """Prepare the injected particles of a cloud a few at a time, in order; of none, one context of none.
+    """Prepare the injected particles of a cloud part by part, in order; an empty cloud gives one empty context.
 
     Parameters
     ----------
@@ -348,17 +348,17 @@ def contexts(
 
 
 def number_of_contexts(n: int) -> int:
-    """Number of :func:`contexts` that n injected particles have."""
+    """Return the number of :func:`contexts` of n injected particles."""
     return max(1, -(-n // PER_CONTEXT))
 
 
 def injected(particles: Particles) -> NDArray[np.int64]:
-    """Rows of the particles that are or were in the flow."""
+    """Return the rows of the injected particles."""
     return np.flatnonzero(particles.status != Status.PENDING)
 
 
 def released(particles: Particles, flow: Sampled, time: float) -> Particles:
-    """The same particles, among which those that are injected at ``time`` (s) have been.
+    """Return the same particles, with the particles due at ``time`` (s) injected.
 
     They move with the fluid's velocity if none is given, and do not yet turn or deform.
     """
@@ -372,12 +372,12 @@ def released(particles: Particles, flow: Sampled, time: float) -> Particles:
 
 
 def measure(c: Context) -> dict[str, NDArray[Any]]:
-    """All of :data:`MEASURES`, by name."""
+    """Return all :data:`MEASURES` by name."""
     return {name: np.asarray(m.value(c)) for name, m in MEASURES.items()}
 
 
 def gradients(particles: Particles, flow: Sampled, time: float) -> Gradients:
-    """What a flow is at a time (s) around the injected particles of a cloud."""
+    """Return the velocity gradients at a time (s) around the injected particles of a cloud."""
     l_f = np.full((particles.size, 9), np.nan)
     rows = injected(particles)
     for start in range(0, len(rows), PER_CONTEXT):
@@ -411,14 +411,14 @@ def _finder() -> Any:
 
 
 def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
-    """The same rows as a slice, which copies nothing, if they follow each other."""
+    """Return consecutive rows as a slice, which avoids a copy; others as they are."""
     n = len(rows)
     follow = n > 0 and rows[-1] - rows[0] == n - 1 and bool((np.diff(rows) == 1).all())
     return slice(rows[0], rows[-1] + 1) if follow else rows
 
 
 def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> Floats:
-    """∂u_i/∂x_j at points, (n, 9); NaN where there is no flow."""
+    """Return ∂u_i/∂x_j at points, (n, 9); NaN outside the flow."""
     known = (hosts >= 0) & np.isfinite(x).all(axis=1)
     if known.all():
         return flow.sample(x, hosts, time)[1].reshape(-1, 9)

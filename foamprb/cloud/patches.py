@@ -1,4 +1,4 @@
-"""What a patch does to a particle that meets it: OpenFOAM's patch interaction models, with its entries."""
+"""Interactions of particles with patches: OpenFOAM's models, with its entries."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ STICK, ESCAPE, REBOUND, MIRROR, CYCLIC = 0, 1, 2, 3, 4
 
 
 class Interaction(Schema, Protocol):
-    """What a patch does to a particle; the particle loop acts on the code."""
+    """Interaction with a patch, which the particle loop selects by its code."""
 
     code: ClassVar[int]
 
 
 @dataclass(frozen=True)
 class Stick:
-    """The particle stays where it touches the patch."""
+    """Sticking: the particle stays where it touches the patch."""
 
     code: ClassVar[int] = STICK
 
 
 @dataclass(frozen=True)
 class Escape:
-    """The particle leaves the domain through the patch, when its centre does."""
+    """Escape: the particle leaves the domain when its centre crosses the patch."""
 
     code: ClassVar[int] = ESCAPE
 
 
 @dataclass(frozen=True)
 class Rebound:
-    """The particle bounces off: restitution ``e`` normal to the patch, friction ``mu`` along it."""
+    """Rebound with restitution ``e`` normal to the patch and friction ``mu`` along it."""
 
     e: Annotated[float, Fraction, Meaning("restitution, normal to the patch", "1")] = 1.0
     mu: Annotated[float, NonNegative, Meaning("friction, along the patch", "1")] = 0.0
@@ -43,14 +43,14 @@ class Rebound:
 
 @dataclass(frozen=True)
 class Mirror:
-    """The particle's mirror image comes in, velocity and shape, when its centre meets the plane."""
+    """Reflection: the particle's mirror image enters, velocity and shape, when its centre meets the plane."""
 
     code: ClassVar[int] = MIRROR
 
 
 @dataclass(frozen=True)
 class Cyclic:
-    """The particle goes on from the neighbouring patch when its centre meets this one."""
+    """Periodicity: the particle enters by the neighbouring patch when its centre meets this one."""
 
     code: ClassVar[int] = CYCLIC
 
@@ -60,11 +60,11 @@ INTERACTIONS: dict[str, type[Interaction]] = {
     "escape": Escape,
     "rebound": Rebound,
 }
-"""What a user may choose; the others follow from the type of the patch."""
+"""Interactions that users select; the others follow from the type of the patch."""
 
 
 def rebound_velocity(v: Vector, n: Vector, e: Scalar, mu: Scalar) -> Vector:
-    """Velocity after a bounce, as OpenFOAM's ``rebound`` has it.
+    """Return the velocity after a rebound, as OpenFOAM's ``rebound`` computes it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is written of particles: their measures, as points with arrays."""
+"""Measures of particles as points with arrays, for files."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def report(
     names: Mapping[str, Sequence[str]],
     ids: NDArray[np.int64] | None = None,
 ) -> Parts:
-    """All measures of the injected among some particles, computed part by part as they are asked for.
+    """Return all measures of the injected particles, computed part by part on request.
 
     Parameters
     ----------
     particles, flow, mu, time, ids
-        As of :func:`foamprb.cloud.measures.context`.
+        See :func:`foamprb.cloud.measures.context`.
     names
-        For each array of codes, what the codes 0, 1, … mean.
+        For each array of codes, the meanings of the codes 0, 1, ….
     """
     units = {name: m.unit for name, m in MEASURES.items()}
 

@@ -1,4 +1,4 @@
-"""Which particles have a shape for which the paper's explicit traction makes Δt too long."""
+"""Stability limit of the integrator ``paper``, whose traction is explicit, for each particle's shape."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _PENDING, _FAILED = int(Status.PENDING), int(Status.FAILED)
 
 
 def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
-    """The longest step, s, with which ``paper`` is stable for each shape, (n,); infinite if it is Δt or more.
+    """Return the longest stable step of ``paper`` for each shape, (n,), s; infinite if it is Δt or more.
 
-    Particles that have ended count with the shape that they ended with.
+    For a particle that has ended, the shape is its last one.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
     material
         Name of the solid.
     """
-    # A few at a time, for the sake of memory.
+    # Part by part, to limit memory.
     starts = range(0, p.size, _CHUNK)
     parts = [_limits(p.take(slice(k, k + _CHUNK)), mu_f, dt, material) for k in starts]
     return np.concatenate([np.empty(0), *parts])
@@ -43,8 +43,8 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
 
 def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
     limits = np.full(p.size, np.inf)
-    # Once it is beyond, a shape oscillates with each step, and may be within for a while: so what it was
-    # before the last step, and what it would be after another such, are looked at as well.
+    # Beyond the limit a shape oscillates from step to step, and is at times within it. Therefore the shapes
+    # one step before and one step after are tested as well.
     for steps in (0.0, -1.0, 1.0):
         doubtful = np.zeros(p.size, dtype=bool)
         link(_find_doubtful)(p.status, p.F, p.A, p.R, p.rho, p.eta, mu_f, dt, steps, doubtful)
@@ -63,7 +63,7 @@ def _find_doubtful(
     status: NDArray[np.int8], F: Floats, A: Floats, R: Floats, rho: Floats, eta: Floats,
     mu_f: float, dt: float, steps: float, doubtful: NDArray[np.bool_],
 ) -> None:  # fmt: skip
-    """Mark the particles whose shape, so many steps from now, might not be stable with every elasticity."""
+    """Mark particles whose shape, after a number of steps, may be unstable for some elasticity."""
     h = steps * dt
     for n in range(len(doubtful)):
         if status[n] != _PENDING and status[n] != _FAILED:
@@ -79,7 +79,7 @@ def _find_limits(
     F: Floats, F0: Floats, R: Floats, rho: Floats, mu: Floats, lame: Floats, k: Floats, eta: Floats,
     mu_f: float, dt: float, found: Floats,
 ) -> None:  # fmt: skip
-    """Put the longest stable steps into ``found``; the other arguments are those of the particles."""
+    """Store the longest stable steps in ``found``; see :class:`Particles` for the other arguments."""
     for n in range(len(found)):
         Q, stretches = principal_frame(_tensor(F, n))
         g = integrals(stretches)

@@ -1,6 +1,6 @@
-"""The arrays of a cloud: one structure of arrays with a leading particle axis.
+"""State of a cloud: one structure of arrays with a leading particle axis.
 
-What is saved, restarted and written is read off this declaration (:data:`VARIABLES`).
+This declaration (:data:`VARIABLES`) determines the arrays that are saved, restored and exchanged.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Array: TypeAlias = NDArray[Any]
 
 
 class Status(IntEnum):
-    """What a particle is doing. Injected are all but the pending."""
+    """Status of a particle. All but the pending ones count as injected."""
 
     PENDING = 0
     ACTIVE = 1
@@ -30,7 +30,7 @@ class Status(IntEnum):
 
 
 class Reason(IntEnum):
-    """Why a particle failed."""
+    """Reason of a failure."""
 
     NONE = 0
     LOST = 1
@@ -60,22 +60,22 @@ REASONS: dict[Reason, str] = {
     Reason.SUB_STEPS: "it needs more than maxSubSteps time steps in one tracking step",
     Reason.CELLS_TOO_MANY: "its longest semi-axis is beyond maxCells of the cell that holds its centre",
 }
-"""What happened, as the end of a sentence on a particle."""
+"""Reasons in words, as the end of a sentence about a particle."""
 
 
 class Variable(NamedTuple):
-    """How one array of the cloud is laid out, and what it means."""
+    """Layout and meaning of one array of the cloud."""
 
     shape: tuple[int, ...]
     dtype: str
     unit: str
     meaning: str
     fixed: bool = False
-    """Whether it stays what it was when the particle was made."""
+    """Whether steps leave it unchanged."""
 
 
 class Particles(NamedTuple):
-    """The state of n particles; every array has n rows."""
+    """State of n particles; every array has n rows."""
 
     x: Annotated[Array, Variable((3,), "f8", "m", "position of the barycentre")]
     v: Annotated[
@@ -98,26 +98,24 @@ class Particles(NamedTuple):
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection", fixed=True)]
     x0: Annotated[Array, Variable((3,), "f8", "m", "position of injection", fixed=True)]
     t: Annotated[Array, Variable((), "f8", "s", "time to which the particle has come")]
-    h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 until it has one")]
+    h: Annotated[Array, Variable((), "f8", "s", "time step that its error allows; 0 before the first")]
     discount: Annotated[
         Array,
-        Variable((), "f8", "1", "share of what order 2 is judged by that does not count, as was learned"),
+        Variable((), "f8", "1", "estimated share of the error estimate of order 2 that is not an error"),
     ]
     demanding: Annotated[Array, Variable((), "i1", "", "1 if steps like its last one go to order 3, else 0")]
     substeps: Annotated[
         Array,
-        Variable(
-            (), "f8", "1", "time steps per tracking step in its last stretch of these, also those repeated"
-        ),
+        Variable((), "f8", "1", "time steps per tracking step, repeated ones included, in its last stretch"),
     ]
     status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
     reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
-    patch: Annotated[Array, Variable((), "i4", "", "patch that it stuck to or left through, else -1")]
+    patch: Annotated[Array, Variable((), "i4", "", "patch where it stuck or left, else -1")]
     host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
     number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
     close: Annotated[Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted")]
-    eddy: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of the eddy that it is in, if it meets any")]
-    eddyTime: Annotated[Array, Variable((), "f8", "s", "time that this eddy still has, or its age")]
+    eddy: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of its eddy, if there are eddies")]
+    eddyTime: Annotated[Array, Variable((), "f8", "s", "remaining life of this eddy, or its age")]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
 
     @property
@@ -126,26 +124,26 @@ class Particles(NamedTuple):
         return len(self.R)
 
     def counts(self) -> dict[Status, int]:
-        """Number of particles of each status; the numbers sum to :attr:`size`."""
+        """Return the number of particles of each status; the numbers sum to :attr:`size`."""
         return {status: int(np.count_nonzero(self.status == status)) for status in Status}
 
     def take(self, rows: Array | slice) -> Particles:
-        """The particles of the given rows: copied, or of a slice as they are."""
+        """Return the particles of some rows: copies, or views for a slice."""
         return Particles(*(array[rows] for array in self))
 
     def copy_changing(
         self, into: Particles | None = None, names: Collection[str] | None = None, threads: int = 1
     ) -> Particles:
-        """The same state, with copies of the arrays that change.
+        """Return the same state with copies of the arrays that steps change.
 
         Parameters
         ----------
         into
-            An earlier copy of as many particles, whose memory is used again.
+            An earlier copy of as many particles, whose memory is overwritten.
         names
-            Which these are; by default all that may.
+            Names of these arrays; by default all that any loop changes.
         threads
-            How many copy.
+            Number of threads that copy.
         """
 
         def copied(name: str) -> Array:
@@ -156,7 +154,7 @@ class Particles(NamedTuple):
             np.copyto(place, array)
             return place
 
-        # The largest first, so that all are done at about the same time.
+        # The largest first, so that all threads end at about the same time.
         changing = sorted(CHANGING if names is None else names, key=lambda name: -getattr(self, name).nbytes)
         with ThreadPoolExecutor(threads) as pool:
             copies = dict(zip(changing, pool.map(copied, changing), strict=True))
@@ -172,7 +170,7 @@ CHANGING = tuple(name for name, variable in VARIABLES.items() if not variable.fi
 
 
 def empty(n: int) -> Particles:
-    """N pending spheres at rest, at the origin, with zero size and stiffness."""
+    """Return n pending spheres at rest, at the origin, with zero size and stiffness."""
     arrays = {name: np.zeros((n, *v.shape), dtype=v.dtype) for name, v in VARIABLES.items()}
     arrays["F"][:] = arrays["F0"][:] = arrays["Q"][:] = np.eye(3).ravel()
     arrays["patch"][:] = -1
@@ -181,13 +179,13 @@ def empty(n: int) -> Particles:
 
 
 def concatenate(parts: Iterable[Particles]) -> Particles:
-    """One cloud of several, in order; of one, itself. What nobody else holds of the parts is given up."""
+    """Return one cloud of several, in order; a single one is returned as it is."""
     arrays = [list(part) for part in parts]
     if not arrays:
         return empty(0)
     if len(arrays) == 1:
         return Particles(*arrays[0])
-    # One variable after the other, so that never all are in memory twice.
+    # One variable after the other: the parts are freed meanwhile, so that memory holds one variable twice.
     return Particles(*(np.concatenate([part.pop(0) for part in arrays]) for _ in Particles._fields))
 
 
@@ -204,7 +202,7 @@ def spheres(
     gamma: Any = 0.0,
     t0: Any = 0.0,
 ) -> Particles:
-    """Pending spheres at rest.
+    """Return pending spheres at rest.
 
     Parameters
     ----------
@@ -214,11 +212,11 @@ def spheres(
         Diameter (m), density (kg/m³), shear modulus (Pa), third parameter and viscosity (Pa s) of the solid,
         surface tension (N/m) and time of injection (s), one for all or (n,).
     poissons_ratio
-        Of the solid, below ½.
+        Poisson's ratio of the solid, below ½.
     bulk_modulus
-        Of the solid, Pa, one for all or (n,), in place of Poisson's ratio. The softer the solid, the more it
-        is compressed if that is given; :func:`foamprb.body.compressibility.sufficient_bulk_modulus` keeps the
-        volume.
+        Bulk modulus of the solid, Pa, one for all or (n,), in place of Poisson's ratio. At a fixed ratio,
+        softer solids change their volume more;
+        :func:`foamprb.body.compressibility.sufficient_bulk_modulus` keeps it.
     """
     p = empty(len(x))
     p.x[:] = p.x0[:] = x
@@ -235,7 +233,7 @@ def spheres(
 def set_rest_shape(
     p: Particles, ratios: Any, axes: Any = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 ) -> None:
-    """Make ellipsoids of spheres at rest, of the same volume.
+    """Turn spheres at rest into ellipsoids of the same volume, in place.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The compiled loop over particles, put together from the models that a cloud selects."""
+"""The compiled loop over particles, composed of the models that a cloud selects."""
 
 from __future__ import annotations
 
@@ -56,23 +56,23 @@ def available_threads() -> int:
 
 
 class Outcome(NamedTuple):
-    """How far the particles came in some steps.
+    """Progress of particles in some steps.
 
-    Where they did not all come to the end, some are there and the others where they began; the same steps
-    taken again take the others there, to the same state.
+    If not all particles reached the end, each is either there or where it began. The same steps taken again
+    bring the others to the end, to the same state.
     """
 
     mended: int = 0
-    """Number of walks that failed and were mended by the tree."""
+    """Number of failed walks that a tree search repaired."""
     finished: bool = True
-    """Whether all particles came to the end."""
+    """Whether all particles reached the end."""
     outgrown: bool = False
-    """Whether one did not as it may touch walls that are not listed."""
+    """Whether a particle stopped because it may touch walls that are not listed."""
     crowded: bool = False
-    """Whether some did not as there was no room for their rebounds; there is now."""
+    """Whether particles stopped because the buffer of rebounds was full; it is larger now."""
 
     def __add__(self, other: Any) -> Outcome:
-        """Of two shares of the particles."""
+        """Return the sum of two outcomes."""
         return Outcome(
             self.mended + other.mended,
             self.finished and other.finished,
@@ -90,35 +90,33 @@ class Models:
     material: str = "neoHooke"
     touching: Literal["ellipsoid", "centre"] = "ellipsoid"
     integrator: str = "auto"
-    """``auto`` is chosen by a cloud, by its particles' largest shape Stokes number where they start."""
+    """``auto``: the cloud chooses by the largest shape Stokes number of its particles at their start."""
     tolerance: float = 1e-4
     """Largest error of a step of ``stokes`` and ``rosenbrock``; infinite for steps of fixed size."""
     forces: tuple[Force, ...] = DEFAULT
-    """What acts on the barycentre beside drag."""
+    """Forces on the barycentre beside drag."""
     surroundings: tuple[Surrounding, ...] = ()
-    """What changes the fluid that a particle feels, in this order."""
+    """Models that change the fluid at a particle, in this order."""
     rebounds: bool = False
-    """Whether it is noted where and when particles bounce off (:meth:`Tracker.take_rebounds`)."""
+    """Whether rebounds are recorded (:meth:`Tracker.take_rebounds`)."""
     stride: int = 1
-    """How many tracking steps Δt long a step of ``stokes`` or ``rosenbrock`` may be where its error allows
-    it. None goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+    """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt. No step
+    goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
 
 
 class Tracker:
-    """The compiled loop over particles with everything that acts on them, but neither particles nor flow.
+    """Compiled loop over particles with all models, without particles and flow.
 
     Parameters
     ----------
-    models
-        Names of the models.
+    models, medium, interactions, dt, start
+        See :class:`foamprb.cloud.cloud.Cloud`.
     kernels
-        The functions of the flow, as :class:`~foamprb.flow.base.Flow` has them.
-    medium, interactions, dt, start
-        As of a :class:`Cloud`.
+        Functions of the flow, ``Flow.kernels``.
     shaped, tense
-        Whether some particle is no sphere at rest; whether some has surface tension.
+        Whether a particle is not a sphere at rest; whether one has surface tension.
     patches
-        The flow's.
+        Patches of the flow.
     """
 
     def __init__(
@@ -145,7 +143,7 @@ class Tracker:
             bindings["dilation"] = material.dilation
             bindings["elasticity"] = elasticity_by_dilation
             bindings["extra_elasticity"] = extra_elasticity_by_dilation
-        # In its particle frame the elastic strain of a sphere is diagonal.
+        # The elastic strain of a sphere is diagonal in its particle frame.
         if shaped:
             bindings |= {"finger": finger, "finger_in_frame": finger_in_frame}
             bindings |= {"kirchhoff": kirchhoff, "extra_stress": extra_stress}
@@ -181,35 +179,35 @@ class Tracker:
         )
         self.dt, self.start = dt, start
         self.stride = 1
-        # What surrounds a body may change, and be drawn, with each tracking step.
+        # Surroundings may change, or draw random numbers, in each tracking step.
         if integrator.adaptive and models.tolerance < np.inf and not models.surroundings:
             self.stride = models.stride
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
         self.whole = stretch_of(self.stride)
-        """Calls that begin and end at multiples of so many steps may cut a run anywhere: no bit changes."""
+        """Multiple of steps at which a run may be cut into calls without any change of its results."""
         self.rebounds: list[NDArray[np.float64]] = []
         self._room = _ROOM if models.rebounds else 0
         self._track = link(track_share, {**self.bindings, "track": integrator.track}, self.separate)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Another process compiles for itself.
+        # Compiled code is not sent; the other process loads it from the cache.
         return Tracker, self._made_of
 
     @property
     def changing(self) -> frozenset[str]:
-        """Names of the arrays of particles that the loop may change with these models and patches."""
+        """Names of the particle arrays that the loop may change."""
         rows = [row for part in self.layout.parts for row in rows_of(type(part)).values()]
         saved = {row.of for row in rows if row.saved} | {"status", "reason", "patch", "host"}
-        # Only a mirror changes a shape at rest.
+        # Only mirrors change shapes at rest.
         return frozenset(saved if MIRROR in self.table.code else saved - {"F0"})
 
     @property
     def compiled(self) -> bool:
-        """Whether the loop is compiled already."""
+        """Whether the loop is compiled, or in the cache."""
         return is_compiled(self._track)
 
     def compile(self, flow: Any) -> None:
-        """Compile the loop in this thread, with what the flow's kernels read."""
+        """Compile the loop for the arguments of a flow's kernels."""
         nothing = np.empty(0, dtype=np.int64)
         scratch = self._scratch()
         self._track(
@@ -218,13 +216,13 @@ class Tracker:
         )  # fmt: skip
 
     def compile_moves(self, flow: Any) -> None:
-        """Compile what comes after the stages in each step, with what the flow's kernels read."""
+        """Compile the moves at the end of each step."""
         self._compile(reach_end, {"flow": flow})
 
     def compile_contact(self, flow: Any) -> None:
-        """Compile what takes particles to walls, through coupled patches and into lanes, likewise.
+        """Compile contacts with walls, coupled patches and the first of the rare parts.
 
-        Of the rare parts the first, which takes as long as all others: these come with the loop.
+        The other rare parts are compiled with the loop; together they take as long as the first.
         """
         self._compile(clearance_of, {"flow": flow})
         for part in (beyond, *self.integrator.rare[:1]):
@@ -236,7 +234,7 @@ class Tracker:
             self._compile(stage, {})
 
     def _compile(self, function: Callable[..., Any], arguments: dict[str, Any]) -> None:
-        """Compile a part of the loop, with examples of those arguments that not every part has."""
+        """Compile a part of the loop with examples of its arguments."""
         scratch, vector = self._scratch(), (0.0, 0.0, 0.0)
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix}
@@ -261,21 +259,21 @@ class Tracker:
         bounds: LoopLimits = LoopLimits(),  # noqa: B008
         stop: Callable[[], bool] = never,
     ) -> Outcome:
-        """Carry particles from step ``step`` through ``steps`` steps, in place.
+        """Advance particles from step ``step`` by ``steps`` steps, in place.
 
         Parameters
         ----------
         flow
-            What the flow's kernels read.
+            Arguments of the flow's kernels.
         bounds
-            What no particle may pass.
+            Limits of each particle.
         stop
-            Asked some times a second: true to end before all are at the end. A signal's handler that raises
-            ends it as well.
+            Called several times a second; the steps end early if it returns True or a signal's handler
+            raises.
         """
         last = step + steps
         reached = np.full(p.size, step)
-        # An earlier call may have been stopped after some had come farther than others.
+        # After an interrupted call some particles are ahead of others.
         active = p.status == Status.ACTIVE
         reached[active] = np.maximum(step, np.rint((p.t[active] - self.start) / self.dt).astype(np.int64))
         outcome = Outcome()
@@ -298,24 +296,24 @@ class Tracker:
         bounds: LoopLimits,
         stop: Callable[[], bool],
     ) -> Outcome:
-        """Carry the particles of some rows from a step through so many steps."""
+        """Advance the particles of some rows from a step by a number of steps."""
         halt = np.zeros(1, dtype=np.int64)
 
-        def work(share: Share) -> Outcome:
+        def work(task: Task) -> Outcome:
             scratch = self._scratch(halt, bounds)
             mended: int = self._track(
-                flow, self.table, self.medium, p, *share, self.dt, self.start, scratch, self.options
+                flow, self.table, self.medium, p, *task, self.dt, self.start, scratch, self.options
             )
             if scratch.noted[1]:
                 self.rebounds.append(scratch.rebounds[: scratch.noted[1]].copy())
             outgrown = scratch.outgrown[0]
             return Outcome(mended, not (outgrown or halt[0]), outgrown == UNLISTED, outgrown == CROWDED)
 
-        # A thread that is held up leaves the shares that it has not begun to others.
-        shares = shares_of(p, rows, steps, (self.dt, self.start), _SHARES * threads if threads > 1 else 1)
-        # Also one share goes to another thread: this one answers signals meanwhile.
+        # Several tasks per thread, so that a delayed thread leaves some to the others.
+        tasks = tasks_of(p, rows, steps, (self.dt, self.start), _TASKS * threads if threads > 1 else 1)
+        # Even a single task runs in another thread: this one handles signals meanwhile.
         with ThreadPoolExecutor(threads) as pool:
-            under_way = [pool.submit(work, share) for share in shares]
+            under_way = [pool.submit(work, task) for task in tasks]
             try:
                 while wait(under_way, _PATIENCE).not_done:
                     if stop():
@@ -323,7 +321,7 @@ class Tracker:
             except BaseException:
                 halt[0] = 1
                 raise
-        outcome = sum((share.result() for share in under_way), Outcome())
+        outcome = sum((task.result() for task in under_way), Outcome())
         if outcome.crowded:
             self._room *= _MORE_ROOM
         return outcome
@@ -334,40 +332,39 @@ class Tracker:
         return in_order(found)
 
 
-class Share(NamedTuple):
-    """Particles that a thread carries, as :func:`foamprb.cloud.integrators.base.track_share` wants them."""
+class Task(NamedTuple):
+    """Particles and steps of one call of the compiled loop."""
 
     rows: NDArray[np.int64]
     step: int
     steps: int
 
 
-def shares_of(
+def tasks_of(
     p: Particles, rows: NDArray[np.int64], steps: tuple[int, int], times: tuple[float, float], number: int
-) -> list[Share]:
-    """Share out the particles of some rows: first those that are active, then those that will be.
+) -> list[Task]:
+    """Divide particles into tasks: first the active, then the pending ones.
 
-    A block goes through all steps of its share, whether its particles are there yet or not. So the pending
-    share blocks with those that appear when they do, from that step on; and those that do not appear before
-    the end are in none.
+    A block takes all steps of its task, whether its particles have appeared or not. Pending particles are
+    therefore grouped by the step at which they appear; particles that appear later than the end are left out.
 
     Parameters
     ----------
     p, rows
-        Particles, and which of them: active or pending.
+        Particles, and the indices of active or pending ones.
     steps
-        The first step, and their number.
+        First step, and number of steps.
     times
-        Length of a step, and the time at step 0, s.
+        Δt, and the time at step 0, s.
     number
-        Shares of the active, if they have as many blocks.
+        Number of tasks of active particles, if they fill as many blocks.
     """
     (step, count), (dt, start) = steps, times
     pending = p.status[rows] == Status.PENDING
     active, waiting = rows[~pending], rows[pending]
-    found = [Share(dealt, step, count) for dealt in _deal(in_blocks(p, active), number)]
+    found = [Task(dealt, step, count) for dealt in _deal(in_blocks(p, active), number)]
 
-    # One step early, as the loop has these times to other last bits.
+    # One step early: the loop computes these times with other round-off.
     due = np.maximum(np.floor((p.t0[waiting] - start) / dt) - 1.0, step)
     coming = due < step + count
     waiting, due = waiting[coming], due[coming]
@@ -377,12 +374,12 @@ def shares_of(
     for begin in range(0, len(waiting), max(most, 1)):
         group = order[begin : begin + most]
         first = int(due[group[0]])
-        found.append(Share(in_blocks(p, waiting[group]), first, step + count - first))
+        found.append(Task(in_blocks(p, waiting[group]), first, step + count - first))
     return found
 
 
 def _deal(rows: NDArray[np.int64], number: int) -> list[NDArray[np.int64]]:
-    """Deal out blocks of rows in turn, to so many if there are as many blocks."""
+    """Deal out blocks of rows in turn to at most ``number`` hands."""
     blocks = -(-len(rows) // LANES)
     missing = blocks * LANES - len(rows)
     whole = np.pad(rows, (0, missing)).reshape(blocks, LANES)
@@ -395,38 +392,36 @@ def _deal(rows: NDArray[np.int64], number: int) -> list[NDArray[np.int64]]:
 
 
 def in_blocks(p: Particles, rows: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The order in which particles are put into blocks, of those in some rows.
+    """Return rows in the order in which particles are put into blocks.
 
-    A block does for all of them what one needs: those that took as many steps for a Δt, to the power of two,
-    share one, first those that took most, so that none is left alone at the end; among them those whose steps
-    go to order 3, now or when it is found out again whether they must; among these the elongated, whose
-    integrals want more work. Of these do neighbours in the mesh: the nodes they read are then in the cache.
+    All lanes of a block take the steps that its most demanding particle needs. Particles are therefore sorted
+    by steps per Δt, rounded up to a power of two, the most first; then by the order of their steps; then by
+    elongation, which costs iterations of the integrals; then by host, so that the nodes are in the cache.
     """
-    # As many as the next power of two count as that.
     effort = np.frexp(p.substeps[rows] * (1.0 - 1e-9))[1]
-    # Of a body in shear, whose middle axis is about as long as at rest: λ, 1 and 1/λ with λ² = COMPACT.
+    # F : F of a body in shear with stretches λ, 1, 1/λ and λ² = COMPACT.
     many = 2 * len(rows) > p.size
     F = p.F if many else p.F[rows]
     elongated = np.einsum("ni,ni->n", F, F) > COMPACT + 1.0 + 1.0 / COMPACT
     elongated = elongated[rows] if many else elongated
     kind = 4 * p.demanding[rows] + 2 * (p.discount[rows] > 0.0) + elongated
     key = (-effort.astype(np.int64) << 35) + (kind.astype(np.int64) << 32) + p.host[rows]
-    # Which of equals comes first does not matter, and a stable order costs four times as much.
+    # A stable sort is not needed, and costs four times as much.
     return rows[np.argsort(key)]
 
 
 _PATIENCE = 0.1
-"""Seconds after which it is asked whether to stop."""
-_SHARES = 8
-"""Of the active particles, for each of several threads."""
+"""Time between two calls of ``stop``, s."""
+_TASKS = 8
+"""Tasks of active particles per thread, with several threads."""
 _GROUPS = 64
-"""Shares of the pending particles that appear during the steps: half of one share's steps are idle."""
+"""Tasks of pending particles: half of the steps of one task are idle."""
 _ROOM, _MORE_ROOM = 1000, 4
-"""Rebounds of a share in a call; by what it grows where there are more."""
+"""Size of a task's buffer of rebounds, and its growth factor when it is full."""
 
 
 def check(models: Models, tense: bool) -> None:
-    """Raise InputError if the models do not go together; ``tense`` as of :class:`Tracker`."""
+    """Raise InputError if the models exclude each other; for ``tense`` see :class:`Tracker`."""
     if not isinstance(models.stride, int | np.integer) or models.stride < 1:
         raise InputError(
             f"the stride is {models.stride}. Allowed: whole numbers of tracking steps, 1 or more"

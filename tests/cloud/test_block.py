@@ -20,7 +20,7 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Status, spheres
-from foamprb.cloud.tracker import in_blocks, shares_of
+from foamprb.cloud.tracker import in_blocks, tasks_of
 from foamprb.compile.link import link
 
 LONG, ROUND = (2.5, 1.0, 0.4), (1.3, 1.0, 1.0 / 1.3)
@@ -83,7 +83,7 @@ def test_pending_particles_cost_nothing_before_they_appear(threads):
     p.t0[:] = start + random.uniform(0.0, 20.0, n)
     rows = np.flatnonzero(random.random(n) < 0.9)
     pending = p.status == Status.PENDING
-    shares = shares_of(p, rows, (step, steps), (dt, start), threads)
+    shares = tasks_of(p, rows, (step, steps), (dt, start), threads)
     assert all(share.step + share.steps == step + steps for share in shares)
     carried = np.concatenate([share.rows for share in shares])
     assert len(np.unique(carried)) == len(carried)
@@ -104,7 +104,7 @@ def test_shares_have_whole_blocks_of_the_same_order():
         p.status[:] = Status.ACTIVE
         p.host[:] = np.random.default_rng(6).permutation(n)
         order = in_blocks(p, np.arange(n))
-        shares = shares_of(p, np.arange(n), (0, 1), (1.0, 0.0), number)
+        shares = tasks_of(p, np.arange(n), (0, 1), (1.0, 0.0), number)
         blocks = [order[k : k + LANES].tolist() for k in range(0, n, LANES)]
         assert len(shares) == min(number, len(blocks))
         for k, share in enumerate(shares):
