@@ -335,7 +335,7 @@ def contexts(
     time: float,
     ids: NDArray[np.int64] | None = None,
 ) -> Iterator[Context]:
-    """Prepare the injected particles of a cloud part by part, in order; an empty cloud gives one empty context.
+    """Prepare the injected particles of a cloud part by part; an empty cloud gives one empty context.
 
     Parameters
     ----------
