@@ -58,7 +58,7 @@ def connect() -> Ranks | Worker | None:
 
     Returns
     -------
-    The executor of all if this is the first of them; one of the others, which is to :meth:`Worker.serve`;
+    All processes if this is the first; one of the others, which is to :meth:`Worker.serve`;
     None if there are no others.
 
     Raises

@@ -1,4 +1,4 @@
-"""How many steps a run takes at once."""
+"""Number of steps per call of a stepper."""
 
 from __future__ import annotations
 
@@ -8,23 +8,21 @@ from typing import Any, cast
 import pytest
 
 from foamprb.cloud.state import Status
-from foamprb.run.loop import _Pace
+from foamprb.run import loop
+from foamprb.run.loop import _Schedule
 
 
 def calls(wanted: float, target: int, most: float = 1e9, whole: int = 1, step: int = 0) -> list[int]:
-    """Lengths of the calls to a target."""
-    counts = {Status.PENDING: 1, Status.ACTIVE: 3}
-    cloud = SimpleNamespace(
-        step=step,
-        executor=SimpleNamespace(at_once=4 * most),
-        counts=lambda: counts,
-        tracker=SimpleNamespace(whole=whole),
-    )
-    pace, found = _Pace(), []
-    pace._steps = wanted
-    while cloud.step < target:
-        found.append(pace._at_once(cast("Any", cloud), target))
-        cloud.step += found[-1]
+    """Lengths of the calls to a target, of four particles."""
+    cloud = SimpleNamespace(step=step, tracker=SimpleNamespace(whole=whole))
+    stepper = SimpleNamespace(cloud=cloud, counts=lambda: {Status.PENDING: 1, Status.ACTIVE: 3})
+    schedule, found = _Schedule(cast("Any", stepper)), []
+    schedule._steps = wanted
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(loop, "MOST_STEPS", 4 * most)
+        while cloud.step < target:
+            found.append(schedule._next_steps(target))
+            cloud.step += found[-1]
     return found
 
 
@@ -36,7 +34,7 @@ def test_calls_to_a_write_time_are_alike(wanted: float, lengths: list[int]) -> N
     assert calls(wanted, 100) == lengths
 
 
-def test_no_call_is_longer_than_the_executor_takes() -> None:
+def test_no_call_is_longer_than_the_limit() -> None:
     assert calls(50.0, 100, most=40.0) == [40, 30, 30]
 
 
