@@ -12,6 +12,7 @@ import math
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, TypeAlias
 from xml.etree import ElementTree
@@ -19,7 +20,6 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-import foamprb
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.base import CloudFunctions
@@ -83,7 +83,7 @@ def checkpoint_of(
         The run's :func:`fingerprint`.
     """
     header = {
-        "foamprb": foamprb.__version__,
+        "foamprb": version("foamprb"),
         "step": cloud.step,
         "recovered": cloud.recovered,
         "reach": cloud.reach,
@@ -136,7 +136,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, whe
     if {name: (array.shape, array.dtype) for name, array in arrays.items()} != layout:
         raise InputError(
             f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
-            f"foamprb {foamprb.__version__}. Begin anew: -overwrite, or startFrom startTime."
+            f"foamprb {version('foamprb')}. Begin anew: -overwrite, or startFrom startTime."
         )
     functions.restore(_part(checkpoint, _FUNCTIONS))
     cloud.particles = Particles(**arrays)
