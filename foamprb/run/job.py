@@ -59,19 +59,19 @@ TIME_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Job:
-    """A run that is ready to start."""
+    """Run that is ready to start."""
 
     settings: Settings
     cloud: Cloud
     functions: CloudFunctions
     compilation: Compilation | None = None
-    """The second process that compiles the loop, if there is one."""
+    """Second process that compiles the loop, if there is one."""
     tables: str = "csv"
-    """The kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
+    """Kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
 
     @property
     def observed(self) -> ObservedCloud:
-        """The cloud with the names of its injection models and patches."""
+        """Cloud with the names of its injection models and patches."""
         return ObservedCloud(self.cloud, self.injector_names, self.patch_names, self.tables)
 
     @property
@@ -90,7 +90,7 @@ class Job:
         return _steps(self.settings.solution, self.cloud.start)
 
     def next_write(self, step: int) -> int:
-        """The step after ``step`` at which results are written next; that of the end at the latest."""
+        """Return the next step after ``step`` at which results are written, at most the last."""
         solution = self.settings.solution
         interval = max(1, round(solution.writeInterval / solution.deltaT))
         return min(self.steps, (step // interval + 1) * interval)

@@ -34,7 +34,7 @@ _GROUPS = {
     "size": "size/cell size",
 }
 _BETWEEN_LINES = 30.0
-"""Seconds between two lines on how far a run is."""
+"""Time between two lines about the progress, s."""
 
 
 def log_description(description: Mapping[str, Any]) -> None:
@@ -87,14 +87,14 @@ def _log_range(name: str, ends: Sequence[float | None]) -> None:
 
 
 def log_dry_run(job: Job) -> None:
-    """Log what a run would do that is not done."""
+    """Log the plan of a run that is not executed."""
     log.info(
         "\nDry run: %d particles, %d steps, nothing written.\n\nEnd", job.cloud.particles.size, job.steps
     )
 
 
 class RunLog:
-    """The log of a run from the start of its time loop on."""
+    """Log of a run from the start of its time loop."""
 
     def __init__(self, job: Job) -> None:
         self._job = job
@@ -107,7 +107,7 @@ class RunLog:
         log.info("\nStarting time loop\n")
 
     def write_time(self) -> None:
-        """Say how many particles are where at a write time, and which have failed since the one before."""
+        """Log the numbers of particles at a write time, and the failures since the time before."""
         cloud = self._job.cloud
         counts = cloud.particles.counts()
         log.info("Time = %.12g\n", cloud.time)
@@ -122,7 +122,7 @@ class RunLog:
         self._log_unstable()
 
     def end(self, finished: bool) -> None:
-        """Say what became of the particles, where the results are, and whether the run has ``finished``."""
+        """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
         self._log_fates()
         log.info("\nResults in %s", self._job.folder.path)
         self._log_clocks()
@@ -130,7 +130,7 @@ class RunLog:
             log.info("End")
 
     def _log_steps(self) -> None:
-        """Say in how many steps the last tracking step was cut."""
+        """Log the number of time steps per tracking step."""
         cloud = self._job.cloud
         p = cloud.particles
         moved = (p.status == Status.ACTIVE) & (p.substeps > 0.0)
@@ -141,7 +141,7 @@ class RunLog:
         log.info("    with a step below deltaT/10     = %.3g %%", 100.0 * short.mean())
 
     def _failures(self) -> NDArray[np.int64]:
-        """Numbers of the particles that have failed."""
+        """Return the numbers of the failed particles."""
         return np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
 
     def _log_clocks(self) -> None:
@@ -149,7 +149,7 @@ class RunLog:
         log.info("ExecutionTime = %.2f s  ClockTime = %.2f s\n", cpu, wall)
 
     def _log_failures(self) -> None:
-        """Name the particles that have failed since the last time, as long as there are few in all."""
+        """Log the particles that have failed since the last time, up to a number in all."""
         cloud, failed = self._job.cloud, self._failures()
         p = cloud.particles
         room = max(0, _MAX_LISTED_FAILURES - len(self._failed))
@@ -159,7 +159,7 @@ class RunLog:
         self._failed = failed
 
     def _log_unstable(self) -> None:
-        """Say for how many particles the step is too long, if there are more than at any time before."""
+        """Log the number of particles for which Δt is too long, if it is larger than before."""
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
@@ -168,11 +168,11 @@ class RunLog:
         if beyond > self._unstable:
             self._unstable = beyond
             log.warning("deltaT is up to %.3g times what the integrator paper is stable with for the shapes "
-                        "of %d particles: they are not as long as they should be. Take a deltaT below "
-                        "%.3g s, or rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
+                        "of %d particles: their deformation is wrong; use deltaT < %.3g or integrator "
+                        "rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
 
     def _log_fates(self) -> None:
-        """Say how many particles met which fate, by patch; the numbers sum to those injected."""
+        """Log the number of particles by fate and patch; the numbers sum to those injected."""
         job = self._job
         p = job.cloud.particles
         counts = p.counts()
@@ -201,7 +201,7 @@ class RunLog:
 
 @contextmanager
 def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
-    """A progress bar on a terminal, a line in the log now and then elsewhere.
+    """Show a progress bar on a terminal, otherwise lines in the log.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
 
     Yields
     ------
-    What is to be told the time, s, now and then.
+    A function to call with the current time, s.
     """
     console = Console(stderr=True)
     columns = (
@@ -227,7 +227,7 @@ def progress_bar(start: float, end: float) -> Iterator[Callable[[float], None]]:
 
 
 class _Lines:
-    """Lines in the log that say how far a run is; arguments as of :func:`progress_bar`."""
+    """Lines in the log with the progress of a run; for the arguments see :func:`progress_bar`."""
 
     def __init__(self, start: float, end: float) -> None:
         self._start, self._end = start, end
@@ -235,10 +235,10 @@ class _Lines:
         self._last = clock.perf_counter()
 
     def __call__(self, t: float) -> None:
-        """Say how far the run is at a time, s, if that was not said just now."""
+        """Log the progress at a time, s, unless the last line is recent."""
         now = clock.perf_counter()
         if self._first is None:
-            # What was compiled until here says nothing of the rest.
+            # Compilation before this call is no measure of the rest.
             self._first = now, t
         if now - self._last < _BETWEEN_LINES:
             return

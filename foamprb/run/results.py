@@ -1,4 +1,4 @@
-"""What a run leaves in its folder: snapshots, tables, checkpoints, and the manifest that lists them."""
+"""Files of a run: snapshots, tables, checkpoints, and the manifest that lists them."""
 
 from __future__ import annotations
 
@@ -35,25 +35,25 @@ from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
-HOW_TO_GO_ON = "To go on from the last checkpoint: foamprb run -resume."
+HOW_TO_GO_ON = "To continue from the last checkpoint: foamprb run -resume."
 
 
 @contextmanager
 def open_results(job: Job) -> Iterator[Results]:
-    """Let nobody else write into a run's folder; on leaving, wait for what is being written.
+    """Lock the folder of a run against other runs; on leaving, wait for unfinished writes.
 
     Raises
     ------
     InputError
         If another run writes there.
     RunStopped
-        In place of any OSError within: results could not be written; or memory ran out.
+        If results cannot be written, in place of the OSError; if memory runs out.
     """
     try:
         with only_writer(job.folder.path), Writer() as writer:
             yield Results(job, writer)
     except BrokenPipeError:
-        # It comes from the log, which nobody reads any more.
+        # The reader of the log has gone.
         raise
     except Exception as error:
         reason = ran_out(error) or error
@@ -63,16 +63,16 @@ def open_results(job: Job) -> Iterator[Results]:
 
 
 class Results:
-    """All that a run writes, and what it goes on from: :meth:`begin` first, then the other methods.
+    """Writer of a run's files; call :meth:`begin` before the other methods.
 
-    A file is in the manifest before it has its name; that of a cloud function is so from the second time on.
+    The manifest lists a file before it takes its name; the file of a cloud function, after its first write.
 
     Parameters
     ----------
     job
-        What is run.
+        The run.
     writer
-        The thread that writes while the particles go on.
+        The thread that writes while the particles advance.
     """
 
     def __init__(self, job: Job, writer: Writer) -> None:
@@ -89,17 +89,17 @@ class Results:
         self._snapshot: Snapshot | None = None
 
     def begin(self, start_from: StartFrom | None) -> None:
-        """Put the cloud at the time from which the run goes on, and remove what an earlier run wrote later.
+        """Set the cloud to its start or to a checkpoint, and remove an earlier run's files of later times.
 
         Parameters
         ----------
         start_from
-            As of :func:`foamprb.run.loop.execute`.
+            See :func:`foamprb.run.loop.execute`.
 
         Raises
         ------
         InputError
-            If the run cannot go on from its checkpoints, or the user must say whether it shall.
+            If the run cannot continue from its checkpoints, or the user must decide whether it shall.
         """
         job = self._job
         self._fingerprint = fingerprint(job.settings, job.cloud)
@@ -107,8 +107,8 @@ class Results:
         unfinished = self._checkpoints.files()
         if start_from is None and unfinished and not job.folder.find_table(FATES):
             raise InputError(
-                f"{job.folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To go on with "
-                "it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or "
+                f"{job.folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To "
+                "continue it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or "
                 "startFrom startTime."
             )
         checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
@@ -120,9 +120,7 @@ class Results:
         self._begin_anew()
 
     def write_start(self) -> None:
-        """Write the snapshot of the start time, unless the run goes on from a later one.
-
-        It has the particles that appear at that time, as they are then.
+        """Write the snapshot of the start time, with the particles that appear then; no-op after a restart.
 
         Raises
         ------
@@ -132,7 +130,7 @@ class Results:
         cloud = self._job.cloud
         if cloud.step > 0 or self._series.entries:
             return
-        # As the first step does.
+        # The flow of the first step.
         cloud.load_flow(1)
         file = with_ending(self._series.next(cloud.time), ".vtp")
         self._manifest.expect([self._job.folder.pvd, file])
@@ -140,11 +138,11 @@ class Results:
         self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
 
     def check(self) -> None:
-        """Raise OSError if something could not be written meanwhile."""
+        """Raise OSError if the thread could not write a file."""
         self._writer.check()
 
     def next_observation(self, last: int) -> int:
-        """The step, at most ``last``, up to which the cloud may advance unobserved by cloud functions."""
+        """Return the step, at most ``last``, at which a cloud function samples next."""
         return self._job.functions.next_sample(last)
 
     def observe(self, stepper: Stepper) -> None:
@@ -153,14 +151,14 @@ class Results:
         self._job.functions.sample()
 
     def write(self, stepper: Stepper) -> None:
-        """Write what a write time leaves: snapshot, tables of the cloud functions, checkpoint.
+        """Write the files of a write time: snapshot, tables of the cloud functions, checkpoint.
 
-        Snapshot and checkpoint are written from a copy, while the cloud may go on.
+        Snapshot and checkpoint are written from a copy while the cloud advances.
 
         Raises
         ------
         OSError
-            If a file cannot be written, now or the last time.
+            If a file cannot be written, now or at the time before.
         """
         cloud = self._gathered(stepper)
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
@@ -174,7 +172,7 @@ class Results:
         self._writer.begin(partial(self._end_write, write_cloud, snapshot, memory))
 
     def save(self, stepper: Stepper) -> None:
-        """Write a checkpoint alone, of a run that is stopped between two write times.
+        """Write only a checkpoint, for a run that is stopped between two write times.
 
         Raises
         ------
@@ -186,15 +184,14 @@ class Results:
         self._write_checkpoint(cloud, self._job.functions.state())
 
     def end(self, stepper: Stepper) -> None:
-        """Write ``fates``, a row per particle, and ``failed`` if any failed.
+        """Write ``fates``, a row per particle, and ``failed`` if a particle failed.
 
-        ``fates`` says that the run is done: it takes its name after the last snapshot and checkpoint, beside
-        which it is written.
+        ``fates`` marks a finished run: it takes its name after the last snapshot and checkpoint.
 
         Raises
         ------
         OSError
-            If a file cannot be written, now or the last time.
+            If a file cannot be written, now or at the time before.
         """
         stepper.gather()
         failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
@@ -237,40 +234,35 @@ class Results:
         self._checkpoints.write(checkpoint_of(cloud, memory, self._series.entries, self._fingerprint))
 
     def _checkpoint_files(self) -> tuple[Path, ...]:
-        """The checkpoints that are there, and the one of now."""
+        """Return the checkpoints on disk, and that of the current time."""
         return (*self._checkpoints.files().values(), self._checkpoints.file(self._job.cloud.time))
 
     def _write_functions(self) -> list[Path]:
-        """Let the cloud functions write; return the files that they wrote.
-
-        A function need not say what it writes: what is new in its folder is its own.
-        """
+        """Let the cloud functions write; return the files that changed in their folders."""
         folders = self._function_folders()
         before = _times_of_change(folders)
         self._job.functions.write(self._job.folder.path)
         return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
 
     def _descriptions(self) -> tuple[Path, ...]:
-        """What a run writes once, when it begins: its record, and the state of ParaView that shows it."""
+        """Return the files that a run writes when it begins: its record, and ParaView's state."""
         return self._job.folder.record, self._job.folder.state
 
     def _last_tables(self) -> list[Path]:
-        """The tables that a run writes at its end, of every kind."""
+        """Return the tables that a run writes at its end, of every kind."""
         return [self._job.folder.table(name, kind) for name in (FATES, FAILURES) for kind in KINDS]
 
     def _other_kinds(self) -> set[str]:
-        """The endings of tables that this run does not write."""
+        """Return the endings of tables that this run does not write."""
         return {f".{kind}" for kind in KINDS if kind != self._job.tables}
 
     def _function_folders(self) -> list[Path]:
         return [self._job.folder.path / name for name in self._job.functions.functions]
 
     def _begin_anew(self) -> None:
-        """Remove what an earlier run has listed, and nothing else but what this run replaces by its name."""
+        """Remove the files that an earlier run has listed, and write the description of this one."""
         folder = self._job.folder.path
-        remedy = (
-            f"So it is not known what an earlier run has written: remove or rename {folder} to begin anew."
-        )
+        remedy = f"The files of the earlier run are unknown: remove or rename {folder} to begin anew."
         try:
             manifest = Manifest.read(folder)
         except InputError as error:
@@ -284,8 +276,7 @@ class Results:
             except InputError as error:
                 log.warning("%s It is replaced.", error)
         self._remove_unfinished(manifest)
-        # Checkpoints first: with them an interrupted removal could be taken for the run itself. Then what
-        # lists other files.
+        # Checkpoints first: after an interrupted removal they would resemble an unfinished run.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [self._job.folder.pvd, *self._last_tables()]
@@ -295,9 +286,9 @@ class Results:
         write_state(self._job.folder.state, self._job.settings.name)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
-        """Take up what a checkpoint holds, and remove the files of later times."""
+        """Restore a checkpoint, and remove the files of later times."""
         job = self._job
-        where = f"{job.folder.path}: cannot go on from t = {checkpoint.time:.12g} s"
+        where = f"{job.folder.path}: cannot continue from t = {checkpoint.time:.12g} s"
         refuse_changes(checkpoint, self._fingerprint, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
@@ -332,18 +323,18 @@ class Results:
         self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
 
     def _remove_unfinished(self, manifest: Manifest) -> None:
-        """Remove what killed runs have left half written."""
+        """Remove unfinished files of killed runs."""
         folders = {file.parent for file in manifest.files}
         for folder in {self._job.folder.path, *self._function_folders(), *folders}:
             remove_unfinished(folder)
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
-    """The files in folders, and when each was last changed, ns."""
+    """Return the files in folders, and the time of the last change of each, ns."""
     found = {}
     for folder in folders:
         for file in folder.rglob("*"):
-            # Others may remove theirs at any time.
+            # Another program may remove files at any time.
             with suppress(FileNotFoundError):
                 if file.is_file():
                     found[file] = file.stat().st_mtime_ns
@@ -353,7 +344,7 @@ def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
 def _write_fates(path: Path, job: Job, before: Callable[[], object]) -> None:
     p = job.cloud.particles
     fates = np.array(STATUS_NAMES, dtype=object)
-    # The last is that of −1.
+    # The last name belongs to the code −1.
     patches = np.array((*job.patch_names, ""), dtype=object)
     axes, D = job.observed.measure(np.arange(p.size), "semiAxes", "taylorDeformation")
     write_table(

@@ -223,7 +223,7 @@ def test_a_run_begun_alone_goes_on_with_others(case, truth):
 ERRORS = {
     "full disk": (
         at_write("raise OSError(errno.ENOSPC, 'No space left on device', str(folder))", 1),
-        r"No space left on device: '.*softCloud_000003'\. To go on .*-resume",
+        r"No space left on device: '.*softCloud_000003'\. To continue .*-resume",
     ),
     "bug": (at_write("1 / 0", 2), "rank 2: ZeroDivisionError: division by zero"),
 }
@@ -259,7 +259,7 @@ def test_ctrl_c_on_any_process_leaves_a_checkpoint(number, case, truth, tmp_path
     assert done.returncode == 130
     ours = [line for line in done.stderr.splitlines() if "foamprb" in line]
     assert ours == [
-        "--> foamprb stopped at t = 0.003 s. To go on from the last checkpoint: foamprb run -resume."
+        "--> foamprb stopped at t = 0.003 s. To continue from the last checkpoint: foamprb run -resume."
     ]
     assert "Traceback" not in done.stderr
     assert (folder_of(case) / "checkpoint/0.003.checkpoint").exists()

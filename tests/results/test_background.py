@@ -182,7 +182,7 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     monkeypatch.setattr(pvd, "write_snapshot", full)
     monkeypatch.setattr(Writer, "begin", known)
     monkeypatch.setattr(Cloud, "carry", slow)
-    with pytest.raises(RunStopped, match=r"No space .*softCloud_000002\.vtp'\. To go on .*-resume"):
+    with pytest.raises(RunStopped, match=r"No space .*softCloud_000002\.vtp'\. To continue .*-resume"):
         execute(job)
     assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp"]
     assert 100 <= job.cloud.step < 150

@@ -297,7 +297,8 @@ def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
     assert (
-        err == "--> foamprb stopped at t = 0.002 s. To go on from the last checkpoint: foamprb run -resume.\n"
+        err
+        == "--> foamprb stopped at t = 0.002 s. To continue from the last checkpoint: foamprb run -resume.\n"
     )
     assert {n: signal.getsignal(n) for n in before} == before
     go_on(case)
