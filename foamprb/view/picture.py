@@ -1,10 +1,12 @@
-"""A scene by VTK: a picture, a film, or a window; a display is needed by the window only."""
+"""Scene drawn by VTK: a picture, a film or a window. Only the window needs a display."""
 
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -31,7 +33,7 @@ from foamprb.view.colours import (
     ticks,
     written,
 )
-from foamprb.view.geometry import FLAT_TYPES, PLANE, Geometry, Surface
+from foamprb.view.geometry import FLAT_TYPES, PLANE, Geometry, Slice
 from foamprb.view.libraries import load
 from foamprb.view.scene import INSETS, MOST_DEPOSITS, VIEW_ANGLE, Scene, anchor, round_limits
 
@@ -41,20 +43,21 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 PAGE_HEIGHT = 900.0
-"""Height of a picture in which words are as large as on the page."""
-# Steps around and from pole to pole of a sphere, for at most so many bodies.
-_SPHERES = ((2_000, 48, 24), (20_000, 24, 12))
-_COARSEST = (12, 7)
+"""Height of a picture in which texts are as large as on the page."""
+# Largest number of bodies, and steps around and from pole to pole of their spheres.
+_SPHERES = ((2_000, 48, 24), (20_000, 24, 12), (math.inf, 12, 7))
 _MOST_MARKED = 2_000
-_MARK_WIDTH, _SPOT_WIDTH = 0.04, 0.3
+_MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0
 _UNKNOWN = 153
 _GRAPHICS, _POINT = 0.7e9, 205.0
-"""Address space that the graphics library takes, and what is drawn for each point of a body, bytes."""
+"""Address space of the graphics library, and of each point of a body, bytes."""
+_LATER: dict[str, Any] = {"render": False, "reset_camera": False}
+"""Options of the plotter: the picture is rendered once, by the camera of the scene."""
 
 
 class Shape(NamedTuple):
-    """A triangulated piece of the unit sphere."""
+    """Triangulated part of the unit sphere."""
 
     points: Floats
     """(v, 3)."""
@@ -64,17 +67,17 @@ class Shape(NamedTuple):
 
 @dataclass
 class Drawing:
-    """A scene on a plotter, and what changes from time to time."""
+    """Scene on a plotter, with the parts that change from time to time."""
 
     plotter: Any
     scene: Scene
-    words: bool
+    texts: bool
     style: Style
     scale: float
-    """Pixels of the picture to each of the page."""
+    """Pixels of the picture per pixel of the page."""
 
     def show(self, frame: int) -> None:
-        """Draw the bodies of a time, and write the time."""
+        """Draw the bodies and the texts of a time."""
         scene, bodies = self.scene, self.scene.bodies
         shown = np.flatnonzero(bodies.shown[frame])
         for old in ("bodies", "mark"):
@@ -87,21 +90,20 @@ class Drawing:
             if len(shown) <= _MOST_MARKED:
                 self._add("mark", draw(mark(), place, F, 1.002 * size, marked(colours)))
         self._mark_deposits(frame)
-        if self.words:
+        if self.texts:
             times = bodies.times
             self._write("clock", f"t = {written(times[frame], 's', times[-1])}", 17, "right", 30, bold=True)
             self._write("caption", scene.caption(len(shown)), 14, "right", 53)
 
     def _add(self, name: str, mesh: Any) -> None:
-        """Draw a mesh with colours of its own, in the light of the bodies."""
+        """Draw a mesh with its own colours, in the light of the bodies."""
         self.plotter.add_mesh(
-            mesh, scalars="colour", rgb=True, smooth_shading=True, name=name, render=False,
-            reset_camera=False, show_scalar_bar=False, ambient=0.36, diffuse=0.68, specular=0.25,
-            specular_power=40.0,
+            mesh, scalars="colour", rgb=True, smooth_shading=True, name=name, show_scalar_bar=False,
+            ambient=0.36, diffuse=0.68, specular=0.25, specular_power=40.0, **_LATER,
         )  # fmt: skip
 
     def label(self) -> None:
-        """Write what does not change: the title, the legends and the names of the patches."""
+        """Write the texts that do not change: title, legends and names of patches."""
         scene = self.scene
         self._write("title", scene.title, 17, "left", 30, bold=True)
         self._write("subtitle", scene.subtitle, 14, "left", 53)
@@ -124,14 +126,14 @@ class Drawing:
                 self.plotter.add_point_labels(
                     anchor(surface, scene.camera)[None], [surface.name], name=f"patch {surface.name}",
                     font_size=round(12 * self.scale), text_color=self.style.soft, show_points=False,
-                    shape=None, always_visible=True, render=False, reset_camera=False,
-                    justification_horizontal="center", justification_vertical="bottom",
+                    shape=None, always_visible=True, justification_horizontal="center",
+                    justification_vertical="bottom", **_LATER,
                 )  # fmt: skip
 
     def _write(
         self, name: str, text: str, size: float, side: str, top: float, left: float = 22.0, bold: bool = False
     ) -> None:
-        """Write a line, so many of the page's pixels below the upper edge and from the left or right one."""
+        """Write a line; ``top`` and ``left`` are pixels of the page from the upper and the ``side`` edge."""
         width, height = self.plotter.window_size
         s = self.scale
         actor = pyvista.Text(
@@ -141,7 +143,7 @@ class Drawing:
         actor.prop.justification_horizontal = side
         actor.prop.bold = bold
         actor.prop.color = self.style.ink if bold else self.style.soft
-        self.plotter.add_actor(actor, name=name, render=False, reset_camera=False)
+        self.plotter.add_actor(actor, name=name, **_LATER)
 
     def _bar(
         self,
@@ -153,9 +155,9 @@ class Drawing:
         left: float,
         beyond: tuple[bool, bool] = (False, False),
     ) -> float:
-        """Draw a colour bar, so many of the page's pixels from the left; return where the next one begins.
+        """Draw a colour bar ``left`` pixels of the page from the left; return the position of the next one.
 
-        ``beyond`` is whether values lie below its limits, and above them.
+        ``beyond`` tells whether values lie below the limits, and above them.
         """
         bottom = self.plotter.window_size[1] / self.scale
         factor, shown_unit = readable(unit, max(map(abs, limits)))
@@ -188,7 +190,7 @@ class Drawing:
     def _rectangles(
         self, name: str, left: Floats, width: float, bottom: float, height: float, colours: Table
     ) -> None:
-        """Fill rectangles side by side, in the page's pixels from the lower left corner."""
+        """Fill rectangles side by side, in pixels of the page from the lower left corner."""
         n, s = len(left), self.scale
         x, y = np.array([0.0, width, width, 0.0]), np.array([0.0, 0.0, height, height])
         points = np.zeros((n, 4, 3))
@@ -196,14 +198,18 @@ class Drawing:
         data = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), np.arange(4 * n).reshape(n, 4))
         data.cell_data["colour"] = colours
         data.cell_data.active_scalars_name = "colour"
-        mapper = vtkPolyDataMapper2D()
-        mapper.SetInputData(data)
+        self._add_flat(name, data)
+
+    def _add_flat(self, name: str, data: Any) -> Any:
+        """Draw a mesh in front of the scene, in pixels of the picture; return its actor."""
         actor = vtkActor2D()
-        actor.SetMapper(mapper)
-        self.plotter.add_actor(actor, name=name, render=False, reset_camera=False)
+        actor.SetMapper(vtkPolyDataMapper2D())
+        actor.GetMapper().SetInputData(data)
+        self.plotter.add_actor(actor, name=name, **_LATER)
+        return actor
 
     def _mark_deposits(self, frame: int) -> None:
-        """Mark the places where bodies are stuck, in front of all."""
+        """Mark the positions of stuck bodies, in front of everything."""
         bodies = self.scene.bodies
         stuck = [k for k, word in enumerate(bodies.status.meanings) if word == "stuck"]
         codes = bodies.status.codes
@@ -211,32 +217,28 @@ class Drawing:
         self.plotter.remove_actor("deposits", render=False)
         if not 0 < len(rows) <= MOST_DEPOSITS:
             return
-        mapper = vtkPolyDataMapper2D()
-        mapper.SetInputData(pyvista.PolyData(bodies.x[frame, rows]))
+        actor = self._add_flat("deposits", pyvista.PolyData(bodies.x[frame, rows]))
         world = vtkCoordinate()
         world.SetCoordinateSystemToWorld()
-        mapper.SetTransformCoordinate(world)
-        actor = vtkActor2D()
-        actor.SetMapper(mapper)
+        actor.GetMapper().SetTransformCoordinate(world)
         actor.GetProperty().SetColor(*(c / 255.0 for c in rgb(self.style.deposit)))
         actor.GetProperty().SetPointSize(6.0 * self.scale)
-        self.plotter.add_actor(actor, name="deposits", render=False, reset_camera=False)
 
 
-def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, words: bool = True) -> None:
+def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, texts: bool = True) -> None:
     """Write a picture of the scene's first time, ``.png``, in one step.
 
     Raises
     ------
     InputError
-        If the file is to be of another kind.
+        If the name of the file has another ending.
     OSError
         If the file cannot be written.
     """
     if path.suffix.lower() != ".png":
         raise InputError(f"-png {path}: the name must end in .png.")
     with vtk_messages():
-        drawing = _drawing(scene, size, style, words, off_screen=True)
+        drawing = _drawing(scene, size, style, texts, off_screen=True)
         drawing.show(scene.first)
         image = drawing.plotter.screenshot(return_img=True)
         drawing.plotter.close()
@@ -244,38 +246,31 @@ def picture(scene: Scene, path: Path, size: tuple[int, int], style: Style, words
         load("PIL.Image").fromarray(image).save(file, format="png")
 
 
-def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: float | None = None) -> None:
-    """Write a film of all times, ``.mp4`` or ``.gif``.
-
-    Parameters
-    ----------
-    scene, path, size, style
-        As of :func:`picture`.
-    rate
-        Times a second; by default such that the film takes about eight seconds.
+def film(scene: Scene, path: Path, size: tuple[int, int], style: Style) -> None:
+    """Write a film of all times, ``.mp4`` or ``.gif``, of about eight seconds.
 
     Raises
     ------
     InputError
-        If the file is to be of another kind, or imageio is not installed.
+        If the name of the file has another ending, or imageio is not installed.
     """
     suffix = path.suffix.lower()
     if suffix not in (".mp4", ".gif"):
         raise InputError(f"-film {path}: the name must end in .mp4 or .gif.")
     get_writer = optional.load("imageio.v2", "film", "-film needs").get_writer
     m = len(scene.bodies.times)
-    rate = rate or float(np.clip(round(m / 8.0), 4, 30))
-    # Codecs of films take sides that are even.
+    rate = float(np.clip(round(m / 8.0), 4, 30))
+    # Video codecs need even sides.
     even = (size[0] // 2 * 2, size[1] // 2 * 2)
     options: dict[str, Any] = {"duration": 1e3 / rate, "loop": 0}
     if suffix == ".mp4":
         options = {"fps": rate, "quality": 8, "macro_block_size": 1}
-    # The encoder must find the suffix in the name.
+    # The encoder is chosen by the ending of the name.
     temporary = path.with_name(f".{path.stem}.unfinished{suffix}")
     writer: Any
     try:
         with vtk_messages(), get_writer(temporary, **options) as writer:
-            drawing = _drawing(scene, even, style, words=True, off_screen=True)
+            drawing = _drawing(scene, even, style, texts=True, off_screen=True)
             for frame in range(m):
                 drawing.show(frame)
                 drawing.plotter.render()
@@ -283,7 +278,7 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: fl
             drawing.plotter.close()
         temporary.replace(path)
     except (ImportError, ValueError) as error:
-        # Without its encoder imageio knows no such file.
+        # Without its encoder imageio does not support the format.
         raise InputError(
             f"-film {path}: {' '.join(str(error).split())}. Is 'foamprb[film]' installed?"
         ) from error
@@ -292,46 +287,30 @@ def film(scene: Scene, path: Path, size: tuple[int, int], style: Style, rate: fl
 
 
 def has_display() -> bool:
-    """Whether a window can be shown."""
+    """Return whether a window can be shown."""
     return sys.platform in ("darwin", "win32") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY")))
 
 
 def require_graphics() -> None:
-    """Refuse to draw where VTK would crash: without a display it draws by one of two libraries.
+    """Check that VTK can draw; without a display it needs one of two libraries, else it crashes.
 
     Raises
     ------
     InputError
-        There is neither.
+        If there is neither a display nor a library.
     """
     if has_display():
         return
     for library in ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so"):
-        try:
+        with suppress(OSError):
             ctypes.CDLL(library)
-        except OSError:
-            continue
-        return
+            return
     raise InputError("no display and no libEGL: VTK cannot draw. On Debian: apt-get install libegl1.")
-
-
-def require_display() -> None:
-    """Refuse to show a window where there is no display.
-
-    Raises
-    ------
-    InputError
-        There is none.
-    """
-    if not has_display():
-        raise InputError(
-            "-window needs a display. Without one: -png FILE, -film FILE, or the page that view writes."
-        )
 
 
 def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
     """Show the scene in a window, with a slider for the time, until the user closes it."""
-    drawing = _drawing(scene, size, style, words=True, off_screen=False)
+    drawing = _drawing(scene, size, style, texts=True, off_screen=False)
     drawing.show(scene.first)
     last = len(scene.bodies.times) - 1
 
@@ -347,8 +326,14 @@ def window(scene: Scene, size: tuple[int, int], style: Style) -> None:
     drawing.plotter.show()
 
 
-def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off_screen: bool) -> Drawing:
-    """The scene without its bodies; OutOfMemory if there is too little, of which VTK would die."""
+def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off_screen: bool) -> Drawing:
+    """Return the scene without its bodies.
+
+    Raises
+    ------
+    OutOfMemory
+        If memory is too small for the bodies; VTK would end the process.
+    """
     number = int(scene.bodies.shown.sum(axis=1).max(initial=0))
     points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
     wants("bodies drawn", number, _POINT * points)
@@ -361,14 +346,14 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, words: bool, off
     light.SetPosition(-0.35, 0.6, 0.72)
     plotter.renderer.AddLight(light)
     scale = size[1] / PAGE_HEIGHT
-    drawing = Drawing(plotter, scene, words, style, scale)
+    drawing = Drawing(plotter, scene, texts, style, scale)
     if scene.geometry is not None:
         draw_geometry(plotter, scene.geometry, style)
     if scene.slice is not None:
-        draw_plane(plotter, scene, style)
-    if words:
+        draw_plane(plotter, scene.slice, style)
+    if texts:
         drawing.label()
-    _place_camera(plotter, scene, size, [inset * scale for inset in INSETS] if words else [0.0, 0.0])
+    _place_camera(plotter, scene, size, [inset * scale for inset in INSETS] if texts else [0.0, 0.0])
     return drawing
 
 
@@ -382,53 +367,42 @@ def _place_camera(plotter: Any, scene: Scene, size: tuple[int, int], insets: lis
     eye.focal_point = camera.focus
     eye.position = camera.focus + distance * camera.towards
     eye.up = camera.up
-    # The middle of what is free, which lies lower where more is written above.
+    # The scene is centred between the texts above and below.
     eye.SetWindowCenter(0.0, (above - below) / height)
     plotter.renderer.ResetCameraClippingRange()
     plotter.camera_set = True
 
 
 def draw_geometry(plotter: Any, geometry: Geometry, style: Style) -> None:
-    """Draw the boundary: the far side of walls, a hint of the near one and of other patches; the edges."""
+    """Draw the far side of walls, the near side and other patches almost transparent, and the edges."""
     for surface in geometry.surfaces:
         if surface.type in FLAT_TYPES:
             continue
-        mesh = _polydata(surface)
-        wall = surface.type in WALLS
-        colour = style.glass if wall else style.accent
-        more = {"smooth_shading": True, "render": False, "reset_camera": False, "color": colour}
-        if wall:
+        mesh = pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
+        more = {"smooth_shading": True} | _LATER
+        if surface.type in WALLS:
+            more["color"] = style.glass
             plotter.add_mesh(mesh, culling="front", ambient=0.62, diffuse=0.4, specular=0.0, **more)
             plotter.add_mesh(mesh, culling="back", opacity=0.1, ambient=0.6, diffuse=0.4, **more)
         else:
-            plotter.add_mesh(mesh, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
+            plotter.add_mesh(mesh, color=style.accent, opacity=0.07, ambient=1.0, diffuse=0.0, **more)
     if len(geometry.edges):
         lines = pyvista.line_segments_from_points(geometry.edges.reshape(-1, 3))
-        plotter.add_mesh(
-            lines, color=style.edge, line_width=1.0, render=False, reset_camera=False, lighting=False
-        )
+        plotter.add_mesh(lines, color=style.edge, line_width=1.0, lighting=False, **_LATER)
 
 
-def draw_plane(plotter: Any, scene: Scene, style: Style) -> None:
+def draw_plane(plotter: Any, plane: Slice, style: Style) -> None:
     """Draw the plane through the flow, coloured by the speed."""
-    plane = scene.slice
-    if plane is None:
-        return
     values = plane.values[PLANE][2]
     low, high = round_limits(float(values.min()), float(values.max()))
     mesh = pyvista.PolyData.from_regular_faces(plane.points, plane.triangles)
     at = np.clip((values - low) / ((high - low) or 1.0) * 255.0, 0, 255).astype(np.uint8)
     mesh.point_data["colour"] = style.plane[at]
-    plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, render=False, reset_camera=False,
-                     show_scalar_bar=False)  # fmt: skip
-
-
-def _polydata(surface: Surface) -> Any:
-    return pyvista.PolyData.from_regular_faces(surface.points, surface.triangles)
+    plotter.add_mesh(mesh, scalars="colour", rgb=True, lighting=False, show_scalar_bar=False, **_LATER)
 
 
 def body_colours(scene: Scene, frame: int, shown: Ints) -> Table:
-    """Colours of the shown bodies at a time, (s, 3)."""
+    """Return the colours of the shown bodies at a time, (s, 3)."""
     name, part = scene.colour
     if name in scene.bodies.fields:
         values = scene.bodies.fields[name].channel(part)
@@ -447,7 +421,7 @@ def body_colours(scene: Scene, frame: int, shown: Ints) -> Table:
 
 
 def marked(colours: Table) -> Table:
-    """Colours of the mark on bodies of such colours: darker on light ones, lighter on dark ones."""
+    """Return the colours of the marks on bodies: darker on light colours, lighter on dark ones."""
     plain = colours.astype(np.float64)
     light = plain @ np.array([0.3, 0.59, 0.11]) > 0.45 * 255.0
     mark = np.where(light[:, None], 0.42 * plain, 0.38 * plain + 0.62 * 255.0)
@@ -455,8 +429,8 @@ def marked(colours: Table) -> Table:
 
 
 def sphere_for(count: int) -> Shape:
-    """The unit sphere, the coarser the more bodies there are."""
-    around, down = next(((a, d) for most, a, d in _SPHERES if count <= most), _COARSEST)
+    """Return the unit sphere, coarser for more bodies."""
+    around, down = next((around, down) for most, around, down in _SPHERES if count <= most)
     ball = pyvista.Sphere(radius=1.0, theta_resolution=around, phi_resolution=down)
     points = np.asarray(ball.points, dtype=np.float64)
     return Shape(
@@ -465,52 +439,35 @@ def sphere_for(count: int) -> Shape:
 
 
 def mark() -> Shape:
-    """What moves with the material: bands along three great circles, and a spot around the first axis."""
-    n = 72
+    """Return the mark that moves with the material: three great circles, and a spot around the first axis."""
+    n = _MARK_STEPS
     angle = 2.0 * np.pi * np.arange(n) / n
-    ring = np.arange(n)
-    after = (ring + 1) % n
-    points, triangles = [], []
-    offset = 0
-    for axis in range(3):
-        for side in (-_MARK_WIDTH, _MARK_WIDTH):
-            circle = np.zeros((n, 3))
-            circle[:, (axis + 1) % 3], circle[:, (axis + 2) % 3] = np.cos(angle), np.sin(angle)
-            points.append(np.sqrt(1.0 - side**2) * circle + side * np.eye(3)[axis])
-        low, high = offset + ring, offset + n + ring
-        triangles += [
-            np.stack([low, offset + after, high], axis=1),
-            np.stack([offset + after, offset + n + after, high], axis=1),
-        ]
-        offset += 2 * n
-    # Rings of the spot, whose rim is a chord of the given length away from its middle.
-    turn = 2.0 * np.arcsin(0.5 * _SPOT_WIDTH)
-    for share in (1.0, 0.5):
-        out = turn * share
-        points.append(
-            np.stack(
-                [np.full(n, np.cos(out)), np.sin(out) * np.cos(angle), np.sin(out) * np.sin(angle)], axis=1
-            )
-        )
-    points.append(np.array([[1.0, 0.0, 0.0]]))
-    outer, inner = offset, offset + n
-    triangles += [
-        np.stack([outer + ring, outer + after, inner + ring], axis=1),
-        np.stack([outer + after, inner + after, inner + ring], axis=1),
-        np.stack([inner + ring, inner + after, np.full(n, offset + 2 * n)], axis=1),
-    ]
-    return Shape(np.concatenate(points), np.concatenate(triangles).astype(np.int64))
+    circle = np.stack([np.zeros(n), np.cos(angle), np.sin(angle)], axis=1)
+
+    def ring(axis: int, height: float) -> Floats:
+        around_x = math.sqrt(1.0 - height**2) * circle + [height, 0.0, 0.0]
+        return np.roll(around_x, axis, axis=1)
+
+    # The rim of the spot is a chord of this length away from its middle.
+    turn = 2.0 * math.asin(0.5 * _SPOT_WIDTH)
+    heights = [(axis, -_MARK_WIDTH, _MARK_WIDTH) for axis in range(3)]
+    heights += [(0, math.cos(turn), math.cos(0.5 * turn)), (0, math.cos(0.5 * turn), 1.0)]
+    k, after = np.arange(n), (np.arange(n) + 1) % n
+    band = np.concatenate([np.stack([k, after, n + k], axis=1), np.stack([after, n + after, n + k], axis=1)])
+    points = [ring(axis, height) for axis, low, high in heights for height in (low, high)]
+    triangles = [2 * n * index + band for index in range(len(heights))]
+    return Shape(np.concatenate(points), np.concatenate(triangles))
 
 
 def draw(shape: Shape, place: Floats, F: Floats, size: Floats, colours: Table) -> Any:
-    """A shape on the unit sphere as it is on each of n bodies, all in one mesh, normals by F⁻ᵀ.
+    """Return one mesh of a shape on each of n bodies, with normals by F⁻ᵀ.
 
     Parameters
     ----------
     shape
-        On the unit sphere.
+        Part of the unit sphere.
     place, F, size
-        Of the bodies, (n, 3), (n, 3, 3) and (n,): a point X goes to ``place + size * F X``.
+        (n, 3), (n, 3, 3) and (n,): a point X of the sphere moves to ``place + size * F X``.
     colours
         (n, 3).
     """

@@ -20,7 +20,7 @@ from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
-from foamprb.view.picture import film, has_display, picture, require_display, require_graphics, window
+from foamprb.view.picture import film, has_display, picture, require_graphics, window
 from foamprb.view.results import Run, open_run
 from foamprb.view.scene import (
     PERCENTILES,
@@ -225,8 +225,10 @@ def picture_of(
         If the file cannot be written.
     """
     style = DARK if dark else LIGHT
-    if png is None and movie is None:
-        require_display()
+    if png is None and movie is None and not has_display():
+        raise InputError(
+            "-window needs a display. Without one: -png FILE, -film FILE, or the page that view writes."
+        )
     require_graphics()
     run = _run_of(request)
     scene = make_scene(request, run, range(len(run.entries)))

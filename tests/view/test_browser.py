@@ -162,7 +162,7 @@ class TestPicture:
 
     @NAKED
     def test_it_is_the_picture_that_VTK_draws(self, tab, scene, tmp_path):
-        picture(scene, tmp_path / "vtk.png", (WIDTH, HEIGHT), LIGHT, words=False)
+        picture(scene, tmp_path / "vtk.png", (WIDTH, HEIGHT), LIGHT, texts=False)
         theirs = np.array(Image.open(tmp_path / "vtk.png").convert("RGB")).astype(float)
         ours = tab.pixels().astype(float)
         assert ours.shape == theirs.shape
