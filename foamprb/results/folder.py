@@ -10,7 +10,7 @@ from pathlib import Path
 from foamprb.errors import InputError, suggestion
 from foamprb.results.names import fault_of_word
 
-__all__ = ["FAILURES", "FATES", "KINDS", "MANIFEST", "ResultsFolder", "fault_of_function"]
+__all__ = ["FAILURES", "FATES", "KINDS", "MANIFEST", "RECORD_FORMAT", "ResultsFolder", "fault_of_function"]
 
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
@@ -18,6 +18,8 @@ FATES, FAILURES = "fates", "failed"
 KINDS = ("csv", "parquet")
 """Kinds of tables, the suffixes of their files."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
+RECORD_FORMAT = 2
+"""Version of the entries of the record."""
 _ROOT = "postProcessing"
 HOW = "Run the particles first: foamprb run."
 

@@ -18,12 +18,12 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.measures import shape_stokes_number, shear_rate
 from foamprb.flow.base import Caveat
 from foamprb.results.atomic import atomic_write
+from foamprb.results.folder import RECORD_FORMAT
 from foamprb.run.checks import doubts, groups
 from foamprb.settings.settings import Settings
 
 __all__ = ["describe", "renew_record", "write_record"]
 
-_FORMAT = 2
 _PACKAGES = ("foamprb", "numpy", "numba", "vtk")
 _CHUNK = 1 << 20
 
@@ -65,7 +65,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
     if settings.solution.integrationSchemes.shape == "auto":
         number = shape_stokes_number(cloud.particles, flow, cloud.medium.mu, cloud.time)
     description: dict[str, Any] = _as_json({
-        "format": _FORMAT,
+        "format": RECORD_FORMAT,
         "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
         "settings": _text_of(settings),
         "fluid": {
@@ -126,7 +126,7 @@ def renew_record(path: Path, description: Mapping[str, Any]) -> None:
         record = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return
-    if isinstance(record, dict) and record.get("format") == _FORMAT:
+    if isinstance(record, dict) and record.get("format") == RECORD_FORMAT:
         write_record(path, record | {key: description[key] for key in ("settings", "time")})
 
 

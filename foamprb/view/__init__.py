@@ -1,1 +1,1 @@
-"""Everything that a person looks at: the page, pictures and films, made from a run's results."""
+"""Pages, pictures, films, reports and exports of the results of a run."""

@@ -1,4 +1,4 @@
-"""Colours of values and of names, light and dark, and numbers with units that a person can read."""
+"""Colours of values and names, light and dark styles, and readable numbers with units."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from foamprb.view.libraries import load
 Table = NDArray[np.uint8]
 
 NAMES = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8c8c8c")
-"""Colours of names that most people tell apart (M. Okabe and K. Ito, Color Universal Design, 2008)."""
+"""Distinguishable colours of names (M. Okabe and K. Ito, Color Universal Design, 2008)."""
 
 MAPS = ("viridis", "cividis", "magma", "coolwarm")
-"""Colour maps of matplotlib that are offered; the last is for values on both sides of zero."""
+"""Colour maps of matplotlib; the last one is for values on both sides of zero."""
 
 _GOLDEN_ANGLE = 137.508
 _PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
@@ -28,7 +28,7 @@ _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Style(NamedTuple):
-    """Colours of all but the bodies, those of ``page.css``."""
+    """Colours of everything but the bodies, the same as in ``page.css``."""
 
     paper: str
     ink: str
@@ -43,18 +43,18 @@ class Style(NamedTuple):
 
 @cache
 def colour_map(name: str) -> Table:
-    """256 colours, (256, 3)."""
+    """Return 256 colours, (256, 3)."""
     colormaps = load("matplotlib").colormaps
     return np.asarray(colormaps[name](np.arange(256), bytes=True))[:, :3].astype(np.uint8)
 
 
 def rgb(colour: str) -> tuple[int, int, int]:
-    """``#rrggbb`` → (r, g, b)."""
+    """Return (r, g, b) of ``#rrggbb``."""
     return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
 
 
 def ramp(*colours: str) -> Table:
-    """256 colours, from one over others to the last, (256, 3)."""
+    """Return 256 colours, (256, 3), interpolated between given ones."""
     stops = np.array([rgb(colour) for colour in colours], dtype=np.float64)
     at = np.linspace(0.0, len(colours) - 1.0, 256)
     return (
@@ -87,7 +87,7 @@ DARK = Style(
 
 
 def colour_of_name(k: int) -> str:
-    """Colour of the k-th of several names; beyond the eight, hues at the golden angle."""
+    """Return the colour of the k-th name; beyond :data:`NAMES`, hues at the golden angle."""
     if k < len(NAMES):
         return NAMES[k]
     r, g, b = colorsys.hsv_to_rgb(k * _GOLDEN_ANGLE % 360.0 / 360.0, 2.0 / 3.0, 0.75)
@@ -95,7 +95,7 @@ def colour_of_name(k: int) -> str:
 
 
 def readable(unit: str, most: float) -> tuple[float, str]:
-    """A unit for numbers up to ``most`` without powers of ten: its size in the given one, and its name."""
+    """Return size and name of a unit in which numbers up to ``most`` need no power of ten."""
     pretty = _pretty(unit)
     if unit in _SCALED_UNITS and 0.0 < abs(most) < 1e5:
         for factor, prefix in _PREFIXES:
@@ -105,19 +105,19 @@ def readable(unit: str, most: float) -> tuple[float, str]:
 
 
 def written(value: float, unit: str, most: float) -> str:
-    """A value with its unit, in that for numbers up to ``most``: ``0.04, "s", 0.06`` → "40 ms"."""
+    """Return a value in the :func:`readable` unit of ``most``: ``0.04, "s", 0.06`` → "40 ms"."""
     factor, name = readable(unit, most)
     text = f"{value / factor:.4g}".replace("-", "−")
     return f"{text} {name}" if name else text
 
 
 def number(value: float) -> str:
-    """A tick of a scale."""
+    """Return the text of a tick of a scale."""
     return f"{value:.3g}".replace("-", "−")
 
 
 def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
-    """Round numbers between two limits, the limits among them."""
+    """Return two limits and round numbers between them."""
     raw = (high - low) / (wanted - 1)
     power = 10.0 ** math.floor(math.log10(raw))
     step = next(digit * power for digit in (1.0, 2.0, 2.5, 5.0, 10.0) if digit * power >= raw * (1.0 - 1e-9))
@@ -127,5 +127,5 @@ def ticks(low: float, high: float, wanted: int = 5) -> list[float]:
 
 
 def _pretty(unit: str) -> str:
-    """``m/s2`` → m/s²."""
+    """Return a unit with superscripts: ``m/s2`` → m/s²."""
     return re.sub(r"(?<=[A-Za-z])-?\d+", lambda power: power[0].translate(_SUPERSCRIPTS), unit)

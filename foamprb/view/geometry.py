@@ -1,4 +1,4 @@
-"""The boundary of the flow's mesh, its edges, and planes through the flow."""
+"""Boundary of the mesh, its edges, and planes through the flow."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 MOST_TRIANGLES = 200_000
-"""Finer boundaries are thinned out."""
+"""Finer boundaries are decimated."""
 _FEATURE_ANGLE = 30.0
 FLAT_TYPES = frozenset({"empty", "wedge"})
-"""The types of patches that say that a case has two dimensions; they are not drawn."""
+"""Types of patches of two-dimensional cases; these patches are not drawn."""
 PLANE = "speed"
-"""What a plane through the flow is coloured by at first."""
+"""Default quantity of a plane through the flow."""
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _VECTOR = rf"\(\s*({_NUMBER})\s+({_NUMBER})\s+({_NUMBER})\s*\)"
@@ -35,7 +35,7 @@ _HOW_TO_SLICE = (
 
 
 class Surface(NamedTuple):
-    """A patch; triangles turn outwards, and corners at sharp edges are there once for each side."""
+    """Patch with outward triangles; a point at a sharp edge exists once for each side."""
 
     name: str
     type: str
@@ -46,7 +46,7 @@ class Surface(NamedTuple):
 
     @property
     def centres(self) -> Floats:
-        """Middles of the triangles, (t, 3), m."""
+        """Centres of the triangles, (t, 3), m."""
         return np.asarray(self.points[self.triangles].mean(axis=1))
 
     @property
@@ -57,12 +57,12 @@ class Surface(NamedTuple):
 
 
 class Geometry(NamedTuple):
-    """The boundary of a mesh."""
+    """Boundary of a mesh."""
 
     surfaces: tuple[Surface, ...]
-    """A surface per patch that has faces."""
+    """One per patch with faces."""
     edges: Floats
-    """Where the boundary bends sharply or one patch meets another, (e, 2, 3), m."""
+    """Edges where the boundary bends sharply or two patches meet, (e, 2, 3), m."""
     flat: Floats | None
     """Unit normal of a two-dimensional case."""
 
@@ -73,7 +73,7 @@ class Geometry(NamedTuple):
 
 
 class Slice(NamedTuple):
-    """A plane through the flow."""
+    """Plane through the flow."""
 
     points: Floats
     """(v, 3), m."""
@@ -84,7 +84,7 @@ class Slice(NamedTuple):
 
 
 def boundary(mesh: Mesh) -> Geometry:
-    """The boundary of a mesh, patch by patch."""
+    """Return the boundary of a mesh, patch by patch."""
     nodes = mesh.nodes
     triangles = mesh.triangles.astype(np.int64)
     surfaces = []
@@ -104,12 +104,12 @@ def _smooth(nodes: Floats, triangles: Ints, share: float) -> tuple[Floats, Ints]
     data = data.compute_normals(
         cell_normals=False, split_vertices=True, feature_angle=_FEATURE_ANGLE, consistent_normals=False
     )
-    # Copies: what pyvista gives may be memory of the mesh, which ends here.
+    # Copies: the arrays of pyvista may share the memory of this temporary mesh.
     return np.array(data.points, dtype=np.float64), np.array(data.regular_faces, dtype=np.int64)
 
 
 def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
-    """Edges of one triangle only, between patches, or at which the surface bends by more than the angle."""
+    """Return the edges of a single triangle, between patches, or where the surface bends sharply."""
     if len(triangles) == 0:
         return np.zeros((0, 2, 3))
     a, b, c = nodes[triangles].transpose(1, 0, 2)
@@ -130,23 +130,23 @@ def _edges(nodes: Floats, triangles: Ints, patch: NDArray[Any]) -> Floats:
 
 
 def flat_normal(surfaces: list[Surface]) -> Floats | None:
-    """The direction in which nothing happens, if ``empty`` patches or wedges say so."""
+    """Return the normal of a two-dimensional case, by its ``empty`` patches or wedges; else None."""
     areas = [surface.areas for surface in surfaces if surface.type in FLAT_TYPES]
     if not areas:
         return None
-    # Front and back point to opposite sides: the axis along which they do is that of the largest spread.
+    # Front and back point to opposite sides, along the axis of the largest variance.
     axes = np.linalg.eigh(sum(a.T @ a for a in areas))[1]
     normal = axes[:, 2]
     return np.asarray(normal * np.sign(normal[np.argmax(np.abs(normal))]))
 
 
 def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Point and unit normal of the plane that ``-slice`` means, in the box of a mesh.
+    """Return point and unit normal of the plane of ``-slice``, in the box of a mesh.
 
     Raises
     ------
     InputError
-        If the text is none of the allowed forms, or the plane misses the box.
+        If the text has no allowed form, or the plane misses the box.
     """
     by_axis = re.fullmatch(rf"([xyz])(?:=({_NUMBER}))?", text.strip())
     by_normal = re.fullmatch(rf"{_VECTOR}\s*{_VECTOR}", text.strip())
@@ -170,12 +170,12 @@ def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
     sides = (corners - origin) @ normal
     if sides.min() > 0.0 or sides.max() < 0.0:
         box = " to ".join("({:g} {:g} {:g})".format(*corner) for corner in (low, high))
-        raise InputError(f"-slice {text}: the plane misses the mesh, which fills {box}.")
+        raise InputError(f"-slice {text}: the plane misses the mesh, whose box is {box}.")
     return origin, normal
 
 
 def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
-    """Speed and shear rate of a flow on a plane, exactly as the particles see it: linear in each tetrahedron.
+    """Return speed and shear rate of a flow on a plane, linear in each tetrahedron as for the particles.
 
     Parameters
     ----------
@@ -187,11 +187,11 @@ def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
     mesh = flow.mesh
     nodes, tets = mesh.nodes, mesh.tets.astype(np.int64)
     distance = (nodes - origin) @ normal
-    # A node on the plane, as the cell centres of a mesh with one layer are, counts as beside it.
+    # Nodes on the plane, such as cell centres of a mesh with one layer, count as above it.
     distance += 1e-9 * np.ptp(nodes, axis=0).max()
     above = distance[tets] > 0.0
     n_above = above.sum(axis=1)
-    # The vertices of each tetrahedron, those below the plane first.
+    # Vertices of each tetrahedron; vertices below the plane come first.
     order = np.argsort(above, axis=1, kind="stable")
     pairs, hosts = [], []
     for number, corners in _CUTS:
@@ -218,7 +218,7 @@ def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
     )
 
 
-# For a number of vertices above a plane, the pairs of vertices, those below first, of a triangle's corners.
+# Number of vertices above the plane, and the vertex pairs, below first, of the corners of a triangle.
 _CUTS = (
     (1, (0, 3, 1, 3, 2, 3)),
     (3, (0, 1, 0, 2, 0, 3)),

@@ -347,7 +347,7 @@ class TestChoosing:
         assert tab.text("card-title") == "Body 17"
         tab.page.fill("#wanted", "400")
         tab.page.click("#choose")
-        assert tab.text("status") == "There is no such body."
+        assert tab.text("status") == "No such body."
 
     @pytest.mark.parametrize(
         "tab", [{"has_touch": True, "viewport": {"width": 390, "height": 800}}], indirect=True

@@ -1,1 +1,1 @@
-"""``foamprb report``: what was run and what came of it, on one page."""
+"""Report of a run."""

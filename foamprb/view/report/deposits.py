@@ -1,4 +1,4 @@
-"""How many particles stick to a wall per area: on the wall as it lies in space, and on the wall unrolled."""
+"""Particles per area that stick to a wall, on its triangles and on the unrolled wall."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ __all__ = ["Deposits", "deposits"]
 Floats = NDArray[np.float64]
 
 _SAMPLES = 100_000
-"""Points of a wall over which its area is spread."""
+"""Number of points over which the area of a wall is distributed."""
 _ROUND = 0.5
-"""A wall is unrolled if its mean normal is shorter than this."""
-_WANTED, _MOST_BINS = 8.0, 60
-"""Particles of a filled bin, and bins along a side."""
+"""A wall whose mean normal is shorter than this is unrolled."""
+_PER_BIN, _MOST_BINS = 8.0, 60
+"""Mean number of particles in a bin, and largest number of bins along a side."""
 
 
 class Deposits(NamedTuple):
-    """Particles on a wall, counted in bins along two coordinates of it."""
+    """Particles on a wall, counted in bins of its two coordinates."""
 
     name: str
     number: int
-    """Of the particles."""
+    """Number of particles."""
     area: float
-    """Of the wall, m²."""
+    """Area of the wall, m²."""
     across: tuple[str, str]
-    """What the coordinates are."""
+    """Names of the coordinates."""
     edges: tuple[Floats, Floats]
-    """Of the bins along both, m; (p + 1,) and (q + 1,)."""
+    """Edges of the bins along both coordinates, m; (p + 1,) and (q + 1,)."""
     density: Floats
-    """Particles per area, (p, q), 1/m²; NaN where the wall is not."""
+    """Particles per area, (p, q), 1/m²; NaN outside the wall."""
     triangles: Floats
     """Density on each triangle of the surface, (t,), 1/m²."""
     points: Floats
@@ -42,17 +42,10 @@ class Deposits(NamedTuple):
 
 
 def deposits(surface: Surface, x: Floats) -> Deposits:
-    """Count particles on a wall.
+    """Count the particles at positions ``x`` on a wall, (n, 3), m.
 
-    Parameters
-    ----------
-    surface
-        The wall.
-    x
-        Where particles stick, (n, 3), m.
-
-    The sum of density times area over the bins is the number of particles, as far as a bin that holds one
-    holds some of the wall.
+    The sum of density times area over the bins is the number of particles, if every bin with a particle
+    contains a part of the wall.
     """
     areas = np.linalg.norm(surface.areas, axis=1)
     total = float(areas.sum())
@@ -61,11 +54,11 @@ def deposits(surface: Surface, x: Floats) -> Deposits:
     centre = np.average(spread, axis=0, weights=weight)
     rolled = bool(mean < _ROUND)
     if rolled:
-        # Its axis is the direction to which its normals are most nearly perpendicular.
+        # The axis is the direction that is closest to perpendicular to all normals.
         axes = np.linalg.eigh(np.einsum("ti,tj->ij", surface.areas / areas[:, None], surface.areas))[1].T
     else:
         axes = np.linalg.eigh(np.cov((spread - centre).T, aweights=weight))[1].T[::-1]
-    # The direction of each axis is that of its largest component, so that pictures do not turn around.
+    # The largest component of each axis is positive, so that similar walls are drawn alike.
     axes *= np.sign(axes[np.arange(3), np.abs(axes).argmax(axis=1)])[:, None]
     radius = float(np.average(np.linalg.norm((spread - centre) @ axes[1:].T, axis=1), weights=weight))
 
@@ -94,7 +87,7 @@ def deposits(surface: Surface, x: Floats) -> Deposits:
 
 
 def _spread(surface: Surface, areas: Floats) -> tuple[Floats, Floats]:
-    """Points spread evenly over each triangle, and the area that each stands for."""
+    """Return points distributed evenly over each triangle, and the area of each point."""
     order = max(1, round(np.sqrt(_SAMPLES / max(1, len(areas)))))
     i, j = (index.ravel() for index in np.meshgrid(np.arange(order), np.arange(order)))
     inside = i + j < order
@@ -105,8 +98,8 @@ def _spread(surface: Surface, areas: Floats) -> tuple[Floats, Floats]:
 
 
 def _bins(side: Floats, n: int) -> tuple[int, int]:
-    """Bins along both sides, about as long as wide, for so many particles."""
-    cells = max(1.0, n / _WANTED)
+    """Return the number of bins along both sides, for n particles; bins are about square."""
+    cells = max(1.0, n / _PER_BIN)
     ratio = np.sqrt(max(side[0], 1e-300) / max(side[1], 1e-300))
     both = np.clip(np.round(np.sqrt(cells) * np.array([ratio, 1.0 / ratio])), 1, _MOST_BINS).astype(int)
     return int(both[0]), int(both[1])

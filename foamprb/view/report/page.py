@@ -1,4 +1,4 @@
-"""The page of a report: sections of words, tables and plots in one file that needs no other."""
+"""Page of a report: sections of texts, tables and plots in one file that needs no other."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 from foamprb.view.report.plots import Plot
 
-__all__ = ["Section", "figure", "image", "page", "table"]
+__all__ = ["Section", "figure", "grid", "image", "page", "table"]
 
 
 class Section(NamedTuple):
-    """A part of the page with a heading."""
+    """Part of the page with a heading."""
 
     id: str
     title: str
@@ -29,26 +29,14 @@ def page(
     warnings: Sequence[str],
     sections: Sequence[Section],
 ) -> str:
-    """Return the whole page, HTML.
-
-    Parameters
-    ----------
-    title, subtitle
-        At its top.
-    cards
-        Numbers and what they are.
-    warnings
-        Sentences.
-    sections
-        In their order.
-    """
+    """Return the whole page, HTML; ``cards`` are numbers with their meanings."""
     template = (files("foamprb.view.report") / "page.html").read_text(encoding="utf-8")
     listed = "".join(f"<li>{html.escape(text)}</li>" for text in warnings)
     return template.format(
         title=html.escape(title),
         subtitle=html.escape(subtitle),
         cards="".join(
-            f'<li><span class="figures">{html.escape(n)}</span>{html.escape(what)}</li>' for n, what in cards
+            f'<li><span class="figures">{html.escape(n)}</span>{html.escape(text)}</li>' for n, text in cards
         ),
         warnings=f'<div class="warnings"><h3>Warnings</h3><ul>{listed}</ul></div>' if warnings else "",
         contents="".join(f'<li><a href="#{s.id}">{html.escape(s.title)}</a></li>' for s in sections),
@@ -60,36 +48,39 @@ def page(
     )
 
 
+def grid(*parts: str) -> str:
+    """Return figures and tables side by side, as far as the page is wide enough."""
+    return f'<div class="grid">{"".join(parts)}</div>'
+
+
 def figure(plot: Plot, caption: str) -> str:
-    """Return a plot with its caption, by which it is also called."""
+    """Return a plot with its caption, which is also its accessible name."""
     text = html.escape(caption)
     svg = plot.svg.replace("<svg ", f'<svg role="img" aria-label="{text}" ', 1)
     return f"<figure>{svg}<figcaption>{text}</figcaption></figure>"
 
 
 def image(light: bytes, dark: bytes, caption: str) -> str:
-    """Return a picture in two colourings, PNG, with its caption."""
+    """Return a picture, PNG, for light and for dark pages, with its caption."""
     text = html.escape(caption)
-    sources = [f"data:image/png;base64,{base64.b64encode(data).decode()}" for data in (light, dark)]
+    on_light, on_dark = (f"data:image/png;base64,{base64.b64encode(data).decode()}" for data in (light, dark))
     return (
-        f'<figure><picture><source media="(prefers-color-scheme: dark)" srcset="{sources[1]}">'
-        f'<img src="{sources[0]}" alt="{text}"></picture><figcaption>{text}</figcaption></figure>'
+        f'<figure><picture><source media="(prefers-color-scheme: dark)" srcset="{on_dark}">'
+        f'<img src="{on_light}" alt="{text}"></picture><figcaption>{text}</figcaption></figure>'
     )
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[object]], numbers: bool = True) -> str:
-    """Return a table; from the second column on, ``numbers`` stand at the right."""
+    """Return a table; columns of ``numbers``, from the second on, are aligned at the right."""
     align = ' class="n"' if numbers else ""
+    text = html.escape(caption)
 
-    def line(cells: Sequence[object], tag: str) -> str:
-        scope = ' scope="row"' if tag == "td" else ""
-        first = f"<th{scope}>{html.escape(str(cells[0]))}</th>"
-        others = "".join(f"<{tag}{align}>{html.escape(str(cell))}</{tag}>" for cell in cells[1:])
-        return f"<tr>{first}{others}</tr>"
+    def line(cells: Sequence[object], first: str, tag: str) -> str:
+        head, *others = (html.escape(str(cell)) for cell in cells)
+        return f"<tr>{first}{head}</th>{''.join(f'<{tag}{align}>{cell}</{tag}>' for cell in others)}</tr>"
 
-    body = "".join(line(row, "td") for row in rows)
+    body = "".join(line(row, '<th scope="row">', "td") for row in rows)
     return (
-        f'<div class="scroll" tabindex="0" role="region" aria-label="{html.escape(caption)}"><table>'
-        f"<caption>{html.escape(caption)}</caption><thead>{line(head, 'th')}</thead><tbody>{body}</tbody>"
-        "</table></div>"
+        f'<div class="scroll" tabindex="0" role="region" aria-label="{text}"><table><caption>{text}</caption>'
+        f"<thead>{line(head, '<th>', 'th')}</thead><tbody>{body}</tbody></table></div>"
     )

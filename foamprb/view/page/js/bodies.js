@@ -1,5 +1,5 @@
-// The bodies: one rectangle each, in which every pixel's ray is intersected with the ellipsoid. So each body is
-// exact at any size, and a hundred thousand cost two triangles each.
+// Bodies: one rectangle of two triangles each. The ray of every pixel in it is intersected with the ellipsoid, so
+// outlines are exact at any size.
 
 import {
   BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial,
@@ -11,7 +11,7 @@ const VERTEX = `
 precision highp float;
 in vec2 position;
 in vec3 place;
-in vec4 row0, row1, row2;   // rows of F, in steps; the last of row0 is 1 for a body that is shown
+in vec4 row0, row1, row2;   // rows of F, in steps; the last of row0 is 1 if the body is shown
 in float radius, value;
 uniform mat4 viewMatrix, projectionMatrix;
 uniform float shapeStep, enlargement, pixel, smallest, chosen;
@@ -32,7 +32,7 @@ void main() {
   mat3 F = transpose(mat3(row0.xyz, row1.xyz, row2.xyz)) * shapeStep;
   vec3 centre = (viewMatrix * vec4(place, 1.0)).xyz;
   float size = radius * enlargement;
-  // What would be smaller than a pixel or two is drawn as a dot of that size.
+  // Bodies below a size of one or two pixels are drawn as dots.
   float least = smallest * pixel * max(-centre.z, 0.0);
   float longest = size * sqrt(max(dot(F[0], F[0]), max(dot(F[1], F[1]), dot(F[2], F[2]))));
   mat3 G = longest < least ? mat3(least) : mat3(viewMatrix) * F * size;
@@ -87,7 +87,7 @@ void main() {
 
   vec3 base = colourAt != colourAt || colourAt < -0.5 ? unknown : texture(colours, vec2((colourAt * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   if (mark > 0.5) {
-    // Three great circles and a spot, on the material.
+    // Three great circles and a spot on the material.
     vec3 off = abs(point);
     float line = min(off.x, min(off.y, off.z)), soft = max(fwidth(line), 1e-5);
     float on = (1.0 - smoothstep(0.04 - soft, 0.04 + soft, line)) * min(1.0, 0.09 / soft);
@@ -97,7 +97,7 @@ void main() {
     base = mix(base, light > 0.45 ? base * 0.42 : mix(base, vec3(1.0), 0.62), 0.8 * on);
   }
   vec3 lit = shade(base, normal, normalize(-ray));
-  // The outline of the chosen one.
+  // Outline of the selected body.
   if (isChosen > 0.5) lit = mix(lit, accent, smoothstep(1.0 - 4.5 * blur, 1.0 - 3.5 * blur, away));
   colour = vec4(lit, cover);
 }`;
@@ -110,7 +110,7 @@ export class Bodies {
     geometry.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 1, -1, 1, 1, -1, 1]), 2));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
     geometry.instanceCount = n;
-    // Of all that there is; the corners of a rectangle say nothing of it.
+    // A bound of the whole scene; the corners of the rectangle do not give one.
     geometry.boundingSphere = new Sphere(new Vector3(), 1);
     const instanced = (name, array, size) => {
       const attribute = new InstancedBufferAttribute(array, size);
@@ -138,7 +138,7 @@ export class Bodies {
     this.shown = new Uint8Array(n);
   }
 
-  // Take places, shapes and colours of a time; `colour(body)` is from 0 to 1, NaN for unknown.
+  // Set positions, shapes and colours of a time; `colour(body)` is 0 to 1, NaN if unknown.
   show(t, isShown, colour) {
     const { n, x, F } = this.data;
     const place = this.place.array, value = this.value.array;
@@ -161,7 +161,7 @@ export class Bodies {
     return count;
   }
 
-  // The body that a ray meets first, or -1; as the pixels see it.
+  // The first body on a ray, or -1, by the same geometry as in the shader.
   pick(t, origin, direction, pixel) {
     const { n, x, F, radius, shapeStep } = this.data;
     const { enlargement, smallest } = this.material.uniforms;
@@ -176,7 +176,7 @@ export class Bodies {
       let longest = 0;
       for (let k = 0; k < 3; k++) longest = Math.max(longest, F[f + k] ** 2 + F[f + k + 3] ** 2 + F[f + k + 6] ** 2);
       longest = Math.sqrt(longest) * size;
-      // Fingers and mice are not exact: a small body is met within some pixels.
+      // Pointers are inexact: small bodies have a tolerance of some pixels.
       const least = Math.max(smallest.value, 5) * pixel * along;
       const off = cx * cx + cy * cy + cz * cz - along * along;
       const reach = Math.max(1.8 * longest, least);
@@ -196,7 +196,7 @@ export class Bodies {
   }
 }
 
-// Where a ray from 0 meets the unit sphere under s·F at a centre; null if it does not.
+// Distance at which a ray from 0 meets the unit sphere under s·F at a centre; null if it misses.
 function intersect(F, f, s, cx, cy, cz, d) {
   const [a, b, c, e, g, h, k, l, o] = [0, 1, 2, 3, 4, 5, 6, 7, 8].map((q) => s * F[f + q]);
   const determinant = a * (g * o - h * l) - b * (e * o - h * k) + c * (e * l - g * k);

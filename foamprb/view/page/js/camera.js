@@ -1,4 +1,4 @@
-// The eye: turns about an upright axis, moves and zooms, by mouse, touch and keys.
+// Camera that turns about an upright axis, moves and zooms by mouse, touch and keys.
 
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 
@@ -34,14 +34,14 @@ export class Eye {
     this.place();
   }
 
-  // Of the picture's height what words leave free, and how far its middle lies below the picture's, in pixels.
+  // Share of the height of the picture without texts, and offset of its middle downwards, in pixels.
   free() {
     const [above, below] = this.insets;
     return { share: Math.max(0.3, 1 - (above + below) / this.height), shift: (above - below) / 2 };
   }
 
-  // From where all of some points is seen, given to the right of, above and before the target; of something long,
-  // whose width may be cut, only as much as lets it be tall enough.
+  // Distance at which points are visible, given right of, above and in front of the target. A long object is cut so
+  // that it is tall enough.
   distanceFor(corners, leastWidth) {
     const slope = Math.tan((this.home.angle * Math.PI) / 360), { aspect } = this.camera, { share } = this.free();
     const tallest = Math.max(...corners.map(([, y]) => Math.abs(y)));
@@ -58,7 +58,7 @@ export class Eye {
     this.place();
   }
 
-  // All of a box of so many half sides about the middle, seen from where one looks now.
+  // Show a whole box, given by its half sides about the origin, in the current direction.
   showAll(halves) {
     this.target.set(0, 0, 0);
     const { towards, right, up } = this.axes(), corners = [];
@@ -90,7 +90,7 @@ export class Eye {
     const camera = this.camera;
     camera.position.copy(this.target).addScaledVector(towards, this.distance);
     camera.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(right, up, towards));
-    // What is shown lies within 2 about the middle.
+    // The scene lies within a distance of 2 from the origin.
     camera.near = Math.max(0.02 * this.distance, this.distance - 4);
     camera.far = this.distance + 4;
     const { width, height } = this;
@@ -105,7 +105,7 @@ export class Eye {
     this.place();
   }
 
-  // By pixels of the picture.
+  // Move by pixels of the picture.
   move(dx, dy) {
     const { right, up } = this.axes();
     const pixel = (2 * this.distance * Math.tan((this.home.angle * Math.PI) / 360)) / this.height;
@@ -113,7 +113,7 @@ export class Eye {
     this.place();
   }
 
-  // Nearer by a factor; what lies under a pixel stays there.
+  // Zoom by a factor; the point under a pixel stays there.
   zoom(factor, x = this.width / 2, y = this.height / 2 + this.free().shift) {
     const before = this.distance;
     this.distance = Math.max(1e-6, Math.min(20, before * factor));
@@ -140,7 +140,7 @@ export class Eye {
       const dx = now.x - before.x, dy = now.y - before.y;
       if (this.pointers.size === 1) {
         this.travelled += Math.hypot(dx, dy);
-        // A trembling finger chooses, it does not turn.
+        // Small movements of a finger count as a tap.
         if (this.travelled < 4) { return; }
         if (before.moving) this.move(dx, dy);
         else this.turn((dx * 3.2) / this.height, (dy * 3.2) / this.height);

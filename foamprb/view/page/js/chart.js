@@ -1,4 +1,4 @@
-// One curve over time, with the present marked.
+// Curve over time, with a mark at the current time.
 
 import { number, pretty, readable } from "./colours.js";
 
@@ -21,7 +21,7 @@ export function drawChart(figure, { label, unit, times, values, now }) {
     high += room;
   } else if (low > 0 && low < 0.5 * high) low = 0;
   const scale = readable(unit, Math.max(Math.abs(low), Math.abs(high)));
-  // From its release to its end.
+  // From the release of the body to its end.
   const own = times.filter((_, k) => Number.isFinite(values[k])), from = own[0], to = own[own.length - 1];
   const clock = readable("s", to);
   const x = (t) => LEFT + ((t - from) / (to - from || 1)) * (WIDTH - LEFT - RIGHT);

@@ -1,8 +1,8 @@
-// Colours of values and of names, and how numbers are written.
+// Colours of values and names, and the format of numbers.
 
 export const names = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442", "#8c8c8c"];
 
-// Beyond the eight, hues at the golden angle.
+// Beyond the names, hues at the golden angle.
 export function colourOfName(k) {
   if (k < names.length) return names[k];
   const h = (k * 137.508) % 360;
@@ -36,7 +36,7 @@ export function tableOfNames(count) {
 
 const prefixes = [[1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"]];
 
-// A unit in which numbers up to `most` need no power of ten, and its size.
+// Unit in which numbers up to `most` need no power of ten, and its size.
 export function readable(unit, most) {
   const size = Math.abs(most);
   if (!/^(m|s|m\/s|Pa|N)$/.test(unit) || !(size > 0) || size >= 1e5) return { factor: 1, unit };
@@ -60,7 +60,7 @@ export function number(value, digits = 4) {
   return `${String(Number(mantissa)).replace("-", "−")} × 10${power}`;
 }
 
-// A value with its unit, in that for numbers up to `most`, and no more exactly than in steps of `step`.
+// A value in the readable unit of `most`, rounded to steps of `step`.
 export function written(value, unit, most = value, step = 0) {
   const known = step > 0 && Number.isFinite(value) ? roundTo(value, step) : value;
   const scale = readable(unit, known === 0 ? most : most === value ? known : most);
@@ -77,7 +77,7 @@ export function pretty(unit) {
   return unit.replace(/(?<=[a-zA-Z])(-?\d)/g, (power) => [...power].map((c) => superscripts[c]).join(""));
 }
 
-// Numbers at round places between two limits, the limits among them.
+// Two limits and round numbers between them.
 export function ticks(low, high, wanted = 5) {
   const span = high - low;
   if (!(span > 0)) return [low];

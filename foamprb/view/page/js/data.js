@@ -1,4 +1,4 @@
-// The data of the page: unpacks what encode.py packed.
+// Data of the page: decodes the columns of encode.py.
 
 async function inflated(text) {
   let bytes;
@@ -22,7 +22,7 @@ function section(number) {
 
 const BLOCK = 64;
 
-// Whole numbers of a column, the time first; `Kind` is the kind of array that holds them.
+// Integers of a column, the time first, as an array of type `Kind`.
 async function column(spec, Kind = Int32Array) {
   const planes = await inflated(section(spec.section));
   const m = spec.shape[0], { order, bytes } = spec;
@@ -30,7 +30,7 @@ async function column(spec, Kind = Int32Array) {
   const width = m ? n / m : 0;
   const whole = new Kind(n);
   const [one, two, three, four] = [0, 1, 2, 3].map((k) => planes.subarray(k * n, (k + 1) * n));
-  // Some bodies at a time: their numbers, written from time to time, would else lie too far apart for the cache.
+  // Bodies are decoded in blocks, so that writes to different times stay in the cache.
   const block = new Int32Array(m * BLOCK);
   for (let from = 0, i = 0; from < width; from += BLOCK) {
     const to = Math.min(width, from + BLOCK), size = to - from;
@@ -53,7 +53,7 @@ async function column(spec, Kind = Int32Array) {
   return whole;
 }
 
-// Positions in units of the scene, about its middle.
+// Positions in the coordinates of the page.
 async function places(packed, frame) {
   const whole = await column(packed);
   const result = new Float32Array(whole.length);
@@ -64,7 +64,7 @@ async function places(packed, frame) {
   return result;
 }
 
-// An array of the bodies: `at(frame, body, component)`, NaN where it is unknown.
+// Array of the bodies: `at(frame, body, component)`, NaN where unknown.
 class Field {
   constructor(spec, whole, n) {
     Object.assign(this, spec);
@@ -81,7 +81,7 @@ class Field {
     return code === 0 ? NaN : this.low[component] + this.step[component] * code;
   }
 
-  // How exactly a value is known.
+  // Resolution of the values.
   stepOf(part) {
     return part === "magnitude" ? Math.max(...this.step) : this.step[Math.max(0, this.own.indexOf(part))];
   }
@@ -94,7 +94,7 @@ class Field {
   }
 }
 
-// A property with names.
+// Property with names.
 class Codes {
   constructor(spec, whole, n) {
     Object.assign(this, spec);

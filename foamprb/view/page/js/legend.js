@@ -1,4 +1,4 @@
-// Legends: of numbers a bar with ticks, of names a list; drawn into the page, and onto a saved picture.
+// Legends: a bar with ticks for numbers, a list for names; on the page and on a saved picture.
 
 import { colourOfName, number, pretty, readable, ticks } from "./colours.js";
 
@@ -7,7 +7,7 @@ const title = (spec) => {
   return { text: spec.label, unit: scale.unit ? pretty(scale.unit) : "", factor: scale.factor };
 };
 
-// What is written at a tick: at an end beyond which there are values, that it stands for them, too.
+// Text of a tick, with ≤ or ≥ at an end if values lie beyond it.
 export function tickText(spec, value, factor) {
   const slack = 1e-5 * (spec.high - spec.low);
   const below = value === spec.low && spec.least < spec.low - slack, above = value === spec.high && spec.most > spec.high + slack;
@@ -56,7 +56,7 @@ export function showLegend(parent, spec) {
   parent.append(box);
 }
 
-// The same on a picture, from the lower left corner upwards; lengths in its own pixels, `s` to each of the page.
+// Legends on a picture, from the lower left corner upwards; `s` pixels of the picture per pixel of the page.
 export function paintLegends(context, specs, style, s, height) {
   let bottom = height - 22 * s;
   for (const spec of [...specs].reverse()) {

@@ -1,4 +1,4 @@
-// The page: state, what follows from it, and the controls that change it.
+// The page: its state, the drawing, and the controls.
 
 import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace, NearestFilter, Raycaster, RGBAFormat, Scene, Vector2, Vector3, WebGLRenderer } from "three";
 import { Bodies } from "./bodies.js";
@@ -16,13 +16,13 @@ const SPEEDS = [2, 5, 10, 15, 25, 30, 60];
 
 const keys = [
   ["Space", "play, stop", () => play(!state.playing)],
-  [", and .", "one time back, on", null],
+  [", and .", "previous, next time", null],
   ["Home, End", "first, last time", null],
   ["Arrows", "turn; with shift move", null],
   ["+ and −", "zoom", null],
-  ["N and P", "choose the next, the previous body", null],
-  ["F", "follow the chosen body", () => follow(!state.follow)],
-  ["Escape", "let the chosen body go", () => choose(-1)],
+  ["N and P", "select the next, the previous body", null],
+  ["F", "follow the selected body", () => follow(!state.follow)],
+  ["Escape", "deselect the body", () => choose(-1)],
   ["0", "first view", () => eye.goHome()],
   ["W", "whole geometry", () => eye.showAll(halves())],
   ["M", "mark on the surface", () => toggle("mark")],
@@ -41,7 +41,7 @@ const state = {
 let legends = [], dirty = false, textures = {};
 
 async function start() {
-  if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not offer");
+  if (!document.createElement("canvas").getContext("webgl2")) throw new Error("it needs WebGL 2, which this browser or computer does not provide");
   if (typeof DecompressionStream === "undefined") throw new Error("it needs a browser of 2023 or newer");
   for (const word of ["bare", "naked"]) document.documentElement.classList.toggle(word, words.has(word));
   if (words.has("naked")) document.documentElement.classList.add("bare");
@@ -109,7 +109,7 @@ function resize() {
   dirty = true;
 }
 
-// Pixels that words, or the card of the chosen body on a narrow screen, take above and below what is shown.
+// Pixels that texts, or the card of the selected body on a narrow screen, take above and below the scene.
 function insets() {
   if (words.has("naked")) return [0, 0];
   const [above, below] = data.scene.home.insets, card = $("card");
@@ -207,7 +207,7 @@ function showPaths() {
   dirty = true;
 }
 
-// Names of patches, each where it hides none before it.
+// Place the names of patches; a name that would overlap an earlier one is hidden.
 function placeLabels() {
   const kept = [];
   const point = new Vector3();
@@ -238,7 +238,7 @@ function boxOf(element) {
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// What the controls do
+// Actions of the controls
 
 function describe(spec) {
   document.title = `${spec.title} – ${spec.subtitle}`;
@@ -437,7 +437,7 @@ function variable(name) {
 function paint() {
   const rgb = (name) => bytesOf(variable(name)).map((byte) => byte / 255);
   const paper = rgb("--paper");
-  // Colours are as they are on the screen: nothing is to convert them.
+  // Colours are given in the colour space of the screen; no conversion.
   renderer.setClearColor(new Color().setRGB(...paper), 1);
   walls.paint({ glass: rgb("--glass"), glassDeep: rgb("--glass-deep"), edge: rgb("--edge"), accent: rgb("--accent") }, $("opacity").value, dark());
   bodies.material.uniforms.darkness.value = dark() ? 1 : 0;
@@ -489,7 +489,7 @@ function choose(i) {
   $("card").hidden = i < 0;
   if (i >= 0) {
     openPanel(false);
-    say(`Body ${data.ids[i]} is chosen.`);
+    say(`Body ${data.ids[i]} is selected.`);
   }
   showPaths();
   show(state.t);
@@ -506,7 +506,7 @@ function bringIntoView(i) {
   eye.place();
 }
 
-// Where the middle of a body is on the picture, in its pixels.
+// Position of the centre of a body in the picture, in pixels.
 function placeOf(i) {
   const p = 3 * (data.n * state.t + i);
   const point = new Vector3(data.x[p], data.x[p + 1], data.x[p + 2]).project(eye.camera);
@@ -571,7 +571,7 @@ function showCard() {
     row.disabled = !target;
     if (target) {
       row.dataset.key = `${target.name}:${target.part}`;
-      row.title = "Show its curve in time";
+      row.title = "Plot over time";
       row.setAttribute("aria-pressed", String(target.name === field.name && target.part === field.part));
       row.addEventListener("click", () => { state.curve = target; showCard(); });
     }
@@ -605,7 +605,7 @@ function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
-// The picture with all that is written on it, twice as fine as the screen.
+// The picture with its texts, at twice the resolution of the screen.
 async function paintPicture() {
   const { width, height } = eye, before = renderer.getPixelRatio(), s = 2;
   renderer.setPixelRatio(s);
@@ -669,7 +669,7 @@ function readNumber(id, otherwise) {
   const value = text === "" ? otherwise : Number(text);
   const wrong = Number.isNaN(value);
   $(id).setAttribute("aria-invalid", String(wrong));
-  if (wrong) say("That is not a number.");
+  if (wrong) say("Not a number.");
   return wrong ? otherwise : value;
 }
 
@@ -711,7 +711,7 @@ function listen() {
   for (const id of ["filter", "filter-low", "filter-high"]) on(id, "change", setFilter);
   const chooseWanted = () => {
     const i = data.ids.indexOf(Number($("wanted").value));
-    if ($("wanted").value.trim() === "" || i < 0) say("There is no such body.");
+    if ($("wanted").value.trim() === "" || i < 0) say("No such body.");
     else choose(i);
   };
   on("choose", "click", chooseWanted);
@@ -762,7 +762,7 @@ function onKey(event) {
   event.preventDefault();
 }
 
-// What tests and other scripts may use.
+// Interface for tests and other scripts.
 const ready = start();
 ready.catch((error) => {
   $("notice").textContent = `This page cannot be shown: ${error.message}.`;

@@ -1,4 +1,4 @@
-// Light, the same for all: from the upper left behind the eye. Vectors are the eye's.
+// Common light, from the upper left behind the camera. Vectors are in camera coordinates.
 
 export const SHADE = `
 uniform float darkness;
@@ -8,7 +8,7 @@ vec3 shade(vec3 base, vec3 normal, vec3 towards) {
   float diffuse = 0.5 + 0.5 * dot(normal, light);
   float bright = pow(clamp(dot(normal, normalize(light + towards)), 0.0, 1.0), 42.0);
   vec3 lit = base * (0.46 + 0.66 * diffuse * diffuse) + 0.22 * bright;
-  // The rim stands out from the paper, be it white or black.
+  // The rim contrasts with a white and with a black background.
   float rim = pow(1.0 - facing, 4.0);
   return mix(lit, darkness > 0.5 ? mix(lit, vec3(0.85, 0.92, 1.0), 0.6) : lit * 0.45, 0.8 * rim);
 }`;

@@ -1,4 +1,4 @@
-// What the bodies move in: walls and edges, a plane through the flow, paths, and marks where they stuck.
+// Surroundings of the bodies: walls, edges, a plane through the flow, paths, and marks of deposits.
 
 import {
   BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, GLSL3, Group, LineSegments, Mesh, Points,
@@ -31,7 +31,7 @@ void main() {
   float facing = abs(dot(normal, towards));
   float lit = 0.5 + 0.5 * dot(normal, normalize(vec3(-0.35, 0.75, 0.55)));
   vec3 seen = mix(deep, base, smoothstep(0.1, 0.95, lit));
-  // Glass is denser where one looks along it.
+  // Glass is denser at grazing angles.
   colour = vec4(seen, opacity >= 1.0 ? 1.0 : opacity * (1.0 + 2.5 * pow(1.0 - facing, 3.0)));
 }`;
 
@@ -44,7 +44,7 @@ out float when;
 void main() {
   when = time;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  // Edges are seen on the walls that they belong to.
+  // Edges lie in front of their walls.
   gl_Position.z -= 2e-5 * gl_Position.w;
 }`;
 
@@ -179,7 +179,7 @@ export class Plane {
   }
 }
 
-// Paths of bodies up to now: those that the run recorded, else from time to time.
+// Paths of bodies up to the shown time: recorded by the run, else through the written times.
 export class Paths {
   constructor(data) {
     this.data = data;
@@ -191,7 +191,7 @@ export class Paths {
     if (data.paths) data.paths.bodies.forEach((body, k) => this.recorded.set(body, k));
   }
 
-  // The paths of some bodies.
+  // Draw the paths of some bodies.
   draw(bodies) {
     const { data } = this;
     const { n, m, x, times, paths } = data;
@@ -222,7 +222,7 @@ export class Paths {
   }
 }
 
-// Small marks, of one size on the screen, where bodies stuck.
+// Marks of constant screen size at stuck bodies.
 export class Deposits {
   constructor() {
     this.points = new Points(new BufferGeometry(), material(POINT_VERTEX, POINT_FRAGMENT,
