@@ -30,15 +30,18 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
     add = parser.add_argument
     add("--decomposed", action="store_true", help="read the processor folders")
-    add("--flow", type=Path, metavar="FILE", help="mesh file with the flow, not the case's")
+    add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
-    add("--gradient", default="", metavar="NAME", help="its gradient [reconstructed]")
+    add("--gradient", default="", metavar="NAME", help="gradient field [reconstructed]")
     divided = parser.add_mutually_exclusive_group()
     divided.add_argument(
-        "--patchArray", default="", metavar="NAME", help="array of a mesh file that numbers its patches"
+        "--patchArray", default="", metavar="NAME", help="array of a mesh file with patch indices"
     )
     divided.add_argument(
-        "--featureAngle", type=float, metavar="DEG", help="patches of a mesh file end at such edges"
+        "--featureAngle",
+        type=float,
+        metavar="DEG",
+        help="split patches of a mesh file at edges with a larger angle",
     )
 
 

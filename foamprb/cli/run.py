@@ -22,19 +22,17 @@ def declare(parser: argparse.ArgumentParser) -> None:
     when = parser.add_mutually_exclusive_group()
     when.add_argument("--time", metavar="TIME", help="time of the flow, or times a:b of a transient one")
     when.add_argument(
-        "--latestTime", action="store_true", help="the latest time of the flow (the default of a steady one)"
+        "--latestTime", action="store_true", help="latest time of the flow (default for steady flow)"
     )
     parser.add_argument("--dict", type=Path, metavar="FILE", help="settings [constant/softCloudProperties]")
     start = parser.add_mutually_exclusive_group()
+    start.add_argument("--resume", action="store_true", help="continue from the last checkpoint, if any")
     start.add_argument(
-        "--resume", action="store_true", help="continue from the last checkpoint, if there is one"
+        "--overwrite", action="store_true", help="restart at time 0 and replace an unfinished run"
     )
-    start.add_argument("--overwrite", action="store_true", help="begin anew, in place of an unfinished run")
+    parser.add_argument("--threads", type=int, metavar="N", help="threads per process [all processors]")
     parser.add_argument(
-        "--threads", type=int, metavar="N", help="number of threads, of each process [all processors]"
-    )
-    parser.add_argument(
-        "--parallel", action="store_true", help="share the particles among the processes of mpirun"
+        "--parallel", action="store_true", help="distribute the particles over the processes of mpirun"
     )
     parser.add_argument(
         "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"

@@ -25,7 +25,7 @@ def test_every_command_has_help(capsys):
     for command, word in product(("", *COMMANDS), ("-h", "-help", "--help")):
         status = main([command, word] if command else [word])
         out, err = capsys.readouterr()
-        usage = out.startswith(f"usage: foamprb {command}".rstrip()) and "show this text and stop" in out
+        usage = out.startswith(f"usage: foamprb {command}".rstrip()) and "show this text and exit" in out
         if status or err or not usage:
             faults.append((command, word))
     assert not faults
