@@ -6,16 +6,11 @@ import itertools
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.constraints import Vector3
-from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.schema import read_entry
-from foamprb.errors import InputError
 from foamprb.results.vtk import Tracks
 from foamprb.view.bodies import Bodies, Codes
 from foamprb.view.colours import MAPS
@@ -369,13 +364,3 @@ def densest(places: Floats, window: float, ends: Floats) -> float:
     places = np.sort(places)
     held = np.searchsorted(places, places + window, side="right") - np.arange(len(places))
     return float(np.clip(places[held.argmax()] + window / 2, low, high))
-
-
-def gravity(case: Path, region: str = "") -> Floats:
-    """Return the gravity of ``constant/g``, m/s²; zero without the file."""
-    path = case / "constant" / region / "g"
-    try:
-        value: tuple[float, float, float] = read_entry(read_dictionary(path, case), "value", Vector3)
-    except InputError:
-        return np.zeros(3)
-    return np.array(value)

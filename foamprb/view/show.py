@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import webbrowser
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import numpy as np
 from foamprb.errors import InputError
 from foamprb.flow.read.source import Source, read_flow
 from foamprb.results.atomic import atomic_write
+from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
@@ -29,7 +31,6 @@ from foamprb.view.scene import (
     box,
     busiest,
     camera_for,
-    gravity,
 )
 
 log = logging.getLogger("foamprb")
@@ -175,6 +176,9 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         first = int(np.argmin(np.abs(bodies.times - time)))
         if not math.isclose(bodies.times[first], time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15):
             log.warning("-time %g s was not written; the nearest is %g s.", time, bodies.times[first])
+    g = np.zeros(3)
+    with suppress(InputError):
+        g = np.array(read_gravity(request.case, run.results.region))
     corners = box(geometry, bodies)
     return Scene(
         title=request.case.resolve().name,
@@ -184,7 +188,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         geometry=geometry,
         slice=plane,
         paths=run.paths(),
-        camera=camera_for(geometry, bodies, first, gravity(request.case, run.results.region)),
+        camera=camera_for(geometry, bodies, first, g),
         enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
         colour=colour,
         range=request.range,

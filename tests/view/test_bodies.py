@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import shutil
 
 import numpy as np
 import pytest
@@ -165,27 +164,6 @@ def test_arrays_that_there_are_not(case, text, said):
 
 
 class TestDamage:
-    def test_no_results(self, tmp_path):
-        with pytest.raises(InputError, match=r"no results here .* foamprb run"):
-            open_run(tmp_path)
-        with pytest.raises(InputError, match="no such folder"):
-            open_run(tmp_path / "nowhere")
-
-    def test_another_cloud(self, case):
-        with pytest.raises(InputError, match="Did you mean 'softCloud'"):
-            open_run(case, "softCloude")
-
-    def test_two_clouds_without_a_name(self, case):
-        folder = case / "postProcessing"
-        for name in ("a", "b"):
-            shutil.copytree(folder / "softCloud", folder / name)
-            (folder / name / "softCloud.pvd").rename(folder / name / f"{name}.pvd")
-        assert open_run(case).name == "softCloud"
-        shutil.rmtree(folder / "softCloud")
-        with pytest.raises(InputError, match=r"results of 2 clouds: a, b.* -cloud"):
-            open_run(case)
-        assert open_run(case, "b").name == "b"
-
     def test_a_damaged_list(self, case):
         pvd = case / "postProcessing/softCloud/softCloud.pvd"
         pvd.write_text(pvd.read_text()[:200])

@@ -25,7 +25,6 @@ from foamprb.view.scene import (
     automatic_enlargement,
     busiest,
     camera_for,
-    gravity,
     limits_of,
     principal_axes,
     round_down,
@@ -178,11 +177,12 @@ class TestCamera:
             principal_axes(straight, np.zeros(3), np.array([9.0, 2.0, 1.0])), np.eye(3)
         )
 
-    def test_gravity_of_the_case(self, tmp_path):
-        assert gravity(tmp_path).tolist() == [0.0, 0.0, 0.0]
+    def test_gravity_of_the_case_points_down(self, tmp_path):
+        write_run(tmp_path, motion(4, 2), mesh=False)
         (tmp_path / "constant").mkdir()
         (tmp_path / "constant/g").write_text("FoamFile { format ascii; } value (0 0 -9.81);")
-        assert gravity(tmp_path).tolist() == [0.0, 0.0, -9.81]
+        scene = make_scene(Request(tmp_path), open_run(tmp_path), range(2))
+        assert scene.camera.up.tolist() == [0.0, 0.0, 1.0]
 
 
 class TestNumbers:
