@@ -12,7 +12,8 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Stick
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
-from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
+from foamprb.cloudfunctions.base import ObservedCloud
+from foamprb.cloudfunctions.registry import CloudFunctions
 
 RADIUS, MEAN, D = 2.1e-3, 0.485, 5e-6
 WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))

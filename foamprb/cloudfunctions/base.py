@@ -1,16 +1,17 @@
-"""What a run observes of its cloud: OpenFOAM's ``cloudFunctions``, and how a run calls them.
+"""Base classes of cloud functions, OpenFOAM's ``cloudFunctions``, which record data of a cloud during a run.
 
-A cloud function is a frozen dataclass of its entries with three methods. What it remembers is a dict of
-arrays that belongs to the run, so that a checkpoint can save it. A new function is one file with such a class
-and a line in :mod:`foamprb.cloudfunctions.registry`.
+A cloud function is a frozen dataclass of its entries with methods. Its data is a dict of arrays that belongs
+to the run, so that a checkpoint can save it. A new function is one file with such a class and a line in
+:mod:`foamprb.cloudfunctions.registry`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,63 +19,60 @@ from numpy.typing import NDArray
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts
 from foamprb.cloud.state import Particles, Status
-from foamprb.dictionary.constraints import Meaning
-from foamprb.dictionary.schema import Schema
-from foamprb.errors import InputError
+from foamprb.dictionary.constraints import AtLeastOne, Meaning
+from foamprb.results.tables import Column
 
 __all__ = [
-    "SAMPLE_INTERVAL",
     "STATUS_NAMES",
     "CloudFunction",
-    "CloudFunctions",
     "Memory",
     "ObservedCloud",
     "Rows",
-    "SeesRebounds",
-    "wants_rebounds",
+    "SampleInterval",
+    "SampledFunction",
+    "append",
+    "columns",
+    "masses",
+    "names_of",
 ]
 
 Rows: TypeAlias = NDArray[np.int64]
 """Row numbers of particles in their cloud."""
 Memory: TypeAlias = dict[str, NDArray[Any]]
-SAMPLE_INTERVAL = Meaning("steps between two samples")
+SampleInterval = Annotated[int, AtLeastOne, Meaning("steps between two samples")]
 STATUS_NAMES = tuple(status.name.lower() for status in Status)
 
 
 @dataclass(frozen=True)
 class ObservedCloud:
-    """The cloud of a run as its functions observe it, with the names of injection models and patches."""
+    """The cloud of a run as an argument of its functions, with the names of injection models and patches."""
 
     cloud: Cloud
     injectors: tuple[str, ...]
     patches: tuple[str, ...]
     tables: str = "csv"
-    """The kind of the tables that functions write, which is the ending of their files."""
+    """Kind of the tables of functions, and suffix of their files."""
 
     @property
     def particles(self) -> Particles:
-        """The whole cloud, the pending included."""
+        """The whole cloud, pending particles included."""
         return self.cloud.particles
 
     @property
     def time(self) -> float:
-        """Time to which the cloud has come, s."""
+        """Time of the cloud, s."""
         return self.cloud.time
 
     def contexts(self, rows: Rows) -> Iterator[Context]:
-        """Return what the measures of :mod:`foamprb.cloud.measures` need of particles, whatever their status.
+        """Yield the arguments of the measures for particles of any status.
 
-        As :func:`foamprb.cloud.measures.contexts`, a few at a time.
+        See :func:`foamprb.cloud.measures.contexts`; they come in parts.
         """
         for start in range(0, max(len(rows), 1), PER_CONTEXT):
             yield from self._contexts_of(self.particles.take(as_slice(rows[start : start + PER_CONTEXT])))
 
-    def collect(self, rows: Rows, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return values of particles, whatever their status."""
-        return _collect(self.contexts(rows), values)
-
     def collect_of(self, p: Particles, *values: Callable[[Context], NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return values of particles that need not be in the state in which the cloud has them."""
+        """Return values of particles that may differ from the cloud's present state."""
         return _collect(self._contexts_of(p), values)
 
     def _contexts_of(self, p: Particles) -> Iterator[Context]:
@@ -82,8 +80,8 @@ class ObservedCloud:
         return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
 
     def measure(self, rows: Rows, *names: str) -> list[NDArray[Any]]:
-        """Return some of :data:`foamprb.cloud.measures.MEASURES` of particles, whatever their status."""
-        return self.collect(rows, *(MEASURES[name].value for name in names))
+        """Return some of :data:`foamprb.cloud.measures.MEASURES` of particles of any status."""
+        return _collect(self.contexts(rows), [MEASURES[name].value for name in names])
 
 
 def _collect(
@@ -93,111 +91,91 @@ def _collect(
     return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
 
 
-class CloudFunction(Schema, Protocol):
-    """Something that is observed while the cloud moves.
-
-    Between two samples a particle goes unobserved; where and when it ended is exact all the same.
-    """
+@dataclass(frozen=True)
+class CloudFunction:
+    """A function that records data while the cloud moves."""
 
     @property
     def interval(self) -> int:
-        """Tracking steps between two samples; 0 if the write times are enough."""
+        """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
+        return int(getattr(self, "sampleInterval", 0))
 
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return what is remembered at the start; InputError if the cloud lacks what the entries name."""
+    def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+        """Return the initial data; raise InputError if the cloud lacks a name in the entries."""
+        return {}
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Observe the cloud, at every ``interval``-th step and before each writing."""
+        """Record a sample of the cloud, every ``interval`` steps and before each writing."""
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
-        """Write what was observed into the function's own folder, at each write time."""
+        """Write the data into the function's own folder, at each write time."""
+        raise NotImplementedError
+
+    def needs_rebounds(self, bouncing: Collection[str] | None) -> bool:  # noqa: ARG002
+        """Return whether it needs the rebounds from these patches; None if they are not known yet."""
+        return False
+
+    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Record rebounds, which :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` returned."""
 
 
-@runtime_checkable
-class SeesRebounds(Protocol):
-    """A cloud function that may want to know where and when particles bounce off."""
+@dataclass(frozen=True)
+class SampledFunction(CloudFunction):
+    """A cloud function that compares each sample of a particle with the one before.
 
-    def wants_rebounds(self, bouncing: Collection[str]) -> bool:
-        """Whether it does, if they bounce off these patches."""
-
-    def note_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Remember those of :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` that count."""
-
-
-def wants_rebounds(functions: Iterable[CloudFunction], bouncing: Collection[str]) -> bool:
-    """Whether one of the functions wants rebounds to be noted, if particles bounce off these patches."""
-    return any(isinstance(f, SeesRebounds) and f.wants_rebounds(bouncing) for f in functions)
-
-
-class CloudFunctions:
-    """The cloud functions of a run, and what they remember.
-
-    Parameters
-    ----------
-    functions
-        By their names.
-    cloud
-        The cloud at the start.
-
-    Raises
-    ------
-    InputError
-        If a function asks for what the cloud does not have.
+    Between two samples a particle is not observed, but the last sample is at its exact end.
     """
 
-    def __init__(self, functions: Mapping[str, CloudFunction], cloud: ObservedCloud) -> None:
-        self.functions = dict(functions)
-        self._cloud = cloud
-        self._memory: dict[str, Memory] = {}
-        for name, function in self.functions.items():
-            try:
-                self._memory[name] = function.begin(cloud)
-            except InputError as error:
-                raise InputError(f"cloudFunctions/{name}: {error}") from error
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return the values of particles that are stored at each sample, by name."""
+        raise NotImplementedError
 
-    def next_sample(self, last: int) -> int:
-        """Return the step, at most ``last``, to which the cloud may advance before the next sample."""
-        step = self._cloud.cloud.step
-        return min([last, *((step // n + 1) * n for f in self.functions.values() if (n := f.interval) > 0)])
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return further data at the start: sums of zero and empty tables."""
+        raise NotImplementedError
 
-    def sample(self) -> None:
-        """Let those functions observe the cloud that do so at its present step."""
-        step = self._cloud.cloud.step
-        for name, function in self.functions.items():
-            if function.interval and step % function.interval == 0:
-                function.sample(self._memory[name], self._cloud)
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
+        """Add a sample: ``memory`` has the values and times ``t`` of the last, ``now`` the present values.
 
-    def write(self, folder: Path) -> None:
-        """Let every function observe the cloud and write into a folder of its name."""
-        self._note_rebounds()
-        for name, function in self.functions.items():
-            function.sample(self._memory[name], self._cloud)
-            function.write(self._memory[name], self._cloud, folder / name)
-
-    def state(self) -> Memory:
-        """Return all that is remembered, by ``function/array``."""
-        self._note_rebounds()
-        return {f"{name}/{key}": array for name, m in self._memory.items() for key, array in m.items()}
-
-    def _note_rebounds(self) -> None:
-        if not self._cloud.cloud.models.rebounds:
-            return
-        rows = self._cloud.cloud.take_rebounds()
-        for name, function in self.functions.items():
-            if isinstance(function, SeesRebounds) and len(rows):
-                function.note_rebounds(self._memory[name], self._cloud, rows)
-
-    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over what :meth:`state` returned in an earlier run.
-
-        Raises
-        ------
-        InputError
-            If it was that of other functions.
+        It may change ``now``, which is stored afterwards.
         """
-        expected, found = sorted(self.state()), sorted(state)
-        if expected != found:
-            changed = ", ".join(sorted({key.split("/")[0] for key in {*expected} ^ {*found}}))
-            raise InputError(f"cloudFunctions: {changed} was not observed from the start, or no longer is.")
-        for name, memory in self._memory.items():
-            memory.update({key: state[f"{name}/{key}"].copy() for key in memory})
+        raise NotImplementedError
+
+    def begin(self, cloud: ObservedCloud) -> Memory:
+        """Return the first sample, of all particles, and the initial data."""
+        p = cloud.particles
+        own = self.initial(cloud)
+        closed = np.zeros(p.size, dtype=bool)
+        return {"closed": closed, "t": p.t.copy(), **self.observe(cloud, np.arange(p.size)), **own}
+
+    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+        """Add a sample of the particles that move, or that have ended since the last one."""
+        p = cloud.particles
+        rows = np.flatnonzero(~memory["closed"] & (p.status != Status.PENDING))
+        now = self.observe(cloud, rows)
+        self.add(memory, cloud, rows, now)
+        for name, values in {**now, "t": p.t[rows], "closed": p.status[rows] > Status.ACTIVE}.items():
+            memory[name][rows] = values
+
+
+def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:
+    """Append lines to a table of the data, and return the table."""
+    table = memory[name]
+    memory[name] = np.concatenate([table, np.reshape(lines, (-1, table.shape[1]))])
+    return memory[name]
+
+
+def masses(p: Particles, rows: Rows) -> NDArray[np.float64]:
+    """Return masses, kg."""
+    mass: NDArray[np.float64] = 4.0 / 3.0 * math.pi * p.rho[rows] * p.R[rows] ** 3
+    return mass
+
+
+def names_of(names: Sequence[str], codes: NDArray[Any]) -> list[str]:
+    """Return the name of each code."""
+    return [names[code] for code in codes.astype(np.int64)]
+
+
+def columns(names: Sequence[str], array: NDArray[Any]) -> dict[str, Column]:
+    """Return the columns of an array by their names."""
+    return dict(zip(names, array.T, strict=True))

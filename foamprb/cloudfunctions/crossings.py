@@ -19,11 +19,11 @@ class Crossings(NamedTuple):
     """Particles that have changed sides."""
 
     among: NDArray[np.bool_]
-    """Which of the rows that were asked about."""
+    """For each of the given rows, whether it has."""
     rows: Rows
     """(n,)."""
     share: Floats
-    """Of the time between the samples, (n,)."""
+    """Share of the time between the samples, (n,)."""
     time: Floats
     """(n,), s."""
     x: Floats
@@ -33,14 +33,14 @@ class Crossings(NamedTuple):
 
 
 def crossings(memory: Memory, p: Particles, rows: Rows, origin: Any, normal: Any) -> Crossings:
-    """Find the particles of some rows that are on the other side of a plane than at the last sample.
+    """Find the particles that have changed sides of a plane since the last sample.
 
     Parameters
     ----------
     memory
         ``x``, ``v`` and ``t`` of all particles at the last sample.
     p, rows
-        The particles now, and those in question.
+        The particles now, and the rows to be tested.
     origin, normal
         A point of the plane, m, and its unit normal.
 
@@ -52,7 +52,7 @@ def crossings(memory: Memory, p: Particles, rows: Rows, origin: Any, normal: Any
     at = rows[among]
     h = p.t[at] - memory["t"][at]
     before = memory["x"][at]
-    # A particle that had not moved yet had no velocity.
+    # Particles without a step have no velocity.
     way = np.where(np.isfinite(memory["v"][at]), h[:, None] * memory["v"][at], p.x[at] - before)
     ends = [(before, way), (p.x[at], h[:, None] * p.v[at])]
     s = _root(*((x - origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))

@@ -1,4 +1,4 @@
-"""What a camera of a deformability cytometer would see of particles that pass."""
+"""Outlines of passing particles, as in the images of a deformability cytometer."""
 
 from __future__ import annotations
 
@@ -11,10 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipe
 
-from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud
+from foamprb.cloudfunctions.base import (
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    append,
+    columns,
+    names_of,
+)
 from foamprb.cloudfunctions.crossings import crossings
-from foamprb.cloudfunctions.rows import close_ended, columns, names_of, open_rows
-from foamprb.dictionary.constraints import AtLeastOne, Meaning, Vector3
+from foamprb.dictionary.constraints import Meaning, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
 
@@ -24,7 +32,7 @@ Floats = NDArray[np.float64]
 
 
 class Outline(NamedTuple):
-    """The shadow of bodies on a plane: ellipses."""
+    """Shadows of bodies on a plane: ellipses."""
 
     area: Floats
     """(n,), m²."""
@@ -45,9 +53,9 @@ def outline(B: Floats, view: Floats) -> Outline:
     Parameters
     ----------
     B
-        R² F Fᵀ, (n, 3, 3), m²: the tensors whose eigenvalues are the squares of the semi-axes.
+        R² F Fᵀ, (n, 3, 3), m²: its eigenvalues are the squares of the semi-axes.
     view
-        Unit vector along which they are seen, (3,).
+        Unit vector of the viewing direction, (3,).
 
     The shadow of {x: x·B⁻¹x ≤ 1} on the plane with the basis P is the ellipse of P B Pᵀ.
     """
@@ -63,45 +71,36 @@ def outline(B: Floats, view: Floats) -> Outline:
 
 
 @dataclass(frozen=True)
-class DeformabilityCytometry:
-    """Outline of each particle that crosses a plane, as a camera sees it: ``cytometry.csv``.
+class DeformabilityCytometry(SampledFunction):
+    """Outline in a camera of each particle that crosses a plane: ``cytometry.csv``.
 
     Area A and perimeter P of the shadow along ``view``, its semi-axes and the deformation 1 − 2√(πA)/P, at
-    the place and time of the crossing, which are found as by ``particleCollector``; the shape is linear in
-    time between the samples.
+    the place and time of the crossing, which are computed as by ``particleCollector``. Between samples the
+    shape is linear in time.
     """
 
     origin: Annotated[Vector3, Meaning("a point of the plane", "m")]
     normal: Annotated[Vector3, Meaning("its normal, of any length", "1")]
-    view: Annotated[Vector3, Meaning("direction in which the camera looks, of any length", "1")]
-    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 1
+    view: Annotated[Vector3, Meaning("viewing direction of the camera, of any length", "1")]
+    sampleInterval: SampleInterval = 1
 
     def __post_init__(self) -> None:
         for name in ("normal", "view"):
             if not any(getattr(self, name)):
                 raise InputError(f"has a {name} (0 0 0)")
 
-    @property
-    def interval(self) -> int:
-        """Steps between two samples."""
-        return self.sampleInterval
-
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the state of all particles at the start, and an empty table."""
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return positions, velocities and shapes."""
         p = cloud.particles
-        return {
-            "closed": np.zeros(p.size, dtype=bool),
-            "x": p.x.copy(),
-            "v": p.v.copy(),
-            "t": p.t.copy(),
-            "F": p.F.copy(),
-            "seen": np.empty((0, 11)),
-        }
+        return {"x": p.x[rows], "v": p.v[rows], "F": p.F[rows]}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+        """Return an empty table."""
+        return {"seen": np.empty((0, 11))}
+
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        rows = open_rows(memory, p)
         found = crossings(memory, p, rows, np.array(self.origin), _unit(self.normal))
         at, s = found.rows, found.share[:, None]
         F = ((1.0 - s) * memory["F"][at] + s * p.F[at]).reshape(-1, 3, 3)
@@ -118,13 +117,10 @@ class DeformabilityCytometry:
                 seen.deformation,
             ]
         )
-        memory["seen"] = np.concatenate([memory["seen"], new[np.argsort(new[:, 1], kind="stable")]])
-        for name, array in (("x", p.x), ("v", p.v), ("t", p.t), ("F", p.F)):
-            memory[name][rows] = array[rows]
-        close_ended(memory, p, rows)
+        append(memory, "seen", new[np.argsort(new[:, 1], kind="stable")])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
-        """Write the table of all crossings until now."""
+        """Write the table of all crossings."""
         seen = memory["seen"]
         rows = seen[:, 0].astype(np.int64)
         names = ("area", "perimeter", "a", "b", "deformation")

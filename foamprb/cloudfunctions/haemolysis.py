@@ -10,9 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, STATUS_NAMES, Memory, ObservedCloud, Rows
-from foamprb.cloudfunctions.rows import close_ended, names_of, open_rows
-from foamprb.dictionary.constraints import AtLeastOne, Choice, Meaning, Positive
+from foamprb.cloudfunctions.base import (
+    STATUS_NAMES,
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    append,
+    names_of,
+)
+from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
 
@@ -22,7 +30,7 @@ Floats = NDArray[np.float64]
 
 
 class PowerLaw(NamedTuple):
-    """Share of haemoglobin that is set free, A τ^α t^β, in per cent, with τ in Pa and t in s."""
+    """Released share of haemoglobin, A τ^α t^β, in per cent, with τ in Pa and t in s."""
 
     A: float
     alpha: float
@@ -40,7 +48,7 @@ POWER_LAWS: dict[str, PowerLaw] = {
 
 
 def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
-    """Per cent of haemoglobin set free, A (∫τ^{α/β} dt)^β.
+    """Return the per cent of haemoglobin released, A (∫τ^{α/β} dt)^β.
 
     Parameters
     ----------
@@ -49,17 +57,16 @@ def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
     dose
         ∫τ^{α/β} dt, with τ in Pa and t in s.
 
-    For a constant stress this is A τ^α t^β, into however many parts the time is divided (Goubergrits & Affeld
-    2004).
+    For a constant stress this is A τ^α t^β for any number of time steps (Goubergrits & Affeld 2004).
     """
     return np.asarray(law.A * dose**law.beta)
 
 
 def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
-    """Shear rate, 1/s, that deforms a droplet so far in steady shear: 2 f₁ D/((1 − D²) f₂).
+    """Return the shear rate, 1/s, of the steady shear in which a droplet has the deformation D.
 
-    So it is in the morphology equation of Arora, Behr & Pasquali (Artif. Organs 28, 1002, 2004), where
-    vorticity turns the droplet as much as strain deforms it (f₃ = f₂).
+    It is 2 f₁ D/((1 − D²) f₂), by the morphology equation of Arora, Behr & Pasquali (Artif. Organs 28, 1002,
+    2004) with equal effects of vorticity and strain (f₃ = f₂).
 
     Parameters
     ----------
@@ -72,12 +79,12 @@ def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
 
 
 @dataclass(frozen=True)
-class Haemolysis:
+class Haemolysis(SampledFunction):
     """Damage to red blood cells on each path, A (∫τ^{α/β} dt)^β: ``haemolysis.csv``; means in ``means.csv``.
 
-    τ is the scalar stress of the fluid at the particle, μ_f γ̇, or that of the shear that would deform Arora's
-    droplet as far as the particle is. The integral is a trapezoidal sum over the samples. Where the law says
-    more than 100 %, 100 is written.
+    τ is the scalar stress of the fluid at the particle, μ_f γ̇, or that of the shear in which Arora's droplet
+    has the deformation of the particle. The integral is a trapezoidal sum over the samples. Values above
+    100 % are written as 100.
     """
 
     constants: Annotated[
@@ -102,7 +109,7 @@ class Haemolysis:
         float, Positive, Meaning("rate of recovery of Arora's droplet, for `deformation`", "1/s")
     ] = 5.0
     f2: Annotated[float, Positive, Meaning("its coefficient of deformation", "1")] = 4.2298e-4
-    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 1
+    sampleInterval: SampleInterval = 1
 
     def __post_init__(self) -> None:
         given = [name for name in ("A", "alpha", "beta") if getattr(self, name) is not None]
@@ -118,38 +125,30 @@ class Haemolysis:
             return PowerLaw(float(self.A or 0.0), float(self.alpha or 0.0), float(self.beta or 0.0))
         return POWER_LAWS[self.constants]
 
-    @property
-    def interval(self) -> int:
-        """Steps between two samples."""
-        return self.sampleInterval
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return τ^{α/β}."""
+        if self.stress == "fluid":
+            (gamma,) = cloud.measure(rows, "shearRate")
+        else:
+            gamma = effective_shear_rate(cloud.measure(rows, "taylorDeformation")[0], self.f1, self.f2)
+        return {"rate": (cloud.cloud.medium.mu * gamma) ** (self.law.alpha / self.law.beta)}
 
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the stress of all particles at the start, and integrals of zero."""
-        p = cloud.particles
-        return {
-            "closed": np.zeros(p.size, dtype=bool),
-            "t": p.t.copy(),
-            "rate": self._rate(cloud, np.arange(p.size)),
-            "dose": np.zeros(p.size),
-            "history": np.empty((0, 4)),
-        }
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return integrals of zero and an empty table."""
+        return {"dose": np.zeros(cloud.particles.size), "history": np.empty((0, 4))}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the integrals."""
-        p = cloud.particles
-        rows = open_rows(memory, p)
-        rate = self._rate(cloud, rows)
-        # A particle that the mesh has lost is where the flow is not known.
-        rate = np.where(np.isfinite(rate), rate, memory["rate"][rows])
-        memory["dose"][rows] += 0.5 * (p.t[rows] - memory["t"][rows]) * (memory["rate"][rows] + rate)
-        memory["t"][rows], memory["rate"][rows] = p.t[rows], rate
-        close_ended(memory, p, rows)
+        h, before = cloud.particles.t[rows] - memory["t"][rows], memory["rate"][rows]
+        # The flow is unknown at a particle that the mesh has lost.
+        now["rate"] = np.where(np.isfinite(now["rate"]), now["rate"], before)
+        memory["dose"][rows] += 0.5 * h * (before + now["rate"])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
         p = cloud.particles
         rows = np.flatnonzero(p.status != Status.PENDING)
-        # The laws go on beyond the stresses that they were fitted to; there is no more than all of it.
+        # The laws exceed 100 % beyond the stresses of their fits.
         index = np.minimum(index_of_haemolysis(self.law, memory["dose"]), 100.0)
         write_table(
             folder / f"haemolysis.{cloud.tables}",
@@ -161,19 +160,9 @@ class Haemolysis:
         for number in range(len(cloud.injectors)):
             own = rows[(p.injector[rows] == number) & (p.status[rows] != Status.FAILED)]
             lines.append([cloud.time, number, len(own), index[own].mean() if len(own) else np.nan])
-        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 4))])
-        time, injector, n, mean = memory["history"].T
+        time, injector, n, mean = append(memory, "history", lines).T
         write_table(
             folder / f"means.{cloud.tables}",
-            {"time": time, "injector": names_of(cloud.injectors, injector.astype(np.int64)),
+            {"time": time, "injector": names_of(cloud.injectors, injector),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip
-
-    def _rate(self, cloud: ObservedCloud, rows: Rows) -> Floats:
-        """τ^{α/β} of particles."""
-        mu, law = cloud.cloud.medium.mu, self.law
-        if self.stress == "fluid":
-            (gamma,) = cloud.measure(rows, "shearRate")
-        else:
-            gamma = effective_shear_rate(cloud.measure(rows, "taylorDeformation")[0], self.f1, self.f2)
-        return np.asarray((mu * gamma) ** (law.alpha / law.beta))

@@ -1,4 +1,4 @@
-"""The particles that cross a plane."""
+"""Particles that cross a plane."""
 
 from __future__ import annotations
 
@@ -9,10 +9,18 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud
+from foamprb.cloudfunctions.base import (
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    append,
+    masses,
+    names_of,
+)
 from foamprb.cloudfunctions.crossings import crossings
-from foamprb.cloudfunctions.rows import close_ended, masses, names_of, open_rows
-from foamprb.dictionary.constraints import AtLeastOne, Meaning, Only, Positive, Vector3
+from foamprb.dictionary.constraints import Meaning, Only, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
 
@@ -20,12 +28,12 @@ __all__ = ["ParticleCollector"]
 
 
 @dataclass(frozen=True)
-class ParticleCollector:
-    """The number and mass of the particles that cross a plane: ``collector.csv``; each in ``crossings.csv``.
+class ParticleCollector(SampledFunction):
+    """Number and mass of the particles that cross a plane: ``collector.csv``; each in ``crossings.csv``.
 
-    A crossing is found when a particle changes sides between two samples. Where and when follows from the
-    cubic through the positions and velocities at both: an error of fourth order in the time between samples
-    where the path is smooth. A particle that crosses and comes back between two samples is not counted.
+    A crossing is a change of sides between two samples. Its place and time follow from the cubic through the
+    positions and velocities at both. The error is of fourth order in the time between samples where the path
+    is smooth. Particles that cross and return between two samples are not counted.
     """
 
     mode: Annotated[Literal["plane"], Meaning("the only one")]
@@ -38,52 +46,38 @@ class ParticleCollector:
         bool, Meaning("subtract the mass that goes against the normal")
     ] = False
     removeCollected: Annotated[bool, Only(False, "the particles go on")] = False
-    resetOnWrite: Annotated[bool, Meaning("count anew from each write time")] = False
-    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 10
+    resetOnWrite: Annotated[bool, Meaning("reset the counts at each write time")] = False
+    sampleInterval: SampleInterval = 10
 
     def __post_init__(self) -> None:
         if not any(self.normal):
             raise InputError("has a normal (0 0 0)")
 
-    @property
-    def interval(self) -> int:
-        """Steps between two samples."""
-        return self.sampleInterval
-
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the state of all particles at the start, and empty tables."""
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return positions, velocities and Taylor's D."""
         p = cloud.particles
-        return {
-            "closed": np.zeros(p.size, dtype=bool),
-            "x": p.x.copy(),
-            "v": p.v.copy(),
-            "t": p.t.copy(),
-            "D": cloud.measure(np.arange(p.size), "taylorDeformation")[0],
-            "crossings": np.empty((0, 8)),
-            "written": np.zeros(1, dtype=np.int64),
-            "history": np.empty((0, 6)),
-        }
+        return {"x": p.x[rows], "v": p.v[rows], "D": cloud.measure(rows, "taylorDeformation")[0]}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
+        """Return empty tables."""
+        written = np.zeros(1, dtype=np.int64)
+        return {"crossings": np.empty((0, 8)), "written": written, "history": np.empty((0, 6))}
+
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        rows = open_rows(memory, p)
         e = np.array(self.normal) / math.hypot(*self.normal)
         found = crossings(memory, p, rows, np.array(self.origin), e)
         at, x = found.rows, found.x
-        (D,) = cloud.measure(rows, "taylorDeformation")
-        D_there = memory["D"][at] + found.share * (D[found.among] - memory["D"][at])
-        new = np.column_stack([at, found.time, x, found.sense, D_there, masses(p, at)])
+        D = memory["D"][at] + found.share * (now["D"][found.among] - memory["D"][at])
+        new = np.column_stack([at, found.time, x, found.sense, D, masses(p, at)])
         if self.radius is not None:
             aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e
             new = new[np.linalg.norm(aside, axis=1) <= self.radius]
-        memory["crossings"] = np.concatenate([memory["crossings"], new[np.argsort(new[:, 1], kind="stable")]])
-        memory["x"][rows], memory["v"][rows], memory["t"][rows] = p.x[rows], p.v[rows], p.t[rows]
-        memory["D"][rows] = D
-        close_ended(memory, p, rows)
+        append(memory, "crossings", new[np.argsort(new[:, 1], kind="stable")])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
-        """Write both tables, with what has crossed since the last writing."""
+        """Write both tables, with the crossings since the last writing."""
         crossings = memory["crossings"]
         id_, t, x, y, z, sense, D, mass = crossings.T
         rows = id_.astype(np.int64)
@@ -104,12 +98,11 @@ class ParticleCollector:
             n = [np.count_nonzero(own & counted & (sense * side > 0.0)) for side in (1.0, -1.0)]
             rate = weight[own & fresh].sum() / max(cloud.time - before, 1e-300)
             lines.append([cloud.time, index, *n, weight[own & counted].sum(), rate])
-        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 6))])
         memory["written"][0] = len(crossings)
-        time, index, along, against, total, rate = memory["history"].T
+        time, index, along, against, total, rate = append(memory, "history", lines).T
         write_table(
             folder / f"collector.{cloud.tables}",
-            {"time": time, "injector": names_of(cloud.injectors, index.astype(np.int64)),
+            {"time": time, "injector": names_of(cloud.injectors, index),
              "parcels": along.astype(np.int64), "parcelsOpposite": against.astype(np.int64),
              "mass": total, "massFlowRate": rate},
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What particles have been through, and how that is distributed."""
+"""Exposure of particles along their paths, and its distributions."""
 
 from __future__ import annotations
 
@@ -11,8 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, STATUS_NAMES, Memory, ObservedCloud
-from foamprb.cloudfunctions.rows import close_ended, names_of, open_rows
+from foamprb.cloudfunctions.base import (
+    STATUS_NAMES,
+    Memory,
+    ObservedCloud,
+    Rows,
+    SampledFunction,
+    SampleInterval,
+    names_of,
+)
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.results.tables import Column, write_table
@@ -23,8 +30,8 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class ParticleHistogram:
-    """What each particle has been through, ``exposure.csv``, and its distributions, ``<field>.csv``.
+class ParticleHistogram(SampledFunction):
+    """Exposure of each particle along its path, ``exposure.csv``, and its distributions, ``<field>.csv``.
 
     ``residenceTime``, s; ``maxDeformation`` and ``meanDeformation``, Taylor's D at its largest and averaged
     over time; ``shearExposure``, ∫γ̇ dt. The integrals are trapezoidal sums and the largest value that of the
@@ -39,53 +46,41 @@ class ParticleHistogram:
         ),
     ] = ("residenceTime", "maxDeformation", "meanDeformation", "shearExposure")
     nBins: Annotated[int, AtLeastOne, Meaning("bins between the smallest and the largest value")] = 50
-    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 10
+    sampleInterval: SampleInterval = 10
 
     def __post_init__(self) -> None:
         for name in self.fields:
             if name not in _EXPOSURES:
                 raise InputError(f"has the field {name}. {suggestion(name, _EXPOSURES)[:-1]}")
 
-    @property
-    def interval(self) -> int:
-        """Steps between two samples."""
-        return self.sampleInterval
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return Taylor's D and the shear rate."""
+        D, rate = cloud.measure(rows, "taylorDeformation", "shearRate")
+        return {"D": D, "shearRate": rate}
 
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the state of all particles at the start, and integrals of zero.
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return integrals of zero.
 
         Raises
         ------
         InputError
-            If an injection model has the name of a column that the tables have already.
+            If an injection model has the name of another column of the tables.
         """
         if taken := {"lower", "upper"} & set(cloud.injectors):
             raise InputError(f"no injection model may be called {min(taken)}, as a column of the tables is.")
-        p = cloud.particles
-        D, rate = cloud.measure(np.arange(p.size), "taylorDeformation", "shearRate")
-        return {
-            "closed": np.zeros(p.size, dtype=bool),
-            "t": p.t.copy(),
-            "D": D,
-            "shearRate": rate,
-            "maxD": D.copy(),
-            "sumD": np.zeros(p.size),
-            "sumShearRate": np.zeros(p.size),
-        }
+        n = cloud.particles.size
+        (D,) = cloud.measure(np.arange(n), "taylorDeformation")
+        return {"maxD": D, "sumD": np.zeros(n), "sumShearRate": np.zeros(n)}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the integrals."""
-        p = cloud.particles
-        rows = open_rows(memory, p)
-        h = p.t[rows] - memory["t"][rows]
-        D, rate = cloud.measure(rows, "taylorDeformation", "shearRate")
-        # A particle that the mesh has lost is where the flow is not known.
-        rate = np.where(np.isfinite(rate), rate, memory["shearRate"][rows])
-        memory["sumD"][rows] += 0.5 * h * (memory["D"][rows] + D)
-        memory["sumShearRate"][rows] += 0.5 * h * (memory["shearRate"][rows] + rate)
-        memory["maxD"][rows] = np.maximum(memory["maxD"][rows], D)
-        memory["t"][rows], memory["D"][rows], memory["shearRate"][rows] = p.t[rows], D, rate
-        close_ended(memory, p, rows)
+        h = cloud.particles.t[rows] - memory["t"][rows]
+        D, rate = memory["D"][rows], memory["shearRate"][rows]
+        # The flow is unknown at a particle that the mesh has lost.
+        now["shearRate"] = np.where(np.isfinite(now["shearRate"]), now["shearRate"], rate)
+        memory["sumD"][rows] += 0.5 * h * (D + now["D"])
+        memory["sumShearRate"][rows] += 0.5 * h * (rate + now["shearRate"])
+        memory["maxD"][rows] = np.maximum(memory["maxD"][rows], now["D"])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the tables of all particles that were released; the distributions leave out the failed."""

@@ -1,19 +1,17 @@
-"""Where in the mesh particles spend their time, how deformed they are there, on which faces they settle."""
+"""Fields on the mesh: residence time, deformation and deposition of particles."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import SAMPLE_INTERVAL, Memory, ObservedCloud, Rows
-from foamprb.cloudfunctions.rows import close_ended, open_rows
-from foamprb.dictionary.constraints import AtLeastOne
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.results.foam import PatchValues, write_scalar_field
@@ -23,7 +21,7 @@ __all__ = ["ParticleStatistics"]
 Floats = NDArray[np.float64]
 
 _GENERIC = frozenset({"patch", "wall", "mappedWall", "mappedPatch"})
-"""Types of patches on which a field may have any type."""
+"""Types of patches on which a field may have any boundary condition."""
 _DIMENSIONS: dict[str, tuple[int, ...]] = {
     "concentration": (0, -3, 0, 0, 0, 0, 0),
     "residenceTime": (0, 0, 1, 0, 0, 0, 0),
@@ -33,54 +31,38 @@ _DIMENSIONS: dict[str, tuple[int, ...]] = {
 
 
 @dataclass(frozen=True)
-class ParticleStatistics:
+class ParticleStatistics(SampledFunction):
     """Fields on the mesh, in OpenFOAM's format, in a folder for each write time.
 
     ``concentration``, mean number of particles per volume since the start, 1/m³; ``residenceTime``, the time
     that all of them have spent in a cell, s; ``meanD``, the mean of Taylor's D over that time; and on the
-    boundary ``deposition``, particles stuck per area of a face, 1/m². Of the time between two samples half
-    counts for the cell at its beginning, and half for that at its end.
+    boundary ``deposition``, particles stuck per area of a face, 1/m². Half of the time between two samples
+    counts for the cell at its beginning, and half for the cell at its end.
     """
 
-    sampleInterval: Annotated[int, AtLeastOne, SAMPLE_INTERVAL] = 1
+    sampleInterval: SampleInterval = 1
 
-    @property
-    def interval(self) -> int:
-        """Steps between two samples."""
-        return self.sampleInterval
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return cells, −1 outside, and Taylor's D."""
+        mesh, hosts = _mesh(cloud), cloud.particles.host[rows]
+        cell = np.where(hosts >= 0, mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points, -1)
+        return {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
 
-    def begin(self, cloud: ObservedCloud) -> Memory:
-        """Return the cells in which all particles start, and sums of zero.
+    def initial(self, cloud: ObservedCloud) -> Memory:
+        """Return sums of zero; raise InputError if the flow has no mesh."""
+        n = _mesh(cloud).n_cells
+        return {"time": np.zeros(n), "timeD": np.zeros(n)}
 
-        Raises
-        ------
-        InputError
-            If the flow has no mesh.
-        """
-        mesh, p = _mesh(cloud), cloud.particles
-        return {
-            "closed": np.zeros(p.size, dtype=bool),
-            "t": p.t.copy(),
-            "cell": _cells(mesh, p.host),
-            "D": cloud.measure(np.arange(p.size), "taylorDeformation")[0],
-            "time": np.zeros(mesh.n_cells),
-            "timeD": np.zeros(mesh.n_cells),
-        }
-
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the sums of the cells."""
-        mesh, p = _mesh(cloud), cloud.particles
-        rows = open_rows(memory, p)
-        half = 0.5 * (p.t[rows] - memory["t"][rows])
-        # A particle that the mesh has lost counts where it was last.
-        cell = np.where(p.host[rows] >= 0, _cells(mesh, p.host[rows]), memory["cell"][rows])
-        (D,) = cloud.measure(rows, "taylorDeformation")
-        for where, shape in ((memory["cell"][rows], memory["D"][rows]), (cell, D)):
-            known = where >= 0
-            memory["time"] += np.bincount(where[known], half[known], mesh.n_cells)
-            memory["timeD"] += np.bincount(where[known], (half * shape)[known], mesh.n_cells)
-        memory["t"][rows], memory["cell"][rows], memory["D"][rows] = p.t[rows], cell, D
-        close_ended(memory, p, rows)
+        n = _mesh(cloud).n_cells
+        half = 0.5 * (cloud.particles.t[rows] - memory["t"][rows])
+        # A particle that the mesh has lost counts in its last cell.
+        now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
+        for cell, D in ((memory["cell"][rows], memory["D"][rows]), (now["cell"], now["D"])):
+            known = cell >= 0
+            memory["time"] += np.bincount(cell[known], half[known], n)
+            memory["timeD"] += np.bincount(cell[known], (half * D)[known], n)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
@@ -109,17 +91,12 @@ class ParticleStatistics:
 def _mesh(cloud: ObservedCloud) -> Mesh:
     mesh: Any = getattr(cloud.cloud.flow, "mesh", None)
     if not isinstance(mesh, Mesh):
-        raise InputError("the flow has no mesh, on which the fields would be.")
+        raise InputError("the flow has no mesh for the fields.")
     return mesh
 
 
-def _cells(mesh: Mesh, hosts: NDArray[Any]) -> Rows:
-    """Cells that hold the tetrahedra; −1 outside."""
-    return np.where(hosts >= 0, mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points, -1)
-
-
 def _stuck_on_faces(cloud: ObservedCloud, mesh: Mesh) -> Floats:
-    """Number of particles stuck on each boundary face: that of their patch whose centre is nearest."""
+    """Count particles on each boundary face: the face of their patch with the nearest centre."""
     p, counts = cloud.particles, np.zeros(len(mesh.boundary_centres))
     for index in range(len(mesh.patches)):
         first, last = int(mesh.patch_start[index]), int(mesh.patch_start[index + 1])

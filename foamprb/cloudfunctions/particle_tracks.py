@@ -1,4 +1,4 @@
-"""The paths of particles, for ParaView."""
+"""Paths of particles, for ParaView."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud, Rows
+from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunction, Memory, ObservedCloud, Rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.results.vtk import Tracks, write_tracks
 
@@ -21,17 +21,19 @@ _POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate")
 
 
 @dataclass(frozen=True)
-class ParticleTracks:
-    """The paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
+class ParticleTracks(CloudFunction):
+    """Paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
 
-    A path begins where the particle is released, has a point every ``trackInterval`` steps and at the write
-    times, and ends where the particle does. A path has at most ``maxSamples`` points. Of more than
-    ``maxTracks`` particles that many are followed, evenly spread over their numbers.
+    A path begins at the release, has a point every ``trackInterval`` steps and at the write times, and ends
+    with the particle. It has at most ``maxSamples`` points. At most ``maxTracks`` particles are tracked,
+    evenly spread over their numbers.
     """
 
     trackInterval: Annotated[int, AtLeastOne, Meaning("steps between two points")]
-    maxSamples: Annotated[int, AtLeastOne, Meaning("most points of a path, which then ends")]
-    maxTracks: Annotated[int, AtLeastOne, Meaning("most paths, evenly spread over the particles")] = 1000
+    maxSamples: Annotated[int, AtLeastOne, Meaning("largest number of points of a path, which then ends")]
+    maxTracks: Annotated[
+        int, AtLeastOne, Meaning("largest number of paths, evenly spread over the particles")
+    ] = 1000
 
     @property
     def interval(self) -> int:

@@ -1,4 +1,4 @@
-"""The particles that end on patches or bounce off them."""
+"""Particles that end on patches or bounce off them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,15 @@ from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.patches import REBOUND
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import STATUS_NAMES, Memory, ObservedCloud
-from foamprb.cloudfunctions.rows import columns, masses, names_of
+from foamprb.cloudfunctions.base import (
+    STATUS_NAMES,
+    CloudFunction,
+    Memory,
+    ObservedCloud,
+    columns,
+    masses,
+    names_of,
+)
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
 from foamprb.results.names import file_name
@@ -27,12 +34,12 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class PatchPostProcessing:
-    """The particles that meet a patch: when, where, how fast, in what shape: ``<patch>.csv``.
+class PatchPostProcessing(CloudFunction):
+    """Time, place, velocity and shape of particles that meet a patch: ``<patch>.csv``.
 
-    There is a row for each that sticks to the patch or leaves through it, and for each ``rebound``, with the
-    velocity before. A body that stays in touch with the wall, rolls or slides along it, bounced when it came.
-    ``impactAngle`` is the angle between the velocity and the normal out of the fluid, ``axisAngle`` that
+    There is a row for each particle that sticks to the patch or leaves through it, and for each ``rebound``,
+    with the velocity before. A body that rolls or slides along the wall has one rebound, at its arrival.
+    ``impactAngle`` is the angle between the velocity and the normal out of the fluid, ``axisAngle`` the angle
     between the longest axis and the normal, both in degrees.
     """
 
@@ -41,18 +48,13 @@ class PatchPostProcessing:
         int | None, AtLeastOne, Meaning("only the first of each patch", default="all")
     ] = None
 
-    @property
-    def interval(self) -> int:
-        """The write times are enough: what has ended stays as it is."""
-        return 0
-
     def begin(self, cloud: ObservedCloud) -> Memory:
-        """Check the names of the patches; rebounds are remembered, if particles bounce off some of them.
+        """Check the names of the patches; return an empty table of rebounds if particles bounce off one.
 
         Raises
         ------
         InputError
-            If there is no such patch, or the cloud does not note the rebounds from it.
+            If there is no such patch, or the cloud does not record the rebounds from it.
         """
         for name in self.patches:
             if name not in cloud.patches:
@@ -60,22 +62,20 @@ class PatchPostProcessing:
         bouncing = self._bouncing(cloud)
         if bouncing and not cloud.cloud.models.rebounds:
             raise InputError(
-                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which is noted if its models "
-                "have rebounds=True"
+                f"patch {cloud.patches[bouncing[0]]}: particles bounce off it, which is recorded if the "
+                "models have rebounds=True"
             )
         return {"rebounds": in_order([])} if bouncing else {}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Leave all to :meth:`write`."""
+    def needs_rebounds(self, bouncing: Collection[str] | None) -> bool:
+        """Return whether particles bounce off one of the patches."""
+        return bouncing is None or not set(bouncing).isdisjoint(self.patches)
 
-    def wants_rebounds(self, bouncing: Collection[str]) -> bool:
-        """Whether one of the patches is among those that particles bounce off."""
-        return not set(bouncing).isdisjoint(self.patches)
-
-    def note_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Remember the rebounds from these patches."""
-        mine = np.isin(rebounds_of(rows).patch, self._bouncing(cloud))
-        memory["rebounds"] = np.concatenate([memory["rebounds"], rows[mine]])
+    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Record the rebounds from these patches."""
+        if bouncing := self._bouncing(cloud):
+            mine = np.isin(rebounds_of(rows).patch, bouncing)
+            memory["rebounds"] = np.concatenate([memory["rebounds"], rows[mine]])
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write a table for each patch, in the order of time."""
@@ -93,19 +93,19 @@ class PatchPostProcessing:
                 self._write(path, cloud, self._landings(cloud, patch))
 
     def _bouncing(self, cloud: ObservedCloud) -> list[int]:
-        """Those of the patches that particles bounce off."""
+        """Return the indices of the patches off which particles bounce."""
         patches = (cloud.patches.index(name) for name in self.patches)
         return [patch for patch in patches if cloud.cloud.interactions[patch].code == REBOUND]
 
     def _drop(self, memory: Memory, bouncing: Sequence[int]) -> None:
-        """Forget all but the first rebounds from each patch; all particles have come to the same time."""
+        """Drop rebounds beyond ``maxStoredParcels``, when all particles are at the same time."""
         rows = in_order([memory["rebounds"]])
         patch = rebounds_of(rows).patch
         kept = [rows[patch == which][: self.maxStoredParcels] for which in bouncing]
         memory["rebounds"] = in_order(kept)
 
     def _landings(self, cloud: ObservedCloud, patch: int) -> Rebounds:
-        """The ends of particles on a patch, as if they were rebounds."""
+        """Return the ends of particles on a patch, in the form of rebounds."""
         p = cloud.particles
         ended = (p.status == Status.STUCK) | (p.status == Status.ESCAPED)
         rows = np.flatnonzero(ended & (p.patch == patch))
@@ -114,7 +114,7 @@ class PatchPostProcessing:
         return Rebounds(rows, p.patch[rows].astype(np.int64), p.t[rows], p.x[rows], p.v[rows], n, p.F[rows])
 
     def _write(self, path: Path, cloud: ObservedCloud, met: Rebounds) -> None:
-        """Write the table of those that met a patch."""
+        """Write the table of a patch."""
         p = cloud.particles.take(met.number)
         p.F[:] = met.F
         axes, D, longest = cloud.collect_of(

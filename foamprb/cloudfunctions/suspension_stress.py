@@ -1,4 +1,4 @@
-"""The stress that particles add to a dilute suspension."""
+"""Stress of the particles in a dilute suspension."""
 
 from __future__ import annotations
 
@@ -11,49 +11,39 @@ import numpy as np
 from foamprb.body.tensor import dev, sym
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows
-from foamprb.cloudfunctions.rows import names_of
+from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud, Rows, append, names_of
 from foamprb.results.tables import write_table
 
 __all__ = ["SuspensionStress"]
 
 
 @dataclass(frozen=True)
-class SuspensionStress:
-    """What the moving particles add to the fluid's stress in a dilute suspension: ``suspensionStress.csv``.
+class SuspensionStress(CloudFunction):
+    """Contribution of moving particles to the stress of a dilute suspension: ``suspensionStress.csv``.
 
-    Of each injection model its number of particles and their volume V, m³; the sum of the stresslets over
-    that of the volumes, Pa, which times the volume fraction φ is the particles' stress; and the intrinsic
-    viscosity Σ S:d_f/(2 μ_f Σ V d_f:d_f), 5/2 for rigid spheres: what they add to the dissipation, per φ.
+    For each injection model: the number of its particles and their volume V, m³; the sum of the stresslets
+    over the sum of the volumes, Pa, which times the volume fraction φ is the particles' stress; and the
+    intrinsic viscosity Σ S:d_f/(2 μ_f Σ V d_f:d_f), 5/2 for rigid spheres: their dissipation per φ.
     """
-
-    @property
-    def interval(self) -> int:
-        """The write times are enough."""
-        return 0
 
     def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return an empty table."""
         return {"history": np.empty((0, 11))}
 
-    def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
-        """Leave all to :meth:`write`."""
-
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
-        """Write the table, with a row more for each injection model."""
+        """Write the table, with one more row for each injection model."""
         p = cloud.particles
         lines = []
         for index in range(len(cloud.injectors)):
             rows = np.flatnonzero((p.status == Status.ACTIVE) & (p.injector == index))
             lines.append([cloud.time, index, len(rows), *_suspension(cloud, rows)])
-        memory["history"] = np.concatenate([memory["history"], np.reshape(lines, (-1, 11))])
-        time, index, n, *values = memory["history"].T
+        time, index, n, *values = append(memory, "history", lines).T
         names = ("volume", "Sxx", "Syy", "Szz", "Sxy", "Syz", "Sxz", "intrinsicViscosity")
         write_table(
             folder / f"suspensionStress.{cloud.tables}",
             {
                 "time": time,
-                "injector": names_of(cloud.injectors, index.astype(np.int64)),
+                "injector": names_of(cloud.injectors, index),
                 "parcels": n.astype(np.int64),
                 **dict(zip(names, values, strict=True)),
             },

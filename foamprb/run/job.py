@@ -28,7 +28,8 @@ from foamprb.cloud.patches import REBOUND, Rebound
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
-from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud, SeesRebounds, wants_rebounds
+from foamprb.cloudfunctions.base import ObservedCloud
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
@@ -172,7 +173,7 @@ def _compile(settings: Settings, rotating: bool) -> Compilation:
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
     # The patches are not known before the mesh is read.
     bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
-    seen = any(isinstance(function, SeesRebounds) for function in settings.functions.values())
+    seen = any(function.needs_rebounds(None) for function in settings.functions.values())
     models = replace(models, rebounds=bounce and seen)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
     tense = any(injection.solid.surfaceTension != 0.0 for injection in settings.injections)
@@ -257,7 +258,8 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, isinstance(flow, RotatingFlow))
     bouncing = {patch.name for patch, i in zip(flow.patches, interactions, strict=True) if i.code == REBOUND}
-    models = replace(models, rebounds=wants_rebounds(settings.functions.values(), bouncing))
+    needed = any(function.needs_rebounds(bouncing) for function in settings.functions.values())
+    models = replace(models, rebounds=needed)
     try:
         cloud = Cloud(
             particles,

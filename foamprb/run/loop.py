@@ -7,7 +7,7 @@ import time as clock
 from collections.abc import Callable
 
 from foamprb.cloud.cloud import Stepper
-from foamprb.cloud.injection.room import BYTES
+from foamprb.cloud.injection.models import BYTES
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
 from foamprb.memory import require, wants

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
-from foamprb.cloudfunctions.base import CloudFunctions
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.results.checkpoint import Checkpoint, is_one_row
 from foamprb.results.pvd import Entry, files_of, read_pvd, with_ending

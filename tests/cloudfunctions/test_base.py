@@ -7,12 +7,11 @@ import pytest
 from observing import go_on, observe, observed, pipe_cloud
 
 from foamprb.cloud.patches import Escape, Rebound
-from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
-from foamprb.cloudfunctions.registry import FUNCTIONS
+from foamprb.cloudfunctions.registry import FUNCTIONS, CloudFunctions
 from foamprb.errors import InputError
 
 

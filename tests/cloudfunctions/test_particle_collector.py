@@ -11,8 +11,8 @@ from observing import MEAN, RADIUS, WATER, D, column, observe, observed, pipe_cl
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.state import Status, spheres
-from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 
 

@@ -7,8 +7,9 @@ import pytest
 from observing import MEAN, RADIUS, WATER, column, observe, pipe_cloud, table
 
 from foamprb.cloud.measures import MEASURES, context
-from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
+from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
+from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 
 

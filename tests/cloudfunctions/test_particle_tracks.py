@@ -7,8 +7,8 @@ import pyvista
 from observing import observe, observed, pipe_cloud
 
 from foamprb.cloud.state import Status
-from foamprb.cloudfunctions.base import CloudFunctions
 from foamprb.cloudfunctions.particle_tracks import ParticleTracks
+from foamprb.cloudfunctions.registry import CloudFunctions
 
 
 def test_paths_lead_from_release_to_end_through_the_looks(tmp_path):

@@ -11,8 +11,9 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Models
-from foamprb.cloudfunctions.base import CloudFunctions, ObservedCloud
+from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
+from foamprb.cloudfunctions.registry import CloudFunctions
 
 
 def test_who_hits_when_and_in_what_shape(tmp_path):

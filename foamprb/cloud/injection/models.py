@@ -1,4 +1,4 @@
-"""Where and when particles appear: OpenFOAM's injection models, with its entries.
+"""OpenFOAM's injection models, with its entries: places and times of release.
 
 A new injection model is a frozen dataclass of its entries and a line in :data:`INJECTIONS`.
 """
@@ -16,8 +16,7 @@ from typing import Annotated, Literal, NamedTuple, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.injection.room import BYTES, require_room
-from foamprb.cloud.state import Particles, empty
+from foamprb.cloud.state import VARIABLES, Particles, empty
 from foamprb.dictionary.constraints import (
     Angle,
     Axes,
@@ -31,20 +30,20 @@ from foamprb.dictionary.constraints import (
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.memory import wants
+from foamprb.memory import memory, spoken, wants
 
 Floats = NDArray[np.float64]
 log = logging.getLogger("foamprb")
 
 START_OF_FLOW = -math.inf
-"""``SOI`` of a model that says nothing about it; see :func:`start_of_injection`."""
+"""``SOI`` if it is not given; see :func:`start_of_injection`."""
 
 
 _SOI = Annotated[float, NonNegative, Meaning("start of injection", "s", "first time of the flow, or 0")]
 _U0 = Annotated[
     Vector3 | None,
     Meaning(
-        "initial velocity; the integrator `stokes` has no inertia and forgets it at once",
+        "initial velocity; no effect with the integrator `stokes`, which has no inertia",
         "m/s",
         "the fluid's",
     ),
@@ -59,30 +58,36 @@ GIVEN: dict[str, Bounds] = {
     "viscosity": NonNegative,
     "surfaceTension": NonNegative,
 }
-"""What a file of positions may give of each particle, in place of a distribution: entries of the dictionary,
-in their units; ``d`` is the diameter, m."""
+"""Further columns of a file of positions, in place of distributions: entries of the dictionary, in their
+units; ``d`` is the diameter, m."""
 
 ReadPositions: TypeAlias = Callable[[Path, Mapping[str, Bounds]], tuple[Floats, Mapping[str, Floats]]]
-"""Reads a file: positions (n, 3), m, and further columns, (n,) each, with values in these bounds."""
+"""Function that reads a file: positions (n, 3), m, and further columns, (n,) each, within bounds."""
+
+
+BYTES = sum(
+    (1 if v.fixed else 2) * math.prod(v.shape) * np.dtype(v.dtype).itemsize for v in VARIABLES.values()
+)
+"""Memory of a run for each particle: its state, and a copy of its variable part for the last write time."""
 
 
 class Places(NamedTuple):
-    """Where and when particles appear."""
+    """Places and times of release."""
 
     x: Floats
     """(n, 3), m."""
     hosts: NDArray[np.int32]
-    """(n,), the pieces of the flow that hold them; −1 outside the flow."""
+    """(n,), tetrahedra that contain them; −1 outside the flow."""
     t: Floats
     """(n,), s."""
     v: Floats | Vector3 | None = None
-    """(n, 3) or one for all, m/s; that of the fluid if it is not given."""
+    """(n, 3) or one for all, m/s; by default that of the fluid."""
     given: Mapping[str, Floats] = MappingProxyType({})
-    """Some of :data:`GIVEN`, (n,) each, if they are given for each particle."""
+    """Values per particle of some of :data:`GIVEN`, (n,) each."""
 
 
 class Injection(Schema, Protocol):
-    """Where and when particles appear."""
+    """An injection model."""
 
     @property
     def SOI(self) -> float:
@@ -98,36 +103,31 @@ class Injection(Schema, Protocol):
         random
             Source of every random number.
         read
-            Reads a file of positions.
+            Function that reads a file of positions.
 
         Raises
         ------
         InputError
-            If the flow does not have what the entries name, or nothing would be injected.
+            If the flow lacks a name in the entries, or no particle would be injected.
         """
 
 
 @dataclass(frozen=True)
-class ManualInjection:
-    """Particles at the positions that a file lists, all at the time ``SOI``."""
+class ManualInjection(Injection):
+    """Particles at the positions of a file, all at the time ``SOI``."""
 
     positionsFile: Annotated[Path, Meaning("a file in `constant`, see [Positions](#positions)")]
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
     ignoreOutOfBounds: Annotated[bool, Meaning("leave out positions outside the mesh")] = False
 
-    def places(
-        self,
-        flow: Flow,
-        random: np.random.Generator,  # noqa: ARG002
-        read: ReadPositions,
-    ) -> Places:
+    def places(self, flow: Flow, _random: np.random.Generator, read: ReadPositions) -> Places:
         """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
 
         Raises
         ------
         InputError
-            If positions lie outside the flow: how many, and the first of them.
+            If positions lie outside the flow; with their number and the first of them.
         """
         SOI = start_of_injection(self, flow)
         x, given = read(self.positionsFile, GIVEN)
@@ -150,27 +150,22 @@ class ManualInjection:
 
 
 @dataclass(frozen=True)
-class PatchInjection:
+class PatchInjection(Injection):
     """Particles spread over a patch, uniform in flux, from ``SOI`` on for ``duration``."""
 
-    patch: Annotated[str, Meaning("places are random, as many per area as fluid enters there")]
+    patch: Annotated[str, Meaning("random places, with a density proportional to the inflow")]
     parcelsPerSecond: Annotated[float, Positive, Meaning("rate of injection, at even intervals", "1/s")]
     duration: Annotated[float, Positive, Meaning("of the injection", "s")]
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
 
-    def places(
-        self,
-        flow: Flow,
-        random: np.random.Generator,
-        read: ReadPositions,  # noqa: ARG002
-    ) -> Places:
-        """Return random places on the patch, their density in proportion to the flux, at even intervals.
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return random places on the patch, with a density proportional to the flux, at even intervals.
 
         Raises
         ------
         InputError
-            If no fluid enters through the patch, or nothing is injected.
+            If no fluid enters through the patch, or no particle is injected.
         """
         SOI = start_of_injection(self, flow)
         n = require_room(
@@ -185,7 +180,7 @@ class PatchInjection:
             still = not faces.velocity.any()
             raise InputError(
                 f"patchInjection on {self.patch}: no fluid enters through this patch at SOI, {SOI:g} s"
-                + ("; it is at rest there, as often at the first time of a case. " if still else ". ")
+                + ("; it is at rest, as is usual at the first time of a case. " if still else ". ")
                 + "Choose another SOI, another patch or other times of the flow."
             )
         chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
@@ -195,8 +190,8 @@ class PatchInjection:
 
 
 @dataclass(frozen=True)
-class CellZoneInjection:
-    """Particles spread evenly over the cells of a zone, ``numberDensity`` a cubic metre, all at ``SOI``.
+class CellZoneInjection(Injection):
+    """Particles spread evenly over the cells of a zone, ``numberDensity`` per cubic metre, all at ``SOI``.
 
     With ``selectionMode all``, a word of OpenFOAM's fvOptions, over all cells.
     """
@@ -219,22 +214,17 @@ class CellZoneInjection:
         if self.selectionMode == "cellZone" and not self.cellZone:
             raise InputError("has no cellZone. Allowed: the name of a zone, or selectionMode all")
 
-    def places(
-        self,
-        flow: Flow,
-        random: np.random.Generator,
-        read: ReadPositions,  # noqa: ARG002
-    ) -> Places:
-        """Return random places in the zone; their number in any part is that of its volume, to within two.
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return random places in the zone; the number in any part follows its volume, within two.
 
         Raises
         ------
         InputError
-            If there is no such zone, or its volume asks for no particle.
+            If there is no such zone, or no particle is injected.
         """
         SOI = start_of_injection(self, flow)
         zone = flow.cell_zone(self.cellZone or None)
-        # A tetrahedron turned inside out overlaps its neighbours, which hold its share.
+        # An inverted tetrahedron overlaps its neighbours, which contain its share.
         volumes = np.maximum(zone.volumes, 0.0)
         total = np.cumsum(volumes)
         volume = float(total[-1]) if len(total) else 0.0
@@ -243,7 +233,7 @@ class CellZoneInjection:
             f"cellZoneInjection in {self.cellZone or 'all cells'}: numberDensity {self.numberDensity:g} 1/m3 "
             f"times the volume {volume:g} m3 of {len(volumes)} tetrahedra",
         )
-        # One random number for each n-th part of the volume, counted along the cells.
+        # Stratified sampling: one random number in each n-th part of the cumulative volume.
         sought = (np.arange(n) + random.random(n)) / n * total[-1]
         chosen = np.minimum(np.searchsorted(total, sought, side="right"), np.flatnonzero(volumes)[-1])
         weights = random.dirichlet((1.0, 1.0, 1.0, 1.0), n)
@@ -253,7 +243,7 @@ class CellZoneInjection:
 
 
 @dataclass(frozen=True)
-class ConeInjection:
+class ConeInjection(Injection):
     """Sprays: at each position ``parcelsPerInjector`` particles in a cone about an axis, from ``SOI`` on.
 
     As in OpenFOAM, the angle between velocity and axis is uniform between ``thetaInner`` and ``thetaOuter``,
@@ -274,18 +264,13 @@ class ConeInjection:
         if any(not np.any(axis) for _, axis in self.positionAxis):
             raise InputError("has an axis (0 0 0) in positionAxis")
 
-    def places(
-        self,
-        flow: Flow,
-        random: np.random.Generator,
-        read: ReadPositions,  # noqa: ARG002
-    ) -> Places:
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
         """Return the positions in turn, at even intervals in time, with a random direction each.
 
         Raises
         ------
         InputError
-            If a position lies outside the flow, or nothing is injected.
+            If a position lies outside the flow, or no particle is injected.
         """
         SOI = start_of_injection(self, flow)
         positions, axes = (np.array(part, dtype=float) for part in zip(*self.positionAxis, strict=True))
@@ -305,7 +290,7 @@ class ConeInjection:
 def _directions(axes: Floats, theta: Floats, turn: Floats) -> Floats:
     """Return unit vectors (n, 3) at angles theta from the axes (n, 3), turned about them; angles in rad."""
     along = axes / np.linalg.norm(axes, axis=1)[:, None]
-    # The coordinate axis farthest from parallel gives a normal.
+    # The cross product with the least parallel coordinate axis is well conditioned.
     other = np.eye(3)[np.argmin(np.abs(along), axis=1)]
     first = np.cross(along, other)
     first /= np.linalg.norm(first, axis=1)[:, None]
@@ -329,37 +314,64 @@ def _in_triangles(vertices: Floats, density: Floats, random: np.random.Generator
     return points
 
 
+def require_room(number: float, what: str) -> int:
+    """Return a number of particles, rounded, if memory is available for them.
+
+    Parameters
+    ----------
+    number
+        Number of particles, infinite if that overflows.
+    what
+        Beginning of a message: the entries that give the number.
+
+    Raises
+    ------
+    InputError
+        If it is zero, or if there is not enough memory for them.
+    """
+    need, there = number * BYTES, memory()
+    if not need < there:
+        raise InputError(
+            f"{what} gives {number:.3g} particles, which need about {spoken(need)} of memory; available are "
+            f"{spoken(there)}."
+        )
+    n = round(number)
+    if n == 0:
+        raise InputError(f"{what} gives no particle.")
+    return n
+
+
 def start_of_injection(model: Injection, flow: Flow) -> float:
-    """Start of injection, s: ``SOI``, or the first time of the flow, 0 if it has none."""
+    """Return ``SOI``, s, or by default the first time of the flow, 0 for a steady flow."""
     first = flow.span[0]
     return model.SOI if model.SOI != START_OF_FLOW else first if math.isfinite(first) else 0.0
 
 
 class Released(NamedTuple):
-    """What an injection model releases."""
+    """Particles of an injection model."""
 
     particles: Particles
     """Pending spheres, of zero size, density and stiffness."""
     given: Mapping[str, Floats]
-    """Some of :data:`GIVEN`, (n,) each, if they are given for each particle."""
+    """Values per particle of some of :data:`GIVEN`, (n,) each."""
 
 
 def release(model: Injection, flow: Flow, random: np.random.Generator, read: ReadPositions) -> Released:
-    """Return pending spheres where an injection model puts them, and what is given of each.
+    """Return pending spheres at the places of an injection model, and their given values.
 
     Parameters
     ----------
     model, flow
-        The injection model, and the flow into which it injects.
+        The injection model and the flow.
     random
-        Source of every random number that is used.
+        Source of every random number.
     read
-        Reads a file of positions.
+        Function that reads a file of positions.
 
     Raises
     ------
     InputError
-        As the model's ``places``.
+        See the model's ``places``.
     """
     places = model.places(flow, random, read)
     n = len(places.t)
@@ -375,7 +387,7 @@ def release(model: Injection, flow: Flow, random: np.random.Generator, read: Rea
 def given_shear_modulus(
     given: Mapping[str, Floats], poissons_ratio: float | None, mu: float, shear_rate: float | None
 ) -> Floats | None:
-    """Return the shear moduli μ_s that a file gives, (n,), Pa; None if it gives no stiffness.
+    """Return the shear moduli μ_s of a file, (n,), Pa; None if it gives no stiffness.
 
     Parameters
     ----------
@@ -389,7 +401,7 @@ def given_shear_modulus(
     Raises
     ------
     InputError
-        If there are several of these columns, or none of what ``Ca`` or ``youngsModulus`` needs.
+        If there are several of these columns, or if ``Ca`` or ``youngsModulus`` lacks its second quantity.
     """
     names = [name for name in ("shearModulus", "youngsModulus", "Ca") if name in given]
     if len(names) > 1:

@@ -19,6 +19,7 @@ from scipy import stats
 
 from foamprb.cloud.injection import models
 from foamprb.cloud.injection.models import (
+    BYTES,
     GIVEN,
     CellZoneInjection,
     ConeInjection,
@@ -26,7 +27,6 @@ from foamprb.cloud.injection.models import (
     PatchInjection,
     given_shear_modulus,
 )
-from foamprb.cloud.injection.room import BYTES
 from foamprb.errors import InputError
 from foamprb.flow import analytic
 from foamprb.flow.mesh.mesh import build_mesh
@@ -273,7 +273,7 @@ class TestRoom:
             release(model, flow, rng(), no_file)
 
     def test_limits_of_the_process_count(self, pipe_flow, monkeypatch):
-        monkeypatch.setattr("foamprb.cloud.injection.room.memory", lambda: 50_000.0 * BYTES)
+        monkeypatch.setattr("foamprb.cloud.injection.models.memory", lambda: 50_000.0 * BYTES)
         assert release(PatchInjection("inlet", 49_999.0, 1.0), pipe_flow, rng(), no_file).size == 49_999
         with pytest.raises(
             InputError, match=r"5e\+04 particles, which need about \S+ MB of memory; there are \S+ MB"
