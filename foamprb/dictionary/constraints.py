@@ -1,7 +1,7 @@
-"""Rules that a dictionary entry's value must keep, and what it means, declared beside its type.
+"""Rules for the values of dictionary entries, and their documentation, declared beside their types.
 
-A settings class is a frozen dataclass whose field names are the entries' own words; a bounded entry is
-annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.schema` checks.
+A settings class is a frozen dataclass whose field names are the entries' names; an entry with a rule is
+annotated, e.g. ``rho0: Annotated[float, Positive]``. :mod:`foamprb.dictionary.schema` checks the rules.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import NewType, TypeAlias
 
 @dataclass(frozen=True)
 class Bounds:
-    """An interval of allowed values; ``text`` is how a message names it."""
+    """An interval of allowed values; ``text`` is its name in messages."""
 
     lower: float
     upper: float
@@ -23,7 +23,7 @@ class Bounds:
     text: str
 
     def admits(self, value: float) -> bool:
-        """Whether ``value`` is finite and lies in the interval."""
+        """Return whether ``value`` is finite and lies in the interval."""
         above = value > self.lower if self.open_lower else value >= self.lower
         below = value < self.upper if self.open_upper else value <= self.upper
         return math.isfinite(value) and above and below
@@ -31,35 +31,35 @@ class Bounds:
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """The names that a word may be, in most cases a registry."""
+    """Allowed words, in most cases the names of a registry."""
 
     names: Collection[str]
 
     def admits(self, value: str) -> bool:
-        """Whether ``value`` is one of the names."""
+        """Return whether ``value`` is one of the names."""
         return value in self.names
 
 
 @dataclass(frozen=True)
 class Only:
-    """An entry of OpenFOAM's that may have one value only, the one that means what foamprb does; and why."""
+    """An entry of OpenFOAM's with a single allowed value, which describes foamprb's model; and why."""
 
     value: bool | float | str
     why: str
 
     def admits(self, value: bool | float | str) -> bool:
-        """Whether ``value`` is the one."""
+        """Return whether ``value`` is the allowed one."""
         return value == self.value
 
 
 @dataclass(frozen=True)
 class NoEffect:
-    """An entry of OpenFOAM's that changes nothing here, whatever its value; and why."""
+    """An entry of OpenFOAM's without effect here, with any value; and why."""
 
     why: str
 
     def admits(self, value: object) -> bool:  # noqa: ARG002
-        """Whether ``value`` is allowed: any is."""
+        """Return true: any value is allowed."""
         return True
 
 
@@ -71,32 +71,32 @@ class Each:
 
     @property
     def text(self) -> str:
-        """How a message names it."""
+        """Name in messages."""
         return f"a vector (x y z), each {self.bounds.text}"
 
     def admits(self, value: tuple[float, ...]) -> bool:
-        """Whether all components are admitted."""
+        """Return whether all components are admitted."""
         return all(self.bounds.admits(component) for component in value)
 
 
 @dataclass(frozen=True)
 class Meaning:
-    """What the documentation says of an entry, in Markdown: beside its rule, in the same type hint.
+    """Documentation of an entry, in Markdown: beside its rule, in the same type hint.
 
     ``deltaT: Annotated[float, Positive, Meaning("tracking step", "s")]``. :mod:`foamprb.settings.reference`
-    makes the pages, ``foamprb help`` and the comments of ``foamprb init`` of it.
+    makes the settings page, ``foamprb help`` and the comments of ``foamprb init`` from it.
     """
 
     text: str
     unit: str = ""
     default: str = ""
-    """How the default is called, where its value says nothing to a reader."""
+    """Description of the default, if its value is not to be shown."""
 
 
 Rule: TypeAlias = Bounds | Choice | Only | NoEffect | Each
 Vector3: TypeAlias = tuple[float, float, float]
 Constant = NewType("Constant", float)
-"""A number that OpenFOAM lets vary in time, and that is constant here: ``constant 3`` or ``3``."""
+"""A number that may vary in time in OpenFOAM and is constant here: ``constant 3`` or ``3``."""
 Words: TypeAlias = tuple[str, ...]
 Pairs: TypeAlias = tuple[tuple[float, float], ...]
 Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
@@ -104,7 +104,7 @@ Axes: TypeAlias = tuple[tuple[Vector3, Vector3], ...]
 
 Positive = Bounds(0.0, math.inf, True, True, "a number > 0")
 NonNegative = Bounds(0.0, math.inf, False, True, "a number >= 0")
-AtLeastOne = Bounds(1.0, math.inf, False, True, "a whole number >= 1")
+AtLeastOne = Bounds(1.0, math.inf, False, True, "an integer >= 1")
 Fraction = Bounds(0.0, 1.0, False, False, "a number from 0 to 1")
 Angle = Bounds(0.0, 180.0, False, False, "an angle from 0 to 180 degrees")
 PoissonsRatio = Bounds(-1.0, 0.5, True, True, "a number > -1 and < 0.5")

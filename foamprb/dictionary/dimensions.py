@@ -107,6 +107,6 @@ def written(dimensions: Dimensions) -> str:
 
 
 def described(dimensions: Dimensions) -> str:
-    """Return dimensions and what has them: ``[0 1 -1 0 0 0 0], those of a velocity``."""
+    """Return dimensions and a quantity that has them: ``[0 1 -1 0 0 0 0], those of a velocity``."""
     name = _NAMES.get(dimensions)
     return written(dimensions) + (f", those of {name}" if name else "")

@@ -1,4 +1,4 @@
-"""OpenFOAM's files on disk, plain or compressed: one rule for all of them."""
+"""OpenFOAM's files on disk, plain or compressed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = ["existing", "has_both_forms", "read_bytes"]
 
 
 def existing(path: Path) -> Path | None:
-    """Return the file itself, else its compressed form ``.gz``, else None; as OpenFOAM looks for files.
+    """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order.
 
     Raises
     ------
@@ -27,12 +27,12 @@ def existing(path: Path) -> Path | None:
 
 
 def has_both_forms(path: Path) -> bool:
-    """Whether there is the file itself and a compressed one beside it, which OpenFOAM does not read then."""
+    """Return whether both the file and its compressed form exist; OpenFOAM then reads the first."""
     return _is_file(path) and _is_file(_compressed(path))
 
 
 def read_bytes(path: Path, limit: int = -1) -> bytes:
-    """Read the file's bytes, or the first of them, decompressed.
+    """Read the file's bytes, decompressed, up to a limit.
 
     Raises
     ------

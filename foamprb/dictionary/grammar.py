@@ -1,4 +1,4 @@
-"""OpenFOAM's dictionary files: text, with macros and includes, to a tree of entries."""
+"""Parser of OpenFOAM's dictionary files, with macros and includes, to trees of entries."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from foamprb.dictionary.files import existing, has_both_forms
-from foamprb.dictionary.tree import Dictionary, DictionaryList, Entry, Source, Stream, real, unquoted
+from foamprb.dictionary.tree import CaseFile, Dictionary, DictionaryList, Entry, Stream, real, unquoted
 from foamprb.errors import InputError, suggestion
 
 __all__ = ["parse_dictionary", "read_dictionary", "read_dictionary_list"]
@@ -33,7 +33,7 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     * ``$name;`` in place of an entry, which merges the dictionary ``name``;
     * ``#include``, ``#includeIfPresent``, ``#sinclude`` and ``#includeEtc``.
 
-    As in OpenFOAM, a macro sees what is complete before it, which the dictionary where it stands is not.
+    As in OpenFOAM, a macro can name entries that are complete before it; its own dictionary is not.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
     InputError
         If the file cannot be read or is not such a dictionary; with the line.
     """
-    source, spent = Source(path, case), _Spent()
+    source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
     text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
     _Parser(source, text, (), spent).fill(root)
@@ -56,47 +56,47 @@ def read_dictionary(path: Path, case: Path) -> Dictionary:
 
 
 def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
-    """Make of a text what :func:`read_dictionary` would of the file, which it comes from."""
-    root = Dictionary("", None, Source(path, case), 0)
+    """Parse the text of a file; see :func:`read_dictionary`."""
+    root = Dictionary("", None, CaseFile(path, case), 0)
     _Parser(root.source, text, (), _Spent()).fill(root)
     root.entries.pop(_HEADER, None)
     return root
 
 
 def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
-    """Read a file that is a list of named dictionaries with their number before it, as ``polyMesh/boundary``.
+    """Read a file with a list of named dictionaries and their number, such as ``polyMesh/boundary``.
 
     Parameters
     ----------
     path
         The file, which may be compressed.
     case
-        As in :func:`read_dictionary`.
+        See :func:`read_dictionary`.
 
     Raises
     ------
     InputError
         If the file cannot be read or is not such a list; with the line.
     """
-    source, spent = Source(path, case), _Spent()
+    source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
     text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
     return _Parser(source, text, (), spent).counted_list(root)
 
 
 MOST_BYTES = 8 << 20
-"""Of a dictionary and all that it includes, decompressed."""
+"""Largest size of a dictionary with its included files, decompressed."""
 MOST_FILES = 1000
-"""That a dictionary includes, one in another or one after the other."""
+"""Largest number of files that a dictionary includes, nested or not."""
 MOST_NESTED = 100
-"""Dictionaries in each other."""
+"""Largest depth of nested dictionaries."""
 MOST_WORDS = 200_000
-"""To which all macros of a dictionary expand."""
+"""Largest number of words to which the macros of a dictionary expand."""
 
 
 @dataclass
 class _Spent:
-    """How much of what is allowed a dictionary has needed so far, with all that it includes."""
+    """Present use of these limits by a dictionary, with its included files."""
 
     bytes: int = 0
     files: int = 0
@@ -108,7 +108,7 @@ def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) 
     if has_both_forms(path):
         log.warning("%s and %s.gz are both there: the first is read, as by OpenFOAM.", path, path.name)
     try:
-        # The others, pipes and devices, may have no end, or never begin.
+        # Reading a pipe or a device may never end.
         if found.exists() and not found.is_file():
             raise mistake("is not a file")
         with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
@@ -155,7 +155,7 @@ _CASE_FOLDERS = {
 }
 
 
-def _tokens(source: Source, text: str) -> Iterator[_Token]:
+def _tokens(source: CaseFile, text: str) -> Iterator[_Token]:
     position, line = 0, 1
     while position < len(text):
         match = _TOKEN.match(text, position)
@@ -170,9 +170,9 @@ def _tokens(source: Source, text: str) -> Iterator[_Token]:
 
 
 class _Parser:
-    """Reads one file; ``including`` are the files that it is being included from."""
+    """Parser of one file; ``including`` are the files that include it."""
 
-    def __init__(self, source: Source, text: str, including: tuple[Path, ...], spent: _Spent) -> None:
+    def __init__(self, source: CaseFile, text: str, including: tuple[Path, ...], spent: _Spent) -> None:
         self.source = source
         self.spent = spent
         self.tokens = list(_tokens(source, text))
@@ -199,7 +199,7 @@ class _Parser:
                 dictionary.add(self.entry(token, dictionary))
 
     def entry(self, key: _Token, parent: Dictionary) -> Entry:
-        """Read what follows a key."""
+        """Read the value after a key."""
         start, _, beyond = (self.peek(ahead).text for ahead in range(3))
         if start == "{":
             return self.dictionary(key, parent)
@@ -210,7 +210,7 @@ class _Parser:
             twin = self.copy(tokens[0], self.look_up(tokens[0], parent), key.text, parent)
             twin.used = False
             return twin
-        # A computed value keeps its variables: it is refused where it is needed.
+        # A computed value keeps its variables: reading it is an error.
         words = [
             word
             for token in tokens
@@ -279,7 +279,7 @@ class _Parser:
         return tokens
 
     def expand(self, token: _Token, scope: Dictionary) -> tuple[str, ...]:
-        """Replace a macro by the tokens of the entry that it names."""
+        """Replace a macro by the tokens of its entry."""
         if not token.text.startswith("$"):
             return (token.text,)
         entry = self.look_up(token, scope)
@@ -289,7 +289,7 @@ class _Parser:
         return entry.tokens
 
     def copy(self, token: _Token, entry: Entry, key: str, parent: Entry) -> Entry:
-        """Copy the entry that a macro names to another place."""
+        """Copy the entry of a macro to another place."""
         size, height = _extent(entry)
         self.spend(token, size)
         self.require_depth(token, _depth(parent) + height)
@@ -309,7 +309,7 @@ class _Parser:
             raise self.mistake(token, f"is nested too deeply: more than {MOST_NESTED} dictionaries.")
 
     def look_up(self, token: _Token, scope: Dictionary) -> Entry:
-        """Find the entry that a macro names."""
+        """Find the entry of a macro."""
         name = token.text[1:].removeprefix("{").removesuffix("}")
         scopes = [above for above in _upward(scope) if isinstance(above, Dictionary)]
         dots = len(name) - len(name.lstrip("."))
@@ -326,7 +326,7 @@ class _Parser:
         raise self.mistake(token, "is not defined above.")
 
     def merge(self, token: _Token, dictionary: Dictionary) -> None:
-        """Put the entries of the dictionary that a macro names into this one."""
+        """Merge the dictionary of a macro into this one."""
         template = self.look_up(token, dictionary)
         if not isinstance(template, Dictionary):
             raise self.mistake(token, f"stands where a key is expected, but is {template}, not a dictionary.")
@@ -354,11 +354,11 @@ class _Parser:
             raise self.mistake(name, "includes itself.")
         if len(self.files) > MOST_NESTED:
             raise self.mistake(name, f"is included too deeply: more than {MOST_NESTED} levels.")
-        _Parser(Source(path, self.source.case), text, self.files, self.spent).fill(dictionary)
+        _Parser(CaseFile(path, self.source.case), text, self.files, self.spent).fill(dictionary)
         dictionary.entries.pop(_HEADER, None)
 
     def in_case(self, name: str) -> str:
-        """Replace a leading tag for a folder of the case."""
+        """Replace a tag at the beginning by a folder of the case."""
         for tag, folder in _CASE_FOLDERS.items():
             if name.startswith(tag):
                 return f"{real(self.source.case) / folder}{name.removeprefix(tag)}"
@@ -383,7 +383,7 @@ class _Parser:
         )
 
     def peek(self, ahead: int = 0) -> _Token:
-        """Return a coming token; the last one has no text."""
+        """Return a later token; the last one has no text."""
         return self.tokens[min(self.position + ahead, len(self.tokens) - 1)]
 
     def take(self) -> _Token:
@@ -393,19 +393,19 @@ class _Parser:
         return token
 
     def mistake(self, token: _Token, what: str) -> InputError:
-        """Return the error for a token; of what is included from outside the case, nothing is shown."""
+        """Return the error for a token; the text of files outside the case is not shown."""
         if len(self.files) > 1 and not self.files[-1].is_relative_to(real(self.source.case)):
             return self.source.mistake(token.line, "the included file is not a dictionary.")
         return self.source.mistake(token.line, f"'{token.text}' {what}")
 
 
 def _depth(entry: Entry) -> int:
-    """Return the number of entries that hold one another down to this one."""
+    """Return the depth of an entry."""
     return sum(1 for _ in _upward(entry)) - 1
 
 
 def _extent(entry: Entry) -> tuple[int, int]:
-    """Return the number of words in an entry, and how deeply dictionaries are nested in it."""
+    """Return the number of words in an entry, and the depth of nested dictionaries in it."""
     if isinstance(entry, Stream):
         return 1 + len(entry.tokens), 0
     inner: Collection[Entry] = ()
@@ -418,7 +418,7 @@ def _extent(entry: Entry) -> tuple[int, int]:
 
 
 def _upward(entry: Entry) -> Iterator[Entry]:
-    """Yield an entry and those that hold it, up to the top of the file."""
+    """Yield an entry and its parents, up to the top of the file."""
     above: Entry | None = entry
     while above is not None:
         yield above

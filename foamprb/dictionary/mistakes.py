@@ -1,4 +1,4 @@
-"""Mistakes in what a user wrote, collected so that one message can list them all."""
+"""Mistakes in input files, collected so that one message can list them all."""
 
 from __future__ import annotations
 
@@ -15,23 +15,22 @@ _ENDLESS = re.compile(r"\S{500,}")
 
 
 class Mistake(InputError):  # noqa: N818
-    """A mistake in a file, at a line, or at line 0 if it is that something is missing from the whole file.
+    """A mistake in a line of a file, or at line 0 in the whole file.
 
     Parameters
     ----------
     file, line, what
         The parts of the message.
     missing
-        Path of the entry that is missing, if that is the mistake.
+        Path of the missing entry, if that is the mistake.
     meant
-        Paths of the entries that were probably meant by what was found. That one of them is missing is no
-        mistake of its own.
+        Paths of similar entries. If one of them is missing, that is not reported as well.
     """
 
     def __init__(
         self, file: str, line: int, what: str, *, missing: str = "", meant: Iterable[str] = ()
     ) -> None:
-        # A word as long as that is none, and would hide the message.
+        # A very long word would hide the message.
         what = _ENDLESS.sub(lambda word: f"{word[0][:60]}...", what)
         super().__init__(f"{file}, line {line}: {what}" if line else f"{file}: {what}")
         self.place = (file, line)
@@ -39,12 +38,12 @@ class Mistake(InputError):  # noqa: N818
         self.meant = frozenset(meant)
 
     def __reduce__(self) -> tuple[type[InputError], tuple[str]]:
-        # To another process it goes as its message.
+        # Another process receives the message only.
         return InputError, (str(self),)
 
 
 class ReportedError(InputError):
-    """What follows from a mistake that is reported elsewhere; of itself it makes no line of a message."""
+    """Consequence of a mistake that is reported elsewhere; it adds no line to a message."""
 
 
 class SeveralMistakes(InputError):  # noqa: N818
@@ -64,7 +63,7 @@ def _place(error: InputError) -> tuple[str, int]:
 
 
 class Mistakes:
-    """Collects the mistakes of the blocks that it guards, each of which ends at its first.
+    """Collector of the mistakes of guarded blocks, each of which ends at its first mistake.
 
     >>> mistakes = Mistakes()
     >>> with mistakes:
@@ -73,7 +72,7 @@ class Mistakes:
     ...     read_another()
     >>> mistakes.raise_any()
 
-    What a block assigns may be used after :meth:`raise_any`, or later in the same block.
+    Variables that a block assigns may be used after :meth:`raise_any`, or later in the same block.
     """
 
     def __init__(self) -> None:
@@ -92,7 +91,7 @@ class Mistakes:
         return True
 
     def add(self, error: InputError) -> None:
-        """Add a mistake; one that is known already counts once."""
+        """Add a mistake, unless the same message is there already."""
         if isinstance(error, ReportedError):
             self._consequence = error
             return
@@ -100,12 +99,12 @@ class Mistakes:
             self._errors.setdefault(str(one), one)
 
     def raise_any(self) -> None:
-        """Raise what was collected, if anything was.
+        """Raise the collected mistakes, if there are any.
 
         Raises
         ------
         InputError
-            The only mistake, or SeveralMistakes; or ReportedError if they are reported elsewhere.
+            A single mistake, or SeveralMistakes; ReportedError if they are reported elsewhere.
         """
         found = [error for error in self._errors.values() if isinstance(error, Mistake)]
         meant = frozenset[str]().union(*(error.meant for error in found))

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 
 
 class Positions(NamedTuple):
-    """Positions of n particles, and what else a file gives of each."""
+    """Positions of n particles, and further columns of a file."""
 
     x: Floats
     """(n, 3), m."""
@@ -28,7 +28,7 @@ class Positions(NamedTuple):
     """Other columns by their names, (n,) each."""
 
 
-# Possessive throughout, so that a broken file is refused in linear time.
+# Possessive quantifiers: a broken file is rejected in linear time.
 _NUMBER = rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
 _ROWS = re.compile(rb"(?:\s*+\(\s*+%b\s++%b\s++%b\s*+\))*+\s*+" % (_NUMBER, _NUMBER, _NUMBER))
 _COMMENT = re.compile(rb"//[^\n]*+|/\*.*?\*/", re.DOTALL)
@@ -40,7 +40,7 @@ _SEPARATOR = rb"(?:[ \t]*+[,;][ \t]*+|[ \t]++)"
 _SEPARATORS = bytes.maketrans(b",;", b"  ")
 _FINITE = Bounds(-np.inf, np.inf, True, True, "a finite number")
 _COORDINATES = ("x", "y", "z")
-# ParaView's spreadsheets call them so.
+# Names in ParaView's spreadsheets.
 _ALIASES = {f"Points{mark}{i}": name for mark in ":_" for i, name in enumerate(_COORDINATES)}
 
 
@@ -56,7 +56,7 @@ def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> P
     path
         The file.
     columns
-        Which columns a table may have beside x, y and z, and the bounds of their values.
+        Further columns that a table may have, with the bounds of their values.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> P
 
 
 def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floats:
-    """Read OpenFOAM's list, of which the opening has been found."""
+    """Read OpenFOAM's list, given the match of its opening."""
     rows = _ROWS.match(text, opening.end())
     end = rows.end() if rows else opening.end()
     if text[end : end + 1] != b")":
@@ -102,7 +102,7 @@ def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floa
 
 
 def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
-    """Read lines of numbers, the first of which may be names, in a comment or not."""
+    """Read lines of numbers, with or without a first line of names, which may be a comment."""
     commented = re.match(rb"\s*+#[ \t]*+([^\n]*+)", data)
     if commented and set(_COORDINATES) <= set(_words(commented[1].rstrip())):
         data = data.replace(b"#", b" ", 1)
@@ -152,25 +152,25 @@ def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, 
 
 
 def _words(line: bytes) -> tuple[str, ...]:
-    """Return the words of a line, which commas or semicolons separate or, without any, white space."""
+    """Return the words of a line, separated by commas or semicolons or, without these, by white space."""
     words = re.split(rb"[,;]", line) if re.search(rb"[,;]", line) else line.split()
     found = (word.decode(errors="replace").strip().strip("\"'") for word in words)
     return tuple(_ALIASES.get(name, name) for name in found)
 
 
 def _start_of_row(text: bytes, body: int, row: int) -> int:
-    """Return where a row of a table begins, blank lines not counted."""
+    """Return the position of a row of a table; blank lines do not count."""
     starts = (match.start() for match in re.finditer(rb"\S[^\n]*+", text[body:]))
     return body + next(start for index, start in enumerate(starts) if index == row)
 
 
 def _blank(comment: re.Match[bytes]) -> bytes:
-    """White space instead of a comment, with its line ends, so that line numbers stay."""
+    """Return white space in place of a comment, with its line ends, so that line numbers are kept."""
     return b" " + b"\n" * comment[0].count(b"\n")
 
 
 def _mistake(path: Path, text: bytes, position: int, expected: str) -> Mistake:
-    """Say what stands at a position of the text, in which line, and what should."""
+    """Return the error at a position of the text: the line, the text found and the text expected."""
     line = text.count(b"\n", 0, position) + 1
     found = text[position : position + 60].split(b"\n")[0].decode(errors="replace").strip()
     return Mistake(str(path), line, f"found '{found or 'the end of the file'}'. {expected}.")

@@ -1,4 +1,4 @@
-"""What a dictionary file says, as a tree: entries, each with the file and line where it was written."""
+"""Dictionaries as trees of entries, each with the file and line of its definition."""
 
 from __future__ import annotations
 
@@ -10,20 +10,29 @@ from pathlib import Path
 
 from foamprb.dictionary.mistakes import Mistake
 
-__all__ = ["DICTIONARY_TEXT", "Dictionary", "DictionaryList", "Entry", "Source", "Stream", "real", "unquoted"]
+__all__ = [
+    "DICTIONARY_TEXT",
+    "CaseFile",
+    "Dictionary",
+    "DictionaryList",
+    "Entry",
+    "Stream",
+    "real",
+    "unquoted",
+]
 
 DICTIONARY_TEXT = "a dictionary { … }"
-"""How a message calls a dictionary."""
+"""Name of a dictionary in messages."""
 
 
 def real(path: Path) -> Path:
-    """Where a path leads; as far as it can be followed, if a link leads to itself."""
+    """Return the target of a path; of a link to itself, the part that can be followed."""
     return Path(os.path.realpath(path))
 
 
 @dataclass(frozen=True)
-class Source:
-    """A file that is read for a case."""
+class CaseFile:
+    """A file of a case."""
 
     path: Path
     case: Path
@@ -39,11 +48,11 @@ class Source:
 
 @dataclass(eq=False)
 class Entry:
-    """What stands under a key of a dictionary, where it was written, and whether a macro has used it."""
+    """Value under a key of a dictionary, with its place, and whether a macro has used it."""
 
     key: str
     parent: Entry | None
-    source: Source
+    source: CaseFile
     line: int
     used: bool = field(default=False, kw_only=True)
 
@@ -54,21 +63,21 @@ class Entry:
         return f"{above}/{unquoted(self.key)}" if above else unquoted(self.key)
 
     def mistake(self, what: str, meant: Iterable[str] = ()) -> Mistake:
-        """Return the error for this entry: file, line, path, and what is wrong.
+        """Return the error for this entry: file, line, path, and the mistake.
 
         Parameters
         ----------
         what
-            Goes on behind the path.
+            Message after the path.
         meant
-            Names of entries beside this one that were probably meant by it.
+            Names of similar entries in the same dictionary.
         """
         beside = f"{self.parent.path}/" if self.parent and self.parent.path else ""
         paths = [beside + name for name in meant]
         return self.source.mistake(self.line, f"{self.path} {what}", meant=paths)
 
     def missing(self, key: str, allowed: str) -> Mistake:
-        """Return the error for a key that this dictionary lacks."""
+        """Return the error for a missing key of this dictionary."""
         path = f"{self.path}/{key}" if self.path else key
         return self.source.mistake(self.line, f"{path} is missing. {allowed}", missing=path)
 
@@ -123,20 +132,20 @@ class Dictionary(Entry):
         return self
 
     def at(self, path: str) -> Entry:
-        """Return the entry that the keys of a path with slashes lead to; KeyError if there is none."""
+        """Return the entry at a path with slashes; raise KeyError if there is none."""
         entry: Entry = self
         for key in path.split("/"):
             entry = entry.dictionary().entries[key]
         return entry
 
     def copy(self, key: str, parent: Entry) -> Dictionary:
-        """Return a copy, entries and all, for another place of the tree."""
+        """Return a deep copy for another place of the tree."""
         twin = replace(self, key=key, parent=parent)
         twin.entries = {name: entry.copy(name, twin) for name, entry in self.entries.items()}
         return twin
 
     def add(self, entry: Entry) -> None:
-        """Add an entry; of two dictionaries with one key the entries are merged, else the last one counts."""
+        """Add an entry: merge two dictionaries with the same key, else replace the earlier entry."""
         earlier = self.entries.get(entry.key)
         if isinstance(earlier, Dictionary) and isinstance(entry, Dictionary):
             earlier.merge(entry)
@@ -160,12 +169,12 @@ class DictionaryList(Entry):
         return "a list of dictionaries"
 
     def copy(self, key: str, parent: Entry) -> DictionaryList:
-        """Return a copy, dictionaries and all, for another place of the tree."""
+        """Return a deep copy for another place of the tree."""
         twin = replace(self, key=key, parent=parent)
         twin.items = [item.copy(item.key, twin) for item in self.items]
         return twin
 
 
 def unquoted(text: str) -> str:
-    """Return a word without its quotes, if it has them."""
+    """Return a word without its quotes."""
     return text[1:-1] if text.startswith('"') else text

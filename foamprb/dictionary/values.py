@@ -1,4 +1,4 @@
-"""What the text of an entry means: numbers, words, vectors, lists, names of files."""
+"""Values of entries from their text: numbers, words, vectors, lists, names of files."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ Acceleration = NewType("Acceleration", str)
 
 
 class Reader(NamedTuple):
-    """How the value of one type is read, and how a message calls it."""
+    """Reader of the values of one type, with its name in messages."""
 
     read: Callable[[Stream], Any]
     """Returns the value of an entry, or None if its text is something else.
 
-    It may raise ValueError with what a message shall say of the text.
+    It may raise ValueError with the message on the text.
     """
     text: str
 
@@ -69,7 +69,7 @@ def _number(text: str) -> float | None:
 
 
 def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
-    """Return a reader of numbers with their name and dimensions, or with neither."""
+    """Return a reader of numbers with or without name and dimensions."""
 
     def read(entry: Stream) -> float | None:
         match = _DIMENSIONED.fullmatch(entry.text)
@@ -81,7 +81,7 @@ def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
 
 
 def _require(text: str, expected: Dimensions) -> None:
-    """Raise ValueError, which says what they look like, for dimensions that are not those expected."""
+    """Raise ValueError with a description if dimensions differ from the expected ones."""
     dimensions = read_dimensions(text)
     if dimensions is None:
         raise ValueError("whose dimensions cannot be read")
@@ -123,13 +123,13 @@ def _two_vectors(item: Any) -> Any:
 
 
 def _numbers(item: Any, n: int) -> Any:
-    """A tuple of n numbers; None if the item is something else."""
+    """Return a tuple of n numbers; None if the item is something else."""
     numbers = _each(item, lambda part: _number(part) if isinstance(part, str) else None)
     return numbers if numbers is not None and len(numbers) == n else None
 
 
 def _each(item: Any, read: Callable[[Any], Any]) -> Any:
-    """A tuple of what is read of each part of a list; None if it is no list, or a part cannot be read."""
+    """Return a tuple of the values of a list's items; None if it is no list, or an item cannot be read."""
     if not isinstance(item, tuple):
         return None
     parts = tuple(map(read, item))
@@ -137,7 +137,7 @@ def _each(item: Any, read: Callable[[Any], Any]) -> Any:
 
 
 def _nested(entry: Stream) -> Any:
-    """Parentheses as nested tuples of words, the number of items before the outermost left out."""
+    """Return parentheses as nested tuples of words, without the number of items before them."""
     tokens = entry.tokens
     if len(tokens) > 1 and _INTEGER.fullmatch(tokens[0]):
         tokens = tokens[1:]
@@ -180,7 +180,7 @@ def _files(entry: Stream) -> tuple[Path, ...] | None:
 
 READERS: dict[Any, Reader] = {
     float: Reader(lambda entry: _number(entry.text), "a number"),
-    int: Reader(lambda entry: int(entry.text) if _INTEGER.fullmatch(entry.text) else None, "a whole number"),
+    int: Reader(lambda entry: int(entry.text) if _INTEGER.fullmatch(entry.text) else None, "an integer"),
     bool: Reader(lambda entry: _SWITCHES.get(entry.text), ", ".join(_SWITCHES)),
     str: Reader(_word, "a word"),
     Line: Reader(lambda entry: entry.text, "any text"),
@@ -202,4 +202,4 @@ READERS: dict[Any, Reader] = {
     Dictionary: Reader(lambda _: None, DICTIONARY_TEXT),
     DictionaryList: Reader(lambda _: None, "a list ( name { … } name { … } )"),
 }
-"""By the type that a schema's hint names."""
+"""By the type in a schema's hint."""

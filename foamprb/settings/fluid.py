@@ -14,7 +14,7 @@ from foamprb.dictionary.constraints import Meaning, NoEffect, Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import Instead, read_entry
-from foamprb.dictionary.tree import Dictionary, Source
+from foamprb.dictionary.tree import CaseFile, Dictionary
 from foamprb.dictionary.values import Acceleration, Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
@@ -152,7 +152,7 @@ def _density_of_case(
     """Read ρ_f, kg/m3, from the dictionary of the fluid or from the field."""
     found = _find_density(case, region, file, time)
     if found is None:
-        also = str(Source(file, case)) if file is not None else f"constant/{FILES[0]}"
+        also = str(CaseFile(file, case)) if file is not None else f"constant/{FILES[0]}"
         raise constant.missing("rhoInf", f"Allowed: {Positive.text}; also in {also}.")
     log.info("%s: constantProperties/rhoInf is %g kg/m3, that of %s.", constant.source, *found)
     return found[0]
@@ -161,7 +161,7 @@ def _density_of_case(
 def _find_density(case: Path, region: str, file: Path | None, time: float | str) -> tuple[float, str] | None:
     """Return the density of the case, kg/m3, and its source; None if the case has no density."""
     if file is not None and (found := read_density(file, case)) is not None:
-        return found, str(Source(file, case))
+        return found, str(CaseFile(file, case))
     field = mean_density(case, region, time)
     return None if field is None else (field[0], f"the field rho at time {field[1]}, its mean")
 

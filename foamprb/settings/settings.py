@@ -20,7 +20,7 @@ from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only, Vect
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import Instead, read_entries, read_entry, read_model
-from foamprb.dictionary.tree import Dictionary, Source, unquoted
+from foamprb.dictionary.tree import CaseFile, Dictionary, unquoted
 from foamprb.dictionary.values import Files
 from foamprb.errors import InputError
 from foamprb.results.folder import fault_of_function
@@ -173,7 +173,7 @@ def read_settings(
     if fault := fault_of_word(name):
         raise InputError(f"{file}: the file name yields an invalid cloud name, '{name}': {fault}.")
     if not file.exists() and case.is_dir():
-        raise InputError(f"{Source(file, case)}: No such file or directory (case {case}). {_HINT}")
+        raise InputError(f"{CaseFile(file, case)}: No such file or directory (case {case}). {_HINT}")
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         # Other entries may name solids from these files.

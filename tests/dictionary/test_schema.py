@@ -64,5 +64,5 @@ def test_written_values_are_read_back(
 
 def test_a_whole_number_has_no_fraction(tmp_path: Path) -> None:
     root = dictionary(tmp_path, "number 1; vector (0 0 0); whole 1.5; switch on; word a;")
-    with pytest.raises(InputError, match=r"dictionary, line 1: whole is '1\.5'\. Allowed: a whole number\."):
+    with pytest.raises(InputError, match=r"dictionary, line 1: whole is '1\.5'\. Allowed: an integer\."):
         read_entries(Values, root)

@@ -461,13 +461,13 @@ def test_cloud_functions(read: Reader) -> None:
         ("f { type particleTrack; }", "f/type is 'particleTrack'. Did you mean 'particleTracks'?"),
         (
             "f { type particleTracks; maxSamples 5; }",
-            "f/trackInterval is missing. Allowed: a whole number >= 1.",
+            "f/trackInterval is missing. Allowed: an integer >= 1.",
         ),
         (
             "f { type particleTracks; trackInterval 0; maxSamples 5; }",
-            "is '0'. Allowed: a whole number >= 1.",
+            "is '0'. Allowed: an integer >= 1.",
         ),
-        ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: a whole number"),
+        ("f { type particleTracks; trackInterval 1.5; maxSamples 5; }", "is '1.5'. Allowed: an integer"),
         ("f { type patchPostProcessing; patches wall; }", "patches is 'wall'. Allowed: a list of words"),
         (
             "f { type particleCollector; mode polygon; origin (0 0 0); normal (1 0 0); }",
