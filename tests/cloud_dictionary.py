@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
 
+from foamprb.errors import InputError
 from foamprb.settings.settings import Settings, read_settings
 
 CLOUD = """
@@ -83,3 +84,20 @@ def read(case: Path) -> Reader:
         return read_settings(case)
 
     return read
+
+
+def unexpected(read: Reader, mistakes: Iterable[tuple[str, str, str]]) -> list[tuple[str, str]]:
+    """Return the mistakes, each an old text, a new one and a message, whose message is not the only one.
+
+    Each comes with the message that there was, empty if there was none.
+    """
+    found = []
+    for old, new, message in mistakes:
+        text = ""
+        try:
+            read((old, new))
+        except InputError as error:
+            text = str(error)
+        if message not in text or "\n" in text or not text.startswith("constant/softCloudProperties, line "):
+            found.append((new or old, text))
+    return found

@@ -1,4 +1,4 @@
-"""Solids that a user adds in Python files which the settings name: ``libs ("rubber.py");``."""
+"""User-made solids in Python files of the settings: ``libs ("rubber.py");``."""
 
 from __future__ import annotations
 
@@ -19,20 +19,19 @@ _loaded: dict[Path, tuple[str, tuple[str, ...]]] = {}
 
 
 def loaded_libs() -> tuple[Path, ...]:
-    """The files whose solids are known."""
+    """Return the files whose solids are loaded."""
     return tuple(path for path, (digest, _) in _loaded.items() if digest)
 
 
 def load_libs(files: Iterable[Path]) -> None:
-    """Run Python files, which add solids by :func:`foamprb.add_material`, and compile what they added.
+    """Run Python files, which add solids by :func:`foamprb.add_material`, and compile these solids.
 
-    A file that has been run and has not changed since is not run again; of one that has changed, the solids
-    that it added before are forgotten.
+    An unchanged file is not run again; the earlier solids of a changed file are removed.
 
     Raises
     ------
     InputError
-        If a file fails, adds a solid that is not sound, or one that cannot be compiled: where and why.
+        If a file fails, or adds a solid that is unsound or cannot be compiled; with place and reason.
     """
     for file in files:
         path = file.resolve()
@@ -58,7 +57,7 @@ def _run(path: Path, digest: str) -> None:
     if spec is None or spec.loader is None:
         raise InputError(f"{path} is not a Python file (.py).")
     module = importlib.util.module_from_spec(spec)
-    # Compiled code that is read back from disk asks for the module by its name.
+    # Cached machine code imports the module by its name.
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)

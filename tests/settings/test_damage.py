@@ -44,9 +44,9 @@ def test_any_damage_ends_in_settings_or_a_message(folder: Path, changes: list[tu
             raise AssertionError(f"{error}, which nothing has reported") from error
 
 
-@pytest.mark.parametrize("at", range(len(CLOUD.splitlines())))
-def test_any_line_may_be_lost(folder: Path, at: int) -> None:
+def test_any_line_may_be_lost(folder: Path) -> None:
     lines = CLOUD.splitlines()
-    (folder / "constant/softCloudProperties").write_text("\n".join(lines[:at] + lines[at + 1 :]))
-    with contextlib.suppress(InputError):
-        read_settings(folder)
+    for at in range(len(lines)):
+        (folder / "constant/softCloudProperties").write_text("\n".join(lines[:at] + lines[at + 1 :]))
+        with contextlib.suppress(InputError):
+            read_settings(folder)
