@@ -283,8 +283,11 @@ def explain(word: str | None) -> list[str]:
             lines += _model_lines(name, wanted)
         if wanted in (name, section.path):
             lines += _section_lines(name)
-    if wanted in _CHOSEN and not any(wanted in line for line in lines):
-        lines += [f"subModels/particleForces/{wanted}", f"    {plain(summary(_CHOSEN[wanted]))}", ""]
+    if wanted in _CHOSEN:
+        path = f"particleForces/{wanted}/"
+        own = [t._replace(name=t.name.removeprefix(path)) for t in everything if t.name.startswith(path)]
+        title = [f"subModels/particleForces/{wanted}", *_wrapped(plain(summary(_CHOSEN[wanted])))]
+        lines += [*title, *_list_lines(own), ""]
     if not lines:
         # A dictionary without a section, such as integrationSchemes.
         within = [text for text in everything if f"/{wanted}/" in f"/{text.path}"]

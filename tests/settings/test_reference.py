@@ -77,6 +77,7 @@ def test_help_knows_all_that_the_page_does():
             assert any(f"type {model}" in line for line in explain(model))
     for force in FORCES:
         assert any(force in line for line in explain(force))
+    assert any(line.strip().startswith("Cvm") for line in explain("virtualMass"))
     assert all(name in "\n".join(explain(None)) for name in SECTIONS)
 
 
