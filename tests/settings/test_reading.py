@@ -96,7 +96,6 @@ MISTAKES = [
     ("deltaT          2e-05;", "", "line 3: solution/deltaT is missing. Allowed: a number > 0."),
     ("2e-05", "-2e-05", "line 5: solution/deltaT is '-2e-05'. Allowed: a number > 0."),
     ("2e-05", "nan", "solution/deltaT is 'nan'"),
-    ("2e-05", "1e400", "solution/deltaT is '1e400'"),
     ("2e-05", "fast", "solution/deltaT is 'fast'. Allowed: a number > 0."),
     ("2e-05;", "2e-05", "solution/deltaT is '2e-05 endTime 0.4'"),
     (
@@ -112,12 +111,6 @@ MISTAKES = [
         "active false; deltaT ",
         "solution/active is 'false'. Allowed: true (the cloud is not active",
     ),
-    ("deltaT ", "active maybe; deltaT ", "solution/active is 'maybe'. Allowed: true"),
-    (
-        "deltaT ",
-        "coupled true; deltaT ",
-        "solution/coupled is 'true'. Allowed: false (the particles do not act",
-    ),
     ("deltaT ", "period 1; deltaT ", "solution/period needs a flow that changes in time: transient yes."),
     ("deltaT ", "transient yes; period 0; deltaT ", "solution/period is '0'. Allowed: a number > 0."),
     (
@@ -125,7 +118,6 @@ MISTAKES = [
         "interpolationSchemes { U cell; } deltaT ",
         "interpolationSchemes/U is 'cell'. Did you mean 'cellPoint'? Allowed: cellPoint, linear.",
     ),
-    ("deltaT ", "integrationSchemes { shape papre; } deltaT ", "Did you mean 'paper'?"),
     ("rhoInf          1.208;", "", "constantProperties/rhoInf is missing"),
     ("2560", "-1", "constantProperties/rho0 is '-1'. Allowed: a number > 0, or a dictionary"),
     (
@@ -138,14 +130,12 @@ MISTAKES = [
         "youngsModulus",
         "constantProperties/solid/poissonsRatio is missing. Allowed: a number > -1",
     ),
-    ("poissonsRatio 0.4;", "bulkModulus 0;", "solid/bulkModulus is '0'. Allowed: a number > 0"),
     (
         "poissonsRatio 0.4;",
         "poissonsRatio 0.4; bulkModulus 1e5;",
         "constantProperties/solid gives poissonsRatio and bulkModulus. Allowed: one of",
     ),
     ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
-    ("neoHooke", "neoHook", "solid/type is 'neoHook'. Did you mean 'neoHooke'?"),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
     ("shearModulus 1000", "Ca 1", "constantProperties/solid/referenceShearRate is missing"),
@@ -162,33 +152,11 @@ MISTAKES = [
         "ellipsoidDrag/type is 'stokes'. Allowed: brennerProlate",
     ),
     ("ellipsoidDrag;", "ellipsoidDrag; gravity no;", "particleForces/gravity is 'no'. Allowed: a dictionary"),
-    (
-        "subModels\n{",
-        "subModels { tractionModel rosco;",
-        "subModels/tractionModel is 'rosco'. Did you mean 'roscoe'?",
-    ),
-    ("patchInjection", "conicalInjection", "inlet/type is 'conicalInjection'. Did you mean 'coneInjection'?"),
-    (
-        "parcelsPerSecond 1000",
-        "parcelsPerSecond 0",
-        "subModels/injectionModels/inlet/parcelsPerSecond is '0'. All",
-    ),
-    (
-        "duration 0.1;",
-        "",
-        "line 19: subModels/injectionModels/inlet/duration is missing. Allowed: a number > 0.",
-    ),
     ("duration 0.1;", "duration 0.1; U0 (0 0);", "inlet/U0 is '(0 0)'. Allowed: a vector (x y z)."),
-    ("duration 0.1;", "duration 0.1; U0 (0 0 a);", "inlet/U0 is '(0 0 a)'. Allowed: a vector (x y z)."),
     (
         "duration 0.1;",
         "duration 0.1; massTotal 1;",
         "inlet/massTotal is '1'. Allowed: 0.0 (particles are single",
-    ),
-    (
-        "duration 0.1;",
-        "duration 0.1; nParticle 9;",
-        "inlet/nParticle is '9'. Allowed: 1.0 (particles are single",
     ),
     (
         "duration 0.1;",
@@ -198,7 +166,6 @@ MISTAKES = [
     ("patch inlet;", "patch in let;", "inlet/patch is 'in let'. Allowed: a word."),
     ("value 5e-6;", "", "inlet/sizeDistribution/fixedValueDistribution/value is missing"),
     ("fixedValueDistribution { value 5e-6; }", "", "sizeDistribution/fixedValueDistribution is missing"),
-    ("type fixedValue;", "type norml;", "inlet/sizeDistribution/type is 'norml'. Did you mean 'normal'?"),
     (
         "type fixedValue;",
         "type normal;",
@@ -209,7 +176,6 @@ MISTAKES = [
         "standardWallInteraction;",
         "subModels/standardWallInteractionCoeffs is missing. Allowed: a dictionary",
     ),
-    ("type escape", "type escpae", "patches/(inlet|outlet)/type is 'escpae'. Did you mean 'escape'?"),
     ("type stick", "type rebound; e 2", "patches/wall/e is '2'. Allowed: a number from 0 to 1."),
     ("type stick", "type stick; e 1", "patches/wall/e is not known. Allowed: type."),
     ("(inlet|outlet)", "(inlet|outlet", "patches/(inlet|outlet is not a regular expression"),

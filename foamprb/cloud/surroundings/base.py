@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, ClassVar
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.tensor import Vector
-from foamprb.cloud.block import Medium, at, load3, load_integrals
+from foamprb.body.tensor import Scalar, Tensor, Vector, add, plus
+from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Bounds, Meaning
 from foamprb.flow.base import Flow, Patch
 
-__all__ = ["Seed", "Surrounding", "resistances"]
+__all__ = ["Seed", "Surrounding", "add3", "add9", "resistances", "volume_at_rest"]
 
 Seed = Annotated[
     int,
@@ -114,3 +115,19 @@ def resistances(block: Any, i: int) -> Vector:
     """Return the principal resistances K of lane i without walls, m."""
     R, k = block[at.R * LANES + i], drag(load3(block, at.stretch, i), load_integrals(block, i))
     return R * k[0], R * k[1], R * k[2]
+
+
+def volume_at_rest(block: Any, i: int) -> Scalar:
+    """Return the volume of lane i at rest, m³."""
+    R = block[at.R * LANES + i]
+    return 4.0 / 3.0 * math.pi * R * R * R
+
+
+def add3(block: Any, row: int, i: int, v: Vector) -> None:
+    """Add a vector to three rows of lane i."""
+    store3(block, row, i, plus(load3(block, row, i), v))
+
+
+def add9(block: Any, row: int, i: int, T: Tensor) -> None:
+    """Add a tensor to nine rows of lane i."""
+    store9(block, row, i, add(load9(block, row, i), T))

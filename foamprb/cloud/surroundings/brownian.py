@@ -26,7 +26,6 @@ from foamprb.body.brownian import (
 from foamprb.body.tensor import (
     Tensor,
     Vector,
-    add,
     dot_vector,
     from_frame,
     scale,
@@ -35,10 +34,28 @@ from foamprb.body.tensor import (
     vector_dot,
 )
 from foamprb.body.wall import hindered_resistance
-from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import (
+    Medium,
+    Scratch,
+    at,
+    choose,
+    choose3,
+    load3,
+    load9,
+    load_integrals,
+    store3,
+    store9,
+)
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
-from foamprb.cloud.surroundings.base import Seed, Surrounding, resistances
+from foamprb.cloud.surroundings.base import (
+    Seed,
+    Surrounding,
+    add3,
+    add9,
+    resistances,
+    volume_at_rest,
+)
 from foamprb.dictionary.constraints import Meaning, Positive
 from foamprb.flow.base import Flow, Patch
 
@@ -101,19 +118,13 @@ def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -
         duration = block[thermal.duration * LANES + i]
         fresh = duration > 0.0
         size = np.sqrt(2.0 * kT * medium.mu / select(fresh, duration, 1.0))
-        Q, stretches, R = load9(block, at.Q, i), load3(block, at.stretch, i), block[at.R * LANES + i]
+        Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
         K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
         f = vector_dot(random_force(K, size, load3(block, thermal.three, i)), Q)
-        volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
+        volume = volume_at_rest(block, i) * stretches[0] * stretches[1] * stretches[2]
         r = shape_resistance(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
         T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i)))
-        g = load3(block, thermal.thermal_force, i)
-        store3(
-            block,
-            thermal.thermal_force,
-            i,
-            (select(fresh, f[0], g[0]), select(fresh, f[1], g[1]), select(fresh, f[2], g[2])),
-        )
+        store3(block, thermal.thermal_force, i, choose3(fresh, f, load3(block, thermal.thermal_force, i)))
         store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
         block[thermal.duration * LANES + i] = 0.0
 
@@ -127,15 +138,14 @@ def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> 
     c = 1.0 / medium.mu
     for i in range(LANES):
         Q, k = load9(block, at.Q, i), resistances(block, i)
-        f, u = dot_vector(Q, load3(block, thermal.thermal_force, i)), load3(block, at.u, i)
-        v = vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q)
-        store3(block, at.u, i, (u[0] + v[0], u[1] + v[1], u[2] + v[2]))
+        f = dot_vector(Q, load3(block, thermal.thermal_force, i))
+        add3(block, at.u, i, vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q))
     if coefficients[2] > 0.0:
         for i in range(LANES):
             Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
             T = to_frame(Q, load9(block, thermal.thermal_stress, i))
             l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))
-            store9(block, at.l, i, add(load9(block, at.l, i), from_frame(Q, l)))
+            add9(block, at.l, i, from_frame(Q, l))
 
 
 def force_of_molecules(block: Any, i: int) -> Vector:

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.faxen import faxen_velocity
-from foamprb.body.tensor import Vector, dot, scale, transpose
+from foamprb.body.tensor import dot, scale, transpose
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.layout import LANES, Row, offsets
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, add3
 from foamprb.compile.link import traced
 from foamprb.flow.analytic import curvature_linear as curvature
 
@@ -52,20 +52,16 @@ def store_curvature(
 def correct(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
     """Add ⅙ C:∇∇u to the velocity of the fluid, with the shape tensor C."""
     for i in range(LANES):
-        F, R, u = load9(block, at.new_F, i), block[at.R * LANES + i], load3(block, at.u, i)
-        v = faxen_velocity(scale(R * R, dot(F, transpose(F))), _curvature_of(block, i))
-        store3(block, at.u, i, (u[0] + v[0], u[1] + v[1], u[2] + v[2]))
-
-
-def _curvature_of(block: Any, i: int) -> tuple[Vector, Vector, Vector, Vector, Vector, Vector]:
-    return (
-        load3(block, curved.along_xx, i),
-        load3(block, curved.along_yy, i),
-        load3(block, curved.along_zz, i),
-        load3(block, curved.along_xy, i),
-        load3(block, curved.along_yz, i),
-        load3(block, curved.along_xz, i),
-    )
+        F, R = load9(block, at.new_F, i), block[at.R * LANES + i]
+        second = (
+            load3(block, curved.along_xx, i),
+            load3(block, curved.along_yy, i),
+            load3(block, curved.along_zz, i),
+            load3(block, curved.along_xy, i),
+            load3(block, curved.along_yz, i),
+            load3(block, curved.along_xz, i),
+        )
+        add3(block, at.u, i, faxen_velocity(scale(R * R, dot(F, transpose(F))), second))
 
 
 @dataclass(frozen=True, kw_only=True)

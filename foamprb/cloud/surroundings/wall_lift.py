@@ -23,13 +23,18 @@ from foamprb.body.tensor import (
     Tensor,
     Vector,
     add,
+    between,
     dev,
     dot,
     dot_vector,
     from_frame,
+    inner,
     inverse,
+    minus,
+    plus,
     principal_frame,
     scale,
+    scale_vector,
     select,
     skew,
     sym,
@@ -46,12 +51,23 @@ from foamprb.body.wall import (
     stresslet_gradient,
     stresslet_velocity,
 )
-from foamprb.cloud.block import Medium, Scratch, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import (
+    Medium,
+    Scratch,
+    at,
+    choose,
+    choose3,
+    load3,
+    load9,
+    load_integrals,
+    store3,
+    store9,
+)
 from foamprb.cloud.elastic import incompressible_stress
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Surrounding, resistances
+from foamprb.cloud.surroundings.base import Surrounding, add3, add9, resistances, volume_at_rest
 from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
@@ -153,14 +169,12 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
             v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-            w, there = load3(block, near.wall_lift, i), block[near.present * LANES + i]
-            store3(block, near.wall_lift, i, (w[0] + there * v[0], w[1] + there * v[1], w[2] + there * v[2]))
+            add3(block, near.wall_lift, i, scale_vector(block[near.present * LANES + i], v))
         if hindered > 0.0:
             for i in range(LANES):
                 n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
                 W = hindrance_of(block, i, n, d, block[near.one_gap * LANES + i])
-                W = scale(block[near.present * LANES + i], W)
-                store9(block, near.hindrance, i, add(load9(block, near.hindrance, i), W))
+                add9(block, near.hindrance, i, scale(block[near.present * LANES + i], W))
     if hindered > 0.0:
         after_lift(block, medium, share, least_gap, strain, most)
     for i in range(LANES):
@@ -168,16 +182,7 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         l, u, w = load9(block, at.l, i), load3(block, at.u, i), load3(block, near.wall_lift, i)
         E = add(scale(strain, load9(block, near.reflected, i)), load9(block, near.load_gradient, i))
         store9(block, at.l, i, choose(some, add(l, E), l))
-        store3(
-            block,
-            at.u,
-            i,
-            (
-                select(some, u[0] + w[0], u[0]),
-                select(some, u[1] + w[1], u[1]),
-                select(some, u[2] + w[2], u[2]),
-            ),
-        )
+        store3(block, at.u, i, choose3(some, plus(u, w), u))
 
 
 def any_near(block: Any, i: int) -> Any:
@@ -197,8 +202,7 @@ def strain_by_load(
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
             E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
-            E = scale(strain * block[near.present * LANES + i], E)
-            store9(block, near.load_gradient, i, add(load9(block, near.load_gradient, i), E))
+            add9(block, near.load_gradient, i, scale(strain * block[near.present * LANES + i], E))
     for i in range(LANES):
         E = load9(block, near.load_gradient, i)
         store9(block, near.reflected, i, E)
@@ -214,9 +218,7 @@ def hinder_load(
 ) -> None:
     """Add the velocity that a load loses by the walls to the reflected one."""
     for i in range(LANES):
-        v = velocity_loss(block, i, medium)
-        w = load3(block, near.wall_lift, i)
-        store3(block, near.wall_lift, i, (w[0] + v[0], w[1] + v[1], w[2] + v[2]))
+        add3(block, near.wall_lift, i, velocity_loss(block, i, medium))
 
 
 def no_load_before_lift(
@@ -247,8 +249,7 @@ def add_reflection(
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
         E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
-        E = scale(factor * block[near.present * LANES + i], E)
-        store9(block, near.reflected, i, add(load9(block, near.reflected, i), E))
+        add9(block, near.reflected, i, scale(factor * block[near.present * LANES + i], E))
 
 
 def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
@@ -261,15 +262,10 @@ def select_wall(block: Any, wall: int, share: float, least_gap: float) -> None:
         for k in range(3):
             block[(near.one_normal + k) * LANES + i] = block[(near.wall_normal + 3 * wall + k) * LANES + i]
     for i in range(LANES):
-        R, h, n = (
-            block[at.R * LANES + i],
-            block[near.one_distance * LANES + i],
-            load3(block, near.one_normal, i),
-        )
-        there = select(h < 0.5 * _FAR * R, 1.0, 0.0)
-        x, y = load3(block, at.x, i), load3(block, at.new_x, i)
+        R, h = block[at.R * LANES + i], block[near.one_distance * LANES + i]
+        n, there = load3(block, near.one_normal, i), select(h < 0.5 * _FAR * R, 1.0, 0.0)
         # At the start of a step new_x is not known.
-        way = (y[0] - x[0]) * n[0] + (y[1] - x[1]) * n[1] + (y[2] - x[2]) * n[2]
+        way = inner(minus(load3(block, at.new_x, i), load3(block, at.x, i)), n)
         h, gap = distance_and_gap(block, i, n, h + select(share > 0.0, share * way, 0.0), least_gap)
         block[near.present * LANES + i] = there
         block[near.one_distance * LANES + i] = h
@@ -298,8 +294,7 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
     Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
     relative = add(to_frame(Q, l_f), scale(-1.0, l_s))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
-    R = block[at.R * LANES + i]
-    volume = 4.0 / 3.0 * math.pi * R * R * R * stretches[0] * stretches[1] * stretches[2]
+    volume = volume_at_rest(block, i) * stretches[0] * stretches[1] * stretches[2]
     return from_frame(Q, scale(volume * medium.mu, dev(sym(s))))
 
 
@@ -355,10 +350,8 @@ def balanced_load(block: Any, i: int, medium: Medium, share: float) -> Vector:  
     """Return the force of a body without inertia on the fluid, N: the forces on it less its inertia."""
     Du_Dt, t = load3(block, at.DuDt, i), thermal_force(block, i)
     _, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
-    a = (f[0] - inertia * Du_Dt[0], f[1] - inertia * Du_Dt[1], f[2] - inertia * Du_Dt[2])
-    R = block[at.R * LANES + i]
-    m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
-    return m * a[0] + t[0], m * a[1] + t[1], m * a[2] + t[2]
+    m = volume_at_rest(block, i) * block[at.rho * LANES + i]
+    return plus(scale_vector(m, minus(f, scale_vector(inertia, Du_Dt))), t)
 
 
 def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
@@ -368,23 +361,16 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
     errors of v and of the body's velocity gradient would amplify each other. Its weight is of fourth order in
     h.
     """
-    Q, k, u, w = (
-        load9(block, at.Q, i),
-        resistances(block, i),
-        load3(block, at.u, i),
-        load3(block, near.wall_lift, i),
-    )
+    Q, k = load9(block, at.Q, i), resistances(block, i)
     v = load3(block, at.new_v, i) if share > 0.0 else load3(block, at.v, i)
-    slip = dot_vector(Q, (v[0] - u[0] - w[0], v[1] - u[1] - w[1], v[2] - u[2] - w[2]))
+    slip = dot_vector(Q, minus(minus(v, load3(block, at.u, i)), load3(block, near.wall_lift, i)))
     K = hindered_resistance(k, load9(block, near.hindrance, i))
     d = vector_dot(dot_vector(scale(medium.mu, K), slip), Q)
     f = balanced_load(block, i, medium, share)
-    R = block[at.R * LANES + i]
-    m = 4.0 / 3.0 * math.pi * R * R * R * block[at.rho * LANES + i]
+    m = volume_at_rest(block, i) * block[at.rho * LANES + i]
     x = block[at.dt * LANES + i] * medium.mu * trace(K) / (6.0 * m)
     y = x * x * x * x
-    c = y / (1.0 + y)
-    return d[0] + c * (f[0] - d[0]), d[1] + c * (f[1] - d[1]), d[2] + c * (f[2] - d[2])
+    return between(d, f, y / (1.0 + y))
 
 
 def hindered_rate(block: Any, i: int, rate: Vector) -> Tensor:
