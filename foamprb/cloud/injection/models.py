@@ -332,8 +332,8 @@ def require_room(number: float, what: str) -> int:
     need, there = number * BYTES, memory()
     if not need < there:
         raise InputError(
-            f"{what} gives {number:.3g} particles, which need about {spoken(need)} of memory; available are "
-            f"{spoken(there)}."
+            f"{what} gives {number:.3g} particles, which need about {spoken(need)} of memory; "
+            f"{spoken(there)} are available."
         )
     n = round(number)
     if n == 0:

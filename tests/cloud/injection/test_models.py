@@ -251,7 +251,7 @@ class TestRoom:
             (
                 PatchInjection("inlet", 1e12, 0.1),
                 "on inlet: parcelsPerSecond 1e[+]12 times duration 0.1 s gives 1e[+]11 particles, "
-                "which need about 9[0-9]([.][0-9])? TB of memory; there are .* [MGT]B[.]$",
+                "which need about 9[0-9]([.][0-9])? TB of memory; .* [MGT]B are available[.]$",
             ),
             (PatchInjection("inlet", 1e200, 1e200), "gives inf particles, which need about inf TB"),
             (
@@ -276,7 +276,7 @@ class TestRoom:
         monkeypatch.setattr("foamprb.cloud.injection.models.memory", lambda: 50_000.0 * BYTES)
         assert release(PatchInjection("inlet", 49_999.0, 1.0), pipe_flow, rng(), no_file).size == 49_999
         with pytest.raises(
-            InputError, match=r"5e\+04 particles, which need about \S+ MB of memory; there are \S+ MB"
+            InputError, match=r"5e\+04 particles, which need about \S+ MB of memory; \S+ MB are available"
         ):
             release(PatchInjection("inlet", 50_001.0, 1.0), pipe_flow, rng(), no_file)
 
@@ -369,7 +369,7 @@ class TestPatch:
             InputError, match=r"on lid: no fluid enters through this patch at SOI, 0\.5 s"
         ) as caught:
             release(PatchInjection("lid", 10.0, 1.0, SOI=0.5), flow, rng(), no_file)
-        assert ("it is at rest there" in str(caught.value)) == still
+        assert ("it is at rest," in str(caught.value)) == still
 
     def test_as_many_appear_per_area_as_fluid_enters_there(self, lid_flow):
         """Not as many on each face, nor as the speed at one point of it: within faces too."""
