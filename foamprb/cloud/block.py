@@ -25,7 +25,7 @@ from foamprb.body.tensor import (
 from foamprb.cloud.layout import IDENTITY, LANES, Row, end, layout, offsets
 from foamprb.cloud.limits import LoopLimits
 from foamprb.cloud.state import Particles, Reason
-from foamprb.compile.link import side_by_side, traced
+from foamprb.compile.link import traced
 
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
@@ -336,7 +336,7 @@ def renew_frames(block: Any) -> None:
         new_integrals(block)
 
 
-@side_by_side
+@traced
 def frame_stage(block: Any) -> None:
     """Compute the frame of the new deformation gradient, from the frame of the last one."""
     for i in range(LANES):
@@ -365,7 +365,7 @@ def straighten(block: Any, allowed: float) -> None:
         stretch_stage(block)
 
 
-@side_by_side
+@traced
 def straighten_stage(block: Any, allowed: float) -> None:
     """Refine the frames that are more skew than ``allowed``."""
     for i in range(LANES):
@@ -378,7 +378,7 @@ def limit_next_step(_block: Any, _i: int, _tolerance: float) -> None:
     """No-op for integrators without step control."""
 
 
-@side_by_side
+@traced
 def accept_stage(block: Any, tolerance: float) -> None:
     """Judge the new shapes and velocities of the moving lanes, and accept the sound ones."""
     for i in range(LANES):
@@ -439,14 +439,14 @@ def is_elongated(stretches: Vector) -> Any:
     return np.maximum(np.maximum(x, y), z) > COMPACT * np.minimum(np.minimum(x, y), z)
 
 
-@side_by_side
+@traced
 def compact_stage(block: Any) -> None:
     """Compute Jeffery's integrals with the formulas for compact bodies."""
     for i in range(LANES):
         store_integrals(block, i, integrals_of_compact(load3(block, at.stretch, i)))
 
 
-@side_by_side
+@traced
 def elongated_stage(block: Any) -> None:
     """Replace the integrals of elongated bodies."""
     for i in range(LANES):

@@ -33,7 +33,7 @@ from numba.core.typed_passes import NativeLowering
 from numba.core.typing import signature
 
 from foamprb.compile.cache import Store
-from foamprb.compile.trace import REGISTERS, Code, UntraceableError, trace
+from foamprb.compile.trace import TRACED, Code, UntraceableError, trace
 
 __all__ = ["Role", "pipeline", "use_cache"]
 
@@ -273,7 +273,7 @@ def _compiler(role: Role) -> type:
 
     class Compiler(CompilerBase):  # type: ignore[misc]
         def compile_extra(self, function: Any) -> Any:
-            if role == "separate" and hasattr(function, REGISTERS):
+            if role == "separate" and hasattr(function, TRACED):
                 try:
                     return _traced(self.state, function)
                 except UntraceableError as reason:
@@ -303,13 +303,12 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
         If it cannot be traced.
     """
     context, identity = _context(state.targetctx, "separate"), FunctionIdentity.from_function(function)
-    together = _register() * getattr(function, REGISTERS)
     flags = " ".join(sorted(state.flags.fastmath.flags))
 
     def arguments(code: Code) -> list[Any]:
         return [_symbols(kind, code, (k,)) for k, kind in enumerate(state.args)]
 
-    code = trace(function, together, flags, arguments)
+    code = trace(function, _register(), flags, arguments)
     descriptor = PythonFunctionDescriptor(
         native=True,
         modname=identity.modname,

@@ -31,12 +31,12 @@ from llvmlite import binding  # type: ignore[import-untyped]
 
 from foamprb.body.tensor import select
 from foamprb.compile.cache import Store
-from foamprb.compile.trace import REGISTERS, branch
+from foamprb.compile.trace import TRACED, branch
 
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["compile_part", "is_compiled", "link", "read_by", "side_by_side", "traced"]
+__all__ = ["compile_part", "is_compiled", "link", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -119,17 +119,7 @@ def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str,
 
 def traced(stage: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a stage that is traced where it is a separate callee (:mod:`foamprb.compile.trace`)."""
-    setattr(stage, REGISTERS, 1)
-    return stage
-
-
-def side_by_side(stage: Callable[..., Any]) -> Callable[..., Any]:
-    """Mark a traced stage that computes two registers of lanes at a time.
-
-    This hides latency where each operation depends on the one before. A stage with many values at hand spills
-    registers and gets slower.
-    """
-    setattr(stage, REGISTERS, 2)
+    setattr(stage, TRACED, True)
     return stage
 
 
@@ -196,8 +186,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
     digest = hashlib.sha256(own.encode())
     digest.update(_fingerprint(function.__code__))
     captured = [cell.cell_contents for cell in function.__closure__ or ()]
-    registers = getattr(function, REGISTERS, 0)
-    digest.update(f"{captured!r} {registers}".encode())
+    is_traced = hasattr(function, TRACED)
+    digest.update(f"{captured!r} {is_traced}".encode())
     for name in sorted(_global_names(function.__code__)):
         value = linkage.bindings.get(name, scope.get(name))
         if _is_linked(value):
@@ -216,8 +206,8 @@ def _link(function: Callable[..., Any], linkage: _Linkage, role: Role) -> _Part:
         # Code is linked by name, and another process may have bound another model to the same name.
         clone.__qualname__ = f"{function.__qualname__}_{key}"
         clone.__module__ = function.__module__
-        if registers:
-            setattr(clone, REGISTERS, registers)
+        if is_traced:
+            traced(clone)
         _parts[key] = _Part(_compile(clone, role, key), key)
     return _parts[key]
 

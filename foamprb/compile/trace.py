@@ -18,12 +18,12 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["LANES", "REGISTERS", "Code", "UntraceableError", "branch", "trace"]
+__all__ = ["LANES", "TRACED", "Code", "UntraceableError", "branch", "trace"]
 
 LANES = "LANES"
 """Global name of the number of lanes in stages."""
-REGISTERS = "_registers"
-"""Attribute of stages to be traced: the number of registers of lanes that go through them together."""
+TRACED = "_traced"
+"""Attribute of stages to be traced."""
 
 
 class UntraceableError(Exception):
@@ -53,10 +53,8 @@ class Code:
     def __init__(self, lanes: int, together: int, flags: str, passes: int = 1) -> None:
         self.lanes, self._together, self._flags, self._passes = lanes, together, flags, passes
         self._numbers, self._conditions = f"<{together} x double>", f"<{together} x i1>"
-        self._bits = f"<{together} x i64>"
         self._lines: list[str] = []
         self._known: dict[str, str] = {}
-        self._magnitudes: set[str] = set()
         self._loops = self._loop = 0
         self._functions: dict[str, int] = {}
         self._origins: list[Any] = []
@@ -168,37 +166,6 @@ class Code:
         given = ", ".join(f"{self._numbers} {self._operand(a)}" for a in operands)
         return Symbol(*self._result(f"call {self._flags} {self._numbers} {name}({given})", *operands))
 
-    def magnitude(self, a: Any) -> Symbol:
-        """Record the magnitude of a number."""
-        result = self.call("fabs", a)
-        self._magnitudes.add(result.name)
-        return result
-
-    def maximum(self, a: Any, b: Any) -> Any:
-        """Record the maximum of two numbers; NaN if one of them is NaN, as in numpy.
-
-        Magnitudes compare as the integers of the same bits do, NaN above all others. This takes one
-        instruction instead of three.
-        """
-        if not (self._is_magnitude(a) and self._is_magnitude(b)):
-            return self.call("maximum", a, b)
-        if _is(0.0, a):
-            return b
-        if _is(0.0, b):
-            return a
-        p, q = (f"bitcast {self._numbers} {self._operand(value)} to {self._bits}" for value in (a, b))
-        p, q = self._once(p), self._once(q)
-        larger = self._once(f"icmp sgt {self._bits} {p}, {q}")
-        chosen = self._once(f"select {self._conditions} {larger}, {self._bits} {p}, {self._bits} {q}")
-        result = Symbol(*self._result(f"bitcast {self._bits} {chosen} to {self._numbers}", a, b))
-        self._magnitudes.add(result.name)
-        return result
-
-    def _is_magnitude(self, value: Any) -> bool:
-        if isinstance(value, Symbol):
-            return value.name in self._magnitudes
-        return bool(value >= 0.0)
-
     def compare(self, relation: str, a: Any, b: Any) -> Condition:
         """Record a comparison."""
         operands = f"{self._numbers} {self._operand(a)}, {self._operand(b)}"
@@ -267,7 +234,7 @@ class Symbol:
         return self.code.unary("fneg", self)
 
     def __abs__(self) -> Symbol:
-        return self.code.magnitude(self)
+        return self.code.call("fabs", self)
 
     def __add__(self, other: Any) -> Symbol:
         return self if _is(0.0, other) else self.code.binary("fadd", self, other)
@@ -469,7 +436,7 @@ def _functions(code: Code) -> SimpleNamespace:
     return SimpleNamespace(
         **{name: function(partial(code.call, name), getattr(math, name)) for name in ("sqrt", "exp", "log")},
         # With NaN, LLVM's functions return NaN, as in numpy.
-        maximum=function(code.maximum, max),
+        maximum=function(partial(code.call, "maximum"), max),
         minimum=function(partial(code.call, "minimum"), min),
         inf=math.inf,
         pi=math.pi,

@@ -17,7 +17,7 @@ import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
 from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
-from foamprb.compile.link import compile_part, link, read_by, side_by_side, traced
+from foamprb.compile.link import compile_part, link, read_by
 
 FIRST, SECOND = 2, 3
 MANY = 48
@@ -118,23 +118,6 @@ exec(
 
 def first_of_many(values):
     many_at_once(values)  # noqa: F821
-    return values[0]
-
-
-@traced
-def chain(values):
-    for i in range(LANES):
-        values[i] = math.sqrt(1.0 / (1.0 + math.sqrt(values[i])))
-
-
-@side_by_side
-def chain_side_by_side(values):
-    for i in range(LANES):
-        values[i] = math.sqrt(1.0 / (1.0 + math.sqrt(values[i])))
-
-
-def last_of_chain(values):
-    chain(values)
     return values[0]
 
 
@@ -313,23 +296,6 @@ def test_what_registers_have_no_room_for_lies_on_whole_lines(cache):
     assert re.search(r"and[q]?\s+\$-64, %rsp", assembly)
     assert re.search(r"vmovap[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
     assert not re.search(r"vmovup[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
-
-
-@pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")
-def test_two_registers_full_go_side_by_side_where_that_is_asked_for(cache):
-    found = []
-    for stage in (chain, chain_side_by_side):
-        f = link(last_of_chain, {"chain": stage}, separate=(stage,))
-        values = np.arange(1.0, LANES + 1.0)
-        expected = np.sqrt(1.0 / (1.0 + np.sqrt(values)))
-        f(values)
-        np.testing.assert_allclose(values, expected, rtol=1e-15)
-        (assembly,) = f.inspect_asm().values()
-        found.append(re.findall(r"(vsqrtpd|vdivpd)[^\n]*%zmm", assembly))
-    # Whether the loop over them is unrolled is LLVM's affair.
-    alone, together = found
-    assert alone[:3] == ["vsqrtpd", "vdivpd", "vsqrtpd"]
-    assert together[:6] == ["vsqrtpd", "vsqrtpd", "vdivpd", "vdivpd", "vsqrtpd", "vsqrtpd"]
 
 
 def test_what_else_a_function_carries_does_not_change_its_code(cache, monkeypatch):

@@ -14,8 +14,8 @@ from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.tracker import Tracker
 from foamprb.compile import link as compiling
-from foamprb.compile.link import link, side_by_side, traced
-from foamprb.compile.trace import REGISTERS, UntraceableError, trace
+from foamprb.compile.link import link, traced
+from foamprb.compile.trace import TRACED, UntraceableError, trace
 from foamprb.flow.meshflow import MeshFlow
 
 ROWS = 4
@@ -48,7 +48,7 @@ def everything(block, shift):
         block[3 * LANES + i] += block[2 * LANES + i] + 1.0
 
 
-@side_by_side
+@traced
 def everything_at_once(block, shift):
     for i in range(LANES):
         x, y = block[i], block[LANES + i]
@@ -125,7 +125,7 @@ def test_stages_of_all_integrators_are_traced(fresh):
         models = foamprb.Models(integrator=integrator.name)
         tracker = Tracker(models, MeshFlow.kernels, medium, [], 1e-3, 0.0, shaped=True, tense=False)
         tracker.compile_stages()
-        unmarked = {stage for stage in integrator.stages if not hasattr(stage, REGISTERS)}
+        unmarked = {stage for stage in integrator.stages if not hasattr(stage, TRACED)}
         # It solves the equations of a single lane.
         assert unmarked <= {dense_newton}
     assert fresh.messages == []

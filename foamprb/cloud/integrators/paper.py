@@ -53,7 +53,7 @@ from foamprb.cloud.motion import (
     release,
 )
 from foamprb.cloud.state import Particles
-from foamprb.compile.link import side_by_side, traced
+from foamprb.compile.link import traced
 from foamprb.flow.analytic import sample_linear as sample
 
 _DENSE_STEPS = 25
@@ -86,7 +86,7 @@ def _finish_shape(block: Any, i: int, G: Tensor, error: float) -> None:
     block[at.J * LANES + i] = det(G)
 
 
-@side_by_side
+@traced
 def newton_stage(block: Any) -> None:
     """Compute the new deformation gradient."""
     for i in range(LANES):
