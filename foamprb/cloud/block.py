@@ -34,7 +34,7 @@ from foamprb.compile.link import traced
 
 
 class Rows(NamedTuple):
-    """The rows that the block of every integrator has."""
+    """Rows of the block of every integrator."""
 
     x: Annotated[int, Row(3, "m", "position of the barycentre", of="x", saved=True)]
     v: Annotated[int, Row(3, "m/s", "velocity of the barycentre", of="v", saved=True)]
@@ -107,7 +107,7 @@ _LINE = 8
 
 
 class Medium(NamedTuple):
-    """The fluid around the particles, and gravity."""
+    """Fluid around the particles, and gravity."""
 
     mu: float
     """Pa s."""
@@ -153,7 +153,7 @@ class Scratch(NamedTuple):
     rebounds: Any
     """Buffer for the rebounds, (n, :data:`REBOUND_NUMBERS`)."""
     noted: Any
-    """(2,) number of recorded rebounds, and of those of finished blocks."""
+    """(2,) number of recorded rebounds, in all and of finished blocks."""
     bounds: LoopLimits
     """Limits of the particles."""
     member: Any

@@ -51,7 +51,7 @@ class Layout(NamedTuple):
     load: Callable[[Any, int, Any, int], None]
     """``load(p, k, block, i)`` copies particle k of the cloud into lane i."""
     save: Callable[[Any, int, Any, int], None]
-    """``save(p, k, block, i)`` copies what is saved of lane i back to particle k."""
+    """``save(p, k, block, i)`` copies the saved rows of lane i to particle k."""
     prefetch: Callable[[Any, int], float]
     """``prefetch(p, k)`` reads the arrays of particle k that ``load`` reads. Its sum keeps the compiler from
     removing the reads."""

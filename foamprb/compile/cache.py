@@ -64,7 +64,7 @@ class Store:
         return self._trusted() and any(self.folder.glob(f"*{_SUFFIX}"))
 
     def load(self, key: Any) -> Any:
-        """Return the value saved under ``key``; None if there is none that is trusted."""
+        """Return the value saved under ``key``; None if there is no trusted one."""
         if not self._trusted():
             return None
         data = _read(self._file(key), self._root)

@@ -188,7 +188,7 @@ class _WholeCalls(CPUCallConv):  # type: ignore[misc]
 
 
 class _Calls(CPUCallConv):  # type: ignore[misc]
-    """Calling convention of a caller: that of numba, but for inlined functions."""
+    """Calling convention of a caller, which differs from numba's for inlined callees."""
 
     def decode_arguments(self, builder: Any, argtypes: Any, func: Any) -> Any:
         return self._of(func).decode_arguments(builder, argtypes, func)
@@ -371,7 +371,7 @@ def _symbols(kind: Any, code: Code, path: tuple[int, ...]) -> Any:
 
 
 def _caller(context: Any, library: Any, descriptor: Any, code: Code) -> Any:
-    """Return the LLVM module of a function with numba's signature that calls that of the lanes."""
+    """Return the LLVM module of a function with numba's signature that calls the traced one."""
     module = library.create_ir_module(descriptor.unique_name)
     outer = context.declare_function(module, descriptor)
     builder = ir.IRBuilder(outer.append_basic_block())

@@ -102,7 +102,7 @@ def link(
 
 
 def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return those of the bindings whose names ``entry`` or a function linked with it reads."""
+    """Return the bindings whose names ``entry`` or a function linked with it reads."""
     found: set[str] = set()
     reached = {entry}
     pending = [entry]

@@ -34,7 +34,7 @@ _SAME = 1e-12
 
 
 class WallTree(NamedTuple):
-    """Triangles of walls, and a tree over them; indices are those of ``corners``."""
+    """Triangles of walls and a tree over them; indices refer to ``corners``."""
 
     corners: Floats
     """(n, 3, 3): triangle, vertex, coordinate; m."""
@@ -59,7 +59,7 @@ def wall_tree(corners: Floats, normals: Floats) -> WallTree:
 
 
 def edges_out(corners: Floats, normals: Floats) -> NDArray[np.bool_]:
-    """Which triangles have an edge at which the wall ends, or recedes from the fluid, (n,).
+    """Return which triangles have an edge at which the wall ends or recedes from the fluid, (n,).
 
     The nearest point of a wall lies on such an edge, or on a corner of one, or in a triangle.
     """
@@ -119,7 +119,7 @@ def _cones(normals: Floats, edges: NDArray[np.bool_], leaves: Ints) -> Floats:
 
 
 def _unit(v: Floats) -> Floats:
-    """Unit vectors along rows; along x where there is no direction, which then none is near to."""
+    """Return the unit vectors of rows; x for a row without direction."""
     length = np.linalg.norm(v, axis=1, keepdims=True)
     unit: Floats = np.where(length > 1e-12, v / np.maximum(length, 1e-300), [[1.0, 0.0, 0.0]])
     return unit
@@ -144,8 +144,8 @@ def near_walls(tree: WallTree, boxes: Floats, reach: float, names: Ints, size: f
     Returns
     -------
     near_start, near
-        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; a box is never farther than what is in it, so none
-        is missed.
+        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`; boxes contain their triangles, so that none is
+        missed.
 
     Raises
     ------
@@ -249,7 +249,7 @@ def _middle(boxes: Floats, cell: int) -> Vector:
 
 
 def nearest_triangle(tree: WallTree, x: Vector, cut: float, seed: int) -> tuple[int, float]:
-    """The triangle that is nearest to x, if it is nearer than ``cut`` (m), else −1; its distance.
+    """Return the triangle nearest to x and its distance; −1 if none is nearer than ``cut`` (m).
 
     ``seed`` is one that may be near.
     """
@@ -342,7 +342,7 @@ def _square_between(boxes: Floats, i: int, others: Floats, j: int) -> Any:
 
 
 def _faces(tree: WallTree, node: int, middle: Vector, size: float) -> bool:
-    """Whether a perpendicular from within ``size`` of a place may end on a triangle of a node."""
+    """Return True if a perpendicular from within ``size`` of a place may end on a triangle of a node."""
     b, cone = tree.boxes, tree.cones
     wx = middle[0] - 0.5 * (b[node, 0] + b[node, 3])
     wy = middle[1] - 0.5 * (b[node, 1] + b[node, 4])
@@ -422,5 +422,5 @@ def _sort(numbers: Ints, begin: int, end: int) -> None:
 
 
 def _extent(direction: Vector, half: Vector) -> Any:
-    """How far a box of these half widths reaches from its middle, along a direction times its length."""
+    """Return the extent of a box of these half widths from its middle along a direction, times its length."""
     return abs(direction[0]) * half[0] + abs(direction[1]) * half[1] + abs(direction[2]) * half[2]

@@ -88,7 +88,7 @@ from foamprb.flow.analytic import walk_free as walk
 
 
 class StepRows(NamedTuple):
-    """What every integrator of this loop has of a step: the flow at three times, and two errors."""
+    """Rows of every integrator of this loop: the flow at three times, and two errors."""
 
     start_Q: Annotated[int, Row(9, "1", "particle frame at the start of the step")]
     second_Q: Annotated[int, Row(9, "1", "particle frame at the second evaluation")]
@@ -122,7 +122,7 @@ during = offsets(StepRows, ROWS)
 STEP_ROWS = end(during)
 
 _SMALLEST = 1e-9
-"""A step that must be smaller than this share of Δt is a failure."""
+"""Smallest step allowed, over Δt."""
 _STRETCH = 4
 """Length of a stretch over that of the longest step. Rounding to whole steps then costs little."""
 _MANY = 6
@@ -174,7 +174,7 @@ def finish_path(block: Any, i: int, v: Vector) -> None:
 
 
 def store_path_error(block: Any, i: int, error: Any) -> None:
-    """Store the error of the path as that of the step."""
+    """Store the error of the path, which is the first part of the step's error."""
     block[during.path * LANES + i] = error
     block[during.difference * LANES + i] = 0.0
     block[at.error * LANES + i] = error

@@ -1,4 +1,4 @@
-"""The integrators of the shape, by name."""
+"""Integrators of the shape by name."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ __all__ = ["INTEGRATORS", "SMALL_STOKES", "automatic"]
 INTEGRATORS: dict[str, Integrator] = {
     integrator.name: integrator for integrator in (PAPER, ROSENBROCK, STOKES)
 }
-"""What the settings select, and Models."""
+"""By their names in the settings and in Models."""
 
 SMALL_STOKES = 0.01
-"""Shape Stokes number γ̇ τ_s below which the solid's inertia is left out unless the user asks for it."""
+"""Shape Stokes number γ̇ τ_s below which ``auto`` neglects the solid's inertia."""
 
 
 def automatic(stokes_number: float) -> str:

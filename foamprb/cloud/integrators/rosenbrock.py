@@ -190,7 +190,7 @@ def first_inertial(block: Any, medium: Medium) -> None:
         h, c = block[at.dt * LANES + i], block[at.inertia * LANES + i]
         Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
-        # The flow's, and with what the surroundings do to it.
+        # Of the flow, and with the surroundings.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         mark_disturbed(block, i)
         G = dot(Q, F)
@@ -485,9 +485,9 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
     chord = chord_error(h, way, a_u, a_end)
     straight = chord < parabola_error(h, way, du, a_u, a_end)
     # The body as it starts: a bent path counts for more than the parabola is off by, so that steps are short
-    # enough for what forces change along it, too.
+    # enough for forces that change along it, too.
     parabola = parabola_error(h, way, du, a_u, acceleration_at_end(block, i, v))
-    # What is no number is not less, and stays so.
+    # NaN is not less, and stays NaN.
     store_path_error(block, i, select(chord < parabola, chord, parabola))
     f = 1.0 / h
     return choose3(straight, (f * du[0], f * du[1], f * du[2]), a_u)

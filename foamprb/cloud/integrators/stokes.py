@@ -113,7 +113,7 @@ def first_inertialess(block: Any, medium: Medium) -> None:
     for i in range(LANES):
         h = block[at.dt * LANES + i]
         Q, stretches, F = load9(block, at.Q, i), load3(block, at.stretch, i), load9(block, at.F, i)
-        # The flow's, and with what the surroundings do to it.
+        # Of the flow, and with the surroundings.
         l, l_end, felt = load9(block, during.start_l, i), load9(block, during.end_l, i), load9(block, at.l, i)
         mark_disturbed(block, i)
         G = dot(Q, F)
@@ -183,7 +183,7 @@ def second_inertialess(block: Any, medium: Medium, tolerance: float) -> None:
             load3(block, own.end_slip, i),
             _slip(block, i, medium, l, a),
         )
-        # So does what the surroundings add to the flow.
+        # So does the disturbance by the surroundings.
         d, p, q = load3(block, own.disturbance, i), load3(block, at.u, i), _fluid_at_node(block, i)
         u = load3(block, during.end_u, i)
         f = 1.0 / NODE
