@@ -21,11 +21,9 @@ from typing import Any, Literal, TypeAlias
 from llvmlite import binding, ir  # type: ignore[import-untyped]
 from numba import _dynfunc, types
 from numba.core.bytecode import FunctionIdentity
-from numba.core.callconv import CPUCallConv
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
 from numba.core.compiler_machinery import PassManager, register_pass
-from numba.core.cpu import CPUContext
 from numba.core.funcdesc import PythonFunctionDescriptor
 from numba.core.lowering import Environment
 from numba.core.serialize import dumps
@@ -153,82 +151,10 @@ def _collect(library: Any, inlined: dict[Any, None], called: dict[Any, None]) ->
                 _collect(other, inlined, called)
 
 
-class _Whole:
-    """Arguments of a call, each passed as one value; numba would pass every field of an array by itself."""
-
-    def __init__(self, context: Any, kinds: Any) -> None:
-        self.argument_types = tuple(map(context.get_value_type, kinds))
-
-    def as_arguments(self, builder: Any, values: Any) -> Any:
-        return [_converted(builder, *each) for each in zip(values, self.argument_types, strict=True)]
-
-    def from_arguments(self, builder: Any, values: Any) -> Any:  # noqa: ARG002
-        return values
-
-    def assign_names(self, values: Any, names: Any) -> None:
-        for value, name in zip(values, names, strict=True):
-            value.name = name
-
-
-def _converted(builder: Any, value: Any, kind: Any) -> Any:
-    """Return a value of another type with the same numbers; both are arrays or structures."""
-    if value.type == kind:
-        return value
-    made = ir.Constant(kind, ir.Undefined)
-    for k, part in enumerate(kind.elements):
-        made = builder.insert_value(made, _converted(builder, builder.extract_value(value, k), part), k)
-    return made
-
-
-class _WholeCalls(CPUCallConv):  # type: ignore[misc]
-    """Calling convention of inlined functions."""
-
-    def _get_arg_packer(self, argtypes: Any) -> _Whole:
-        return _Whole(self.context, argtypes)
-
-
-class _Calls(CPUCallConv):  # type: ignore[misc]
-    """Calling convention of a caller, which differs from numba's for inlined callees."""
-
-    def decode_arguments(self, builder: Any, argtypes: Any, func: Any) -> Any:
-        return self._of(func).decode_arguments(builder, argtypes, func)
-
-    def call_function(self, builder: Any, callee: Any, *rest: Any, **options: Any) -> Any:
-        return self._of(callee).call_function(builder, callee, *rest, **options)
-
-    def _of(self, function: Any) -> CPUCallConv:
-        inlined = "alwaysinline" in function.attributes
-        return (_WholeCalls if inlined else CPUCallConv)(self.context)
-
-
-class _Context(CPUContext):  # type: ignore[misc]
-    """numba's context of a target with these calling conventions."""
-
-    declares_inlined = False
-
-    @property
-    def call_conv(self) -> Any:
-        return _WholeCalls(self) if self.declares_inlined else _Calls(self)
-
-    def declare_function(self, module: Any, fndesc: Any) -> Any:
-        self.declares_inlined = fndesc.inline
-        try:
-            return super().declare_function(module, fndesc)
-        finally:
-            self.declares_inlined = False
-
-
-_helpers: dict[Any, Any] = {}
-"""Functions that numba itself adds, compiled for these calling conventions."""
-
-
-def _context(own: Any, role: Role) -> Any:
-    """Return a copy of numba's context of a target for functions of a role."""
+def _context(own: Any) -> Any:
+    """Return a copy of numba's context of a target for functions that Python does not call."""
     context = copy.copy(own)
-    context.__class__ = _Context
-    context.cached_internal_func = _helpers
-    if role != "entry":
-        context.get_executable = _without_executable
+    context.get_executable = _without_executable
     return context
 
 
@@ -254,7 +180,8 @@ def _lowering(role: Role) -> type:
             state.library = _LIBRARIES[role](own.codegen(), state.func_id.func_qualname)
             if role == "entry":
                 state.library.enable_object_caching()
-            state.targetctx = _context(own, role)
+            else:
+                state.targetctx = _context(own)
             try:
                 return bool(super().run_pass(state))
             finally:
@@ -302,7 +229,7 @@ def _traced(state: Any, function: Callable[..., Any]) -> Any:
     UntraceableError
         If it cannot be traced.
     """
-    context, identity = _context(state.targetctx, "separate"), FunctionIdentity.from_function(function)
+    context, identity = _context(state.targetctx), FunctionIdentity.from_function(function)
     flags = " ".join(sorted(state.flags.fastmath.flags))
 
     def arguments(code: Code) -> list[Any]:
@@ -420,7 +347,7 @@ class _Cache:
         with suppress(Exception):
             if self._role == "entry":
                 return CompileResult._rebuild(context, *saved)
-            own, codegen = _context(context, self._role), context.codegen()
+            own, codegen = _context(context), context.codegen()
             own.codegen = lambda: _Reader(codegen)
             # Without the environments of interpreted code, which belong to machine code.
             return CompileResult._rebuild(own, *saved[:-1], ())
