@@ -159,9 +159,5 @@ def test_offsets_are_constants_in_compiled_code(monkeypatch, tmp_path):
     assert code[0] == code[1]
 
 
-def test_what_begins_as_no_turn_and_no_stretch_is_the_unit_tensor():
-    np.testing.assert_array_equal(np.reshape(IDENTITY, (3, 3)), np.eye(3))
-
-
 def test_idle_lanes_hold_a_sphere_that_is_not_deformed():
     np.testing.assert_array_equal(np.reshape(IDENTITY, (3, 3)), np.eye(3))

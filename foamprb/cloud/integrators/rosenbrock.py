@@ -264,11 +264,7 @@ def second_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, own.second_Omega, i, two[0])
         store9(block, own.second_l, i, two[1])
 
-        rate, moving = (
-            load3(block, own.rate, i),
-            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
-        )
-        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        rate, moving, changes = _load_drag(block, i)
         seen = _fluid_share(changes, NODE)
         P = drag_axes(block, i, Q0)
         forced = _forced(block, i, medium, P)
@@ -307,18 +303,12 @@ def last_inertial(block: Any, medium: Medium) -> None:  # noqa: ARG001
         store9(block, at.new_F, i, choose(third, load9(block, at.new_F, i), F))
         leave_gradient(block, i, Q0, add(start[0], shape[1]), third)
 
-        rate, moving = (
-            load3(block, own.rate, i),
-            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
-        )
-        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        rate, moving, changes = _load_drag(block, i)
         v = load3(block, at.new_v, i)
         slope = (NOTHING[0], load3(block, own.slope_v, i))
         P = drag_axes(block, i, Q0)
         _set_motion(block, i, P, last_motion(rate, h, moving, *changes, slope))
-        w = load3(block, at.new_v, i)
-        v = (select(third, w[0], v[0]), select(third, w[1], v[1]), select(third, w[2], v[2]))
-        store3(block, at.new_v, i, v)
+        store3(block, at.new_v, i, choose3(third, load3(block, at.new_v, i), v))
         store3(block, at.u, i, load3(block, during.end_u, i))
         store9(block, at.l, i, load9(block, during.end_l, i))
         store3(block, at.DuDt, i, end_acceleration(block, i))
@@ -341,11 +331,7 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         difference = _size(combine(1.0, three, -1.0, two), h, b_e, strain)
         update_discount(block, i, third, difference, tolerance)
 
-        rate, moving = (
-            load3(block, own.rate, i),
-            (load3(block, own.first_v, i), load3(block, own.first_vt, i)),
-        )
-        changes = load3(block, own.drag_change, i), load3(block, own.drag_bend, i)
+        rate, moving, changes = _load_drag(block, i)
         P = drag_axes(block, i, Q0)
         slope = (NOTHING[0], load3(block, own.slope_v, i))
         forced = _forced(block, i, medium, P)
@@ -362,11 +348,8 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         store9(block, at.new_A, i, choose(third, A, load9(block, at.new_A, i)))
         block[at.J * LANES + i] = select(third, J, block[at.J * LANES + i])
         x, v = _new_motion(block, i, P, path)
-        y, w = load3(block, at.new_x, i), load3(block, at.new_v, i)
-        x = (select(third, x[0], y[0]), select(third, x[1], y[1]), select(third, x[2], y[2]))
-        v = (select(third, v[0], w[0]), select(third, v[1], w[1]), select(third, v[2], w[2]))
-        store3(block, at.new_x, i, x)
-        store3(block, at.new_v, i, v)
+        store3(block, at.new_x, i, choose3(third, x, load3(block, at.new_x, i)))
+        store3(block, at.new_v, i, choose3(third, v, load3(block, at.new_v, i)))
         keep_frame(block, i, third)
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
@@ -535,6 +518,16 @@ def _store_stiffness(block: Any, i: int, n: Stiffness) -> None:
     store3(block, own.elastic_pairs + 3, i, (q1, r0, r1))
     block[own.weight * LANES + i] = n.weight
     block[own.own * LANES + i] = n.own
+
+
+def _load_drag(block: Any, i: int) -> tuple[Vector, Motion, tuple[Vector, Vector]]:
+    """Return rates of drag, velocity and its rate at the start, and changes by the fluid's velocity."""
+    moving = load3(block, own.first_v, i), load3(block, own.first_vt, i)
+    return (
+        load3(block, own.rate, i),
+        moving,
+        (load3(block, own.drag_change, i), load3(block, own.drag_bend, i)),
+    )
 
 
 def _load_stiffness(block: Any, i: int) -> Stiffness:

@@ -30,13 +30,14 @@ from foamprb.body.tensor import (
     det,
     dot,
     from_frame,
+    plus,
     scale,
     select,
     to_frame,
     transpose,
 )
 from foamprb.body.turning import commutator, turning_gradient
-from foamprb.cloud.block import Medium, at, choose, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import Medium, at, choose, choose3, load3, load9, load_integrals, store3, store9
 from foamprb.cloud.elastic import incompressible_elasticity, incompressible_stress
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
@@ -254,17 +255,9 @@ def end_inertialess(block: Any, medium: Medium) -> None:
         l_s = _gradient(block, i, medium)
         F, A = load9(block, at.F, i), load9(block, at.A, i)
         store9(block, at.A, i, choose(moving, dot(l_s, F), A))
-        u, w, v = (
-            load3(block, at.u, i),
-            _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i)),
-            load3(block, at.v, i),
-        )
-        v = (
-            select(moving, u[0] + w[0], v[0]),
-            select(moving, u[1] + w[1], v[1]),
-            select(moving, u[2] + w[2], v[2]),
-        )
-        store3(block, at.v, i, v)
+        slip = _slip(block, i, medium, load9(block, at.l, i), load3(block, at.DuDt, i))
+        v = plus(load3(block, at.u, i), slip)
+        store3(block, at.v, i, choose3(moving, v, load3(block, at.v, i)))
 
 
 def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
