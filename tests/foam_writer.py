@@ -108,6 +108,14 @@ def write_case(
     return mesh
 
 
+def put_scalar(folder: Path, name: str, units: str, value: float) -> None:
+    """Write a uniform field at a time; units are the first three exponents."""
+    (folder / name).write_text(
+        header("volScalarField", name) + f"dimensions [{units} 0 0 0 0]; internalField uniform {value}; "
+        'boundaryField { ".*" { type zeroGradient; } }'
+    )
+
+
 def save(path: Path, content: bytes, form: Format) -> None:
     if form.compressed:
         path.with_name(path.name + ".gz").write_bytes(gzip.compress(content, mtime=0))

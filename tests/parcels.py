@@ -10,11 +10,6 @@ import numpy as np
 G = "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);"
 
 
-def header(path: str, kind: str = "dictionary") -> str:
-    name = Path(path).name
-    return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
-
-
 def numbers(path: Path) -> np.ndarray:
     """Of a list of scalars or vectors that OpenFOAM wrote in ascii."""
     body = path.read_text().split("// * *", 1)[1]

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import csv
 import json
+import logging
 import re
 import shutil
 from pathlib import Path
 
 import pytest
-from foam_writer import header
+from foam_writer import put_scalar
 from paths import PIPE
 
+from foamprb import execute, prepare
 from foamprb.cli import main
+from foamprb.errors import RunStopped
 
 END = 0.006
 """End time of :func:`short_case`, s."""
+EARLIER = 0.003
+"""Time between two injections of it, s."""
 
 
 def copy_of_pipe(folder: Path) -> Path:
@@ -43,16 +48,17 @@ def short_case(folder: Path) -> Path:
     return case
 
 
+def stop_after(case: Path, time: float) -> None:
+    """Run a case until a time, s."""
+    # The command line may have closed the stream that an earlier test logged to.
+    logging.getLogger("foamprb").handlers.clear()
+    job = prepare(case, threads=1)
+    with pytest.raises(RunStopped, match=r"stopped at t = .*foamprb run -resume"):
+        execute(job, "latestTime", stop=lambda: job.cloud.time > 0.99 * time)
+
+
 def time_folder(case: Path) -> Path:
     return max((f for f in case.iterdir() if re.fullmatch(r"[1-9]\d*", f.name)), key=lambda f: int(f.name))
-
-
-def put_scalar(case: Path, name: str, units: str, value: float) -> None:
-    """A uniform field at the last time; units are the first three exponents."""
-    (time_folder(case) / name).write_text(
-        header("volScalarField", name) + f"dimensions [{units} 0 0 0 0]; internalField uniform {value}; "
-        'boundaryField { ".*" { type zeroGradient; } }'
-    )
 
 
 def with_eddies(folder: Path) -> Path:
@@ -60,8 +66,8 @@ def with_eddies(folder: Path) -> Path:
     case = short_case(folder)
     model = "dispersionModel stochasticDispersionRAS; patchInteractionModel"
     edit(case, "patchInteractionModel", model)
-    put_scalar(case, "k", "0 2 -2", 1e-4)
-    put_scalar(case, "epsilon", "0 2 -3", 0.05)
+    put_scalar(time_folder(case), "k", "0 2 -2", 1e-4)
+    put_scalar(time_folder(case), "epsilon", "0 2 -3", 0.05)
     return case
 
 

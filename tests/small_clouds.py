@@ -9,7 +9,7 @@ from foamprb import Gravity, PressureGradient, VirtualMass, analytic
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.state import spheres
+from foamprb.cloud.state import Particles, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -53,3 +53,9 @@ def box_cloud(integrator):
         p.x[2, 1] = 0.9895
     walls = [kinds[patch.name] for patch in flow.patches]
     return Cloud(p, flow, medium, walls, 2e-3, Models(integrator=integrator, forces=forces), 1)
+
+
+def assert_same(a: Particles, b: Particles, rows: int | slice = slice(None)) -> None:
+    """Particles are the same to the last bit; ``rows`` are of the first."""
+    for name, x, y in zip(Particles._fields, a, b, strict=True):
+        np.testing.assert_array_equal(x[rows], y, err_msg=name)

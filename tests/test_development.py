@@ -63,7 +63,7 @@ def changed(tmp_path_factory):
     return folder
 
 
-def test_the_changes_of_the_page_for_developers_do_what_it_says(changed: Path, tmp_path: Path) -> None:
+def test_changes_of_the_page_for_developers_work(changed: Path, tmp_path: Path) -> None:
     case = copy_of_pipe(tmp_path)
     edit(case, r"endTime\s+\S+;", "endTime 0.002;")
     edit(case, r"writeInterval\s+\S+;", "writeInterval 0.001;")

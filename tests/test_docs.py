@@ -40,7 +40,7 @@ def test_pages_of_models_name_the_cases_that_check_them():
     assert not faults
 
 
-def test_page_of_integrators_lists_those_that_there_are():
+def test_page_of_integrators_lists_all():
     """With whether the solid has inertia, and the order."""
     page = (ROOT / "docs" / "integrators.md").read_text()
     listed = re.findall(r"^\| `(\w+)` \| (yes|no) \| (\d)(?:\(\d\))? \|", page, re.MULTILINE)

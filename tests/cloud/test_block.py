@@ -51,7 +51,7 @@ def test_a_block_begins_on_a_line_of_memory(rows):
         assert block.ctypes.data % 64 == 0
 
 
-def test_those_that_cost_alike_share_blocks():
+def test_particles_of_equal_cost_share_blocks():
     """Of each kind only what is left over shares a block with others; within, neighbours are side by side."""
     random, n = np.random.default_rng(4), 160 * LANES
     p = spheres(np.zeros((n, 3)), d=1e-6, rho=1.0, mu=1.0)

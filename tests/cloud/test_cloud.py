@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
+from small_clouds import assert_same
 
 from foamprb import analytic
 from foamprb.body.drag import oberbeck
@@ -15,7 +16,7 @@ from foamprb.cloud.integrators.paper import track_block
 from foamprb.cloud.measures import context, measure
 from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.state import Particles, Reason, Status, spheres
+from foamprb.cloud.state import Reason, Status, spheres
 from foamprb.cloud.tracker import Models, Outcome
 from foamprb.flow.analytic import walk_free
 from foamprb.flow.mesh.mesh import build_mesh
@@ -63,11 +64,6 @@ def scattered_cloud(n=70, **options):
     p.x[:] = p.x0[:] = np.stack([random.uniform(0, 0.02, n), r * np.cos(phi), r * np.sin(phi)], axis=1)
     p.t0[:] = p.t[:] = random.uniform(0, 5e-3, n)
     return cloud
-
-
-def assert_same(a: Particles, b: Particles):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x, y, err_msg=name)
 
 
 @pytest.mark.parametrize("calls", [(20,), (3, 1, 16)], ids=str)
@@ -224,7 +220,7 @@ class TestBookkeeping:
         np.testing.assert_allclose(cloud.particles.F, reference.particles.F, atol=1e-15)
         np.testing.assert_allclose(cloud.particles.A, reference.particles.A, rtol=1e-12, atol=1e-9)
 
-    def test_a_walk_that_fails_is_mended_by_the_tree_and_counted(self):
+    def test_failed_walk_is_recovered_by_the_tree_and_counted(self):
         cloud = self.with_walks_that_fail(recover_everywhere)
         cloud.advance(7)
         assert cloud.recovered == 7
@@ -233,7 +229,7 @@ class TestBookkeeping:
         reference.advance(7)
         np.testing.assert_array_equal(cloud.particles.x, reference.particles.x)
 
-    def test_a_particle_that_the_tree_does_not_find_fails_with_its_reason_and_place(self):
+    def test_particle_outside_the_tree_fails_with_reason_and_place(self):
         cloud = self.with_walks_that_fail(recover_nowhere)
         Stepper(cloud).advance(7)
         p = cloud.particles

@@ -128,7 +128,7 @@ def test_dispersion_does_not_depend_on_the_step(dt):
     assert variance == pytest.approx(1.0, abs=4.0 * np.sqrt(2.0 / (3 * n)) + 0.01)
 
 
-def test_what_settles_leaves_its_eddies_sooner():
+def test_settling_bodies_leave_eddies_sooner():
     """A slip w takes it through an eddy in C_μ^¾ k^{3/2}/(ε w): the dispersion is smaller in that ratio."""
     n, steps, dt = 3000, 200, 0.01
     rho, g = 2000.0, 9.81

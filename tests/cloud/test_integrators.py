@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from small_clouds import assert_same
 from strategies import flat, square
 
 from foamprb import analytic
@@ -24,7 +25,7 @@ from foamprb.cloud.integrators.adaptive import during
 from foamprb.cloud.integrators.rosenbrock import ROSENBROCK, predict_inertial
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape, Rebound, Stick
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 
@@ -102,11 +103,6 @@ def pipe(integrator, dt, tolerance=1e-4, n=60, wall=None):
     flow = analytic.pipe(2.1e-3, 923.8 * 2.1e-3 / 4, 0.03)
     interactions = (wall or Stick(), Escape(), Escape())
     return Cloud(p, flow, air, interactions, dt, Models(integrator=integrator, tolerance=tolerance))
-
-
-def assert_same(a: Particles, b: Particles):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x, y, err_msg=name)
 
 
 @pytest.mark.parametrize(("integrator", "steps"), [("stokes", (20, 40, 80)), ("rosenbrock", (80, 160, 320))])
@@ -284,7 +280,7 @@ def test_rosenbrock_needs_no_steps_below_the_relaxation_time(Ca):
 
 @pytest.mark.parametrize("stride", [1, 4])
 @pytest.mark.parametrize("number", [0.055, 0.012])
-def test_what_inertia_did_at_a_sudden_start_is_soon_forgotten(number, stride):
+def test_errors_of_a_sudden_start_decay(number, stride):
     """From rest in shear, γ̇Δt = 0.073: no estimate sees how the first few τ_s are gone through.
 
     After twenty steps the strain is right to half of the tolerance times their number, also where most go
@@ -395,7 +391,7 @@ def test_what_a_body_has_learned_holds_until_the_next_eighth_step(integrator):
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)
-def test_what_a_coarse_mesh_does_to_the_gradient_does_not_shorten_steps(coarse_vortex, integrator, random):
+def test_jumps_of_the_gradient_between_coarse_cells_do_not_shorten_steps(coarse_vortex, integrator, random):
     """Steps of a fifth of a cell turn by up to 0.1 rad; with chords cut at θ²/12 = 1e-4 that is three."""
     x, tolerance = 0.1 + 0.8 * random.random((200, 3)), 1e-4
 

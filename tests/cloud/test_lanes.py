@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from small_clouds import assert_same
 
 from foamprb.cloud.block import ROWS, SHELF, Medium, new_scratch
 from foamprb.cloud.cloud import Cloud, Stepper
@@ -60,11 +61,6 @@ def go(cloud):
     """Through 20 steps. Those that move share blocks from the second call on."""
     Stepper(cloud).advance(4)
     Stepper(cloud).advance(16)
-
-
-def assert_same(a, b, rows=slice(None)):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x[rows], y, err_msg=name)
 
 
 def scratch():

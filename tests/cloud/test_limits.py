@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from small_clouds import box_cloud, pipe_cloud
+from small_clouds import assert_same, box_cloud, pipe_cloud
 
 from foamprb import FailedParticlesWarning, Limits, analytic, set_rest_shape
 from foamprb.body.material import MATERIALS
@@ -41,12 +41,7 @@ def reasons(cloud):
     return [Reason(r) for r in cloud.particles.reason]
 
 
-def assert_same(a: Particles, b: Particles):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x, y, err_msg=name)
-
-
-def test_the_defaults_are_those_that_the_manual_tells():
+def test_defaults_of_limits_are_those_of_the_manual():
     page = Path(__file__).parents[2] / "docs/settings.md"
     told = dict(re.findall(r"^\| `(max\w+)` \| 1 \| (\w[\w.]*) \|", page.read_text(), re.MULTILINE))
     for name, default in asdict(Limits()).items():
@@ -176,7 +171,7 @@ class TestCost:
             assert reasons(cloud) == [reason]
             assert (cloud.particles.t[0] < 1.0) == (reason == Reason.SUB_STEPS)
 
-    def test_steps_are_counted_with_those_that_are_repeated(self):
+    def test_repeated_steps_are_counted(self):
         cloud = in_extension([0.2], dt=1e-5)
         Stepper(cloud).advance(1)
         assert cloud.particles.substeps[0] == 1
@@ -186,7 +181,7 @@ class TestCost:
 
 
 class TestReasons:
-    def test_a_flow_that_is_no_number_is_the_reason(self):
+    def test_not_a_number_in_the_flow_is_the_reason(self):
         for integrator in INTEGRATORS:
             cloud = in_extension([0.2, 0.2], integrator=integrator)
             p = cloud.particles
@@ -227,7 +222,7 @@ class TestReasons:
 
 class TestWalls:
     @pytest.mark.parametrize("integrator", INTEGRATORS)
-    def test_what_bodies_see_does_not_depend_on_how_far_walls_are_listed(self, integrator):
+    def test_wall_forces_do_not_depend_on_the_reach_of_lists(self, integrator):
         clouds = [box_cloud(integrator) for _ in range(3)]
         # The default; a cell's width more; so little that it must grow.
         clouds[1].reach, clouds[2].reach = 0.6, 1e-3
@@ -278,7 +273,7 @@ class TestStop:
         assert count > 1
         assert_same(whole.particles, parts.particles)
 
-    def test_particles_that_are_ahead_wait_for_the_others(self):
+    def test_particles_ahead_stay_until_the_others_catch_up(self):
         for make in (pipe_cloud, box_cloud):
             for integrator in INTEGRATORS:
                 whole, parts = make(integrator), make(integrator)
@@ -330,7 +325,7 @@ class TestModels:
 
 
 @pytest.mark.parametrize("row", ["new_v", "new_F", "new_A"])
-def test_a_state_with_one_component_that_is_no_number_is_not_taken(row):
+def test_state_with_one_nan_is_refused(row):
     size = 3 if row == "new_v" else 9
     for component in range(size):
         block = np.zeros(ROWS * LANES)

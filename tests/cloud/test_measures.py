@@ -66,7 +66,7 @@ def cloud() -> Particles:
     return p
 
 
-def test_measures_are_those_of_the_plain_formulas(cloud, flow):
+def test_measures_equal_the_plain_formulas(cloud, flow):
     found = measure(context(cloud, flow, MU, 0.0))
     rows = np.flatnonzero(cloud.status != Status.PENDING)
     p = cloud.take(rows)
@@ -94,7 +94,7 @@ def test_measures_are_those_of_the_plain_formulas(cloud, flow):
         np.testing.assert_allclose(found[name], values, rtol=1e-10, atol=1e-12 * scale_of, err_msg=name)
 
 
-def test_orientation_turns_the_fixed_axes_onto_those_of_the_particle(cloud, flow):
+def test_orientation_turns_fixed_axes_onto_axes_of_the_particle(cloud, flow):
     found = measure(context(cloud, flow, MU, 0.0))
     q = found["orientation"]
     np.testing.assert_allclose(np.linalg.norm(q, axis=1), 1.0, rtol=1e-14)
@@ -139,7 +139,7 @@ def test_shares_of_a_cloud_are_the_same_bits(cloud, flow):
             assert values.tobytes() == whole[name][rows].tobytes(), name
 
 
-def test_nothing_has_measures_of_no_length(cloud, flow):
+def test_measures_of_no_particles_are_empty(cloud, flow):
     cloud.status[:] = Status.PENDING
     (c,) = contexts(cloud, flow, MU, 0.0)
     assert {len(values) for values in measure(c).values()} == {0}
@@ -153,7 +153,7 @@ def test_where_the_flow_is_unknown_so_is_the_load(cloud, flow):
     assert np.isfinite(found["semiAxes"]).all()
 
 
-def test_longest_semi_axis_is_bounded_by_those_that_move(cloud):
+def test_longest_semi_axis_is_that_of_moving_particles(cloud):
     _, stretches = principal_frame(tuple(cloud.F.T))
     lengths = np.max(stretches, axis=0) * cloud.R
     lengths[cloud.status > Status.ACTIVE] = 0.0
@@ -163,7 +163,7 @@ def test_longest_semi_axis_is_bounded_by_those_that_move(cloud):
 
 
 @pytest.mark.parametrize("threads", [1, 3])
-def test_a_copy_of_what_changes_stays_as_it_was(flow, threads):
+def test_snapshot_is_a_copy(flow, threads):
     p = spheres(np.zeros((3, 3)), d=1e-6, rho=1000.0, mu=1.0)
     cloud = Cloud(p, flow, Medium(MU, 1.0, (0.0, 0.0, 0.0)), [], 1e-5, threads=threads)
     cloud.advance(1)

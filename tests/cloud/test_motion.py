@@ -38,7 +38,7 @@ OBLIQUE = np.array([[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]]) / 3.0
         ((np.inf, 2.0, 3.0), False),
     ],
 )
-def test_what_is_no_number_is_held_by_nothing(goal, held):
+def test_not_a_number_lies_in_no_tetrahedron(goal, held):
     """A step's end is looked for unless it is certainly as near to its prediction as that has room."""
     lane, numbers = 3, np.full(during.room * LANES + LANES, np.nan)
     store3(numbers, during.ahead, lane, (1.0, 2.0, 3.0))

@@ -77,7 +77,7 @@ def test_the_same_by_any_number_of_threads_and_calls():
         np.testing.assert_array_equal(cloud.particles.x, whole.particles.x)
 
 
-def test_none_is_noted_twice_if_a_call_is_stopped():
+def test_no_rebound_is_recorded_twice_after_a_stop():
     whole = many()
     whole.advance(300)
     cloud = many()
@@ -105,7 +105,7 @@ def test_a_stop_counts_though_there_is_no_room():
     np.testing.assert_array_equal(cloud.take_rebounds(), whole.take_rebounds())
 
 
-def test_none_is_noted_unless_asked_for():
+def test_rebounds_are_recorded_on_request_only():
     cloud = falling(2 * D, Models(integrator="paper"))
     cloud.advance(60)
     assert cloud.particles.v[0, 1] > 0.0
@@ -125,7 +125,7 @@ def test_a_body_that_stays_in_touch_bounced_when_it_came():
     assert 0.0 < found.t[0] < 0.01
 
 
-def test_those_that_stick_do_not_bounce():
+def test_sticking_particles_do_not_rebound():
     p = spheres([[0.05, -RADIUS + 2 * D, 0.0]], d=D, rho=2560.0, mu=10.0)
     p.v[:] = (0.0, -SPEED, 0.0)
     walls = (Stick(), Escape(), Escape())

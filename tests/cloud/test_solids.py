@@ -246,7 +246,7 @@ def test_ellipsoid_touches_where_its_own_shape_reaches():
 
 
 @pytest.mark.parametrize("ratios", [(1.0, 1.0, 1.0), (3.0, 1.0, 1.0)])
-def test_stresslet_is_what_the_body_adds_to_dissipation(ratios):
+def test_stresslet_is_the_added_dissipation(ratios):
     """S : d_f is the added dissipation; a rigid sphere's is Einstein's, 5 μ_f d_f V."""
     L = ODD - np.trace(ODD) / 3 * np.eye(3)
     axes = Rotation.from_rotvec([0.4, 0.2, -0.7]).as_matrix()

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
+from small_clouds import assert_same
 
 from foamprb import analytic
 from foamprb.body.error_control import GROWTH
@@ -15,7 +16,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.contact import rebounds_of
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.patches import Escape, Mirror, Rebound, Stick
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
@@ -62,11 +63,6 @@ def settled(cloud, z):
     p.v[:], _ = flow.sample(p.x, p.host, 0.0)
     p.h[:] = 8 * cloud.dt
     return cloud
-
-
-def assert_same(a, b):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x, y, err_msg=name)
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)
@@ -186,7 +182,7 @@ class TestPatches:
 
 
 @pytest.mark.parametrize("calls", [(192,), (64, 128), (128, 64)], ids=str)
-def test_what_an_aligned_call_holds_changes_no_bit_in_a_flow_that_changes(calls):
+def test_prepared_flow_of_an_aligned_call_changes_no_bit(calls):
     """No step goes past a time of the flow, wherever a call ends."""
     mesh = build_mesh(shape := block(3, 0.1), box_patches(shape))
     x = mesh.nodes - 0.5
@@ -210,7 +206,7 @@ def test_what_an_aligned_call_holds_changes_no_bit_in_a_flow_that_changes(calls)
 
 
 @pytest.mark.parametrize("stride", [0, -4, 2.5, 4.0, math.nan, math.inf])
-def test_a_stride_that_is_no_number_of_steps_is_refused(stride):
+def test_stride_must_be_a_positive_integer(stride):
     with pytest.raises(InputError, match=f"the stride is {stride}. Allowed: whole numbers"):
         in_shear("stokes", stride)
 
@@ -226,7 +222,7 @@ def test_any_number_of_steps_will_do(stride):
     assert whole.particles.substeps == pytest.approx(1.0 / stride)
 
 
-def test_steps_of_fixed_size_and_what_surrounds_a_body_keep_them_to_the_tracking_step():
+def test_fixed_steps_and_surroundings_keep_the_tracking_step():
     for models in (
         Models(integrator="paper", stride=4),
         Models(integrator="stokes", tolerance=math.inf, stride=4),

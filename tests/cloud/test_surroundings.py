@@ -95,7 +95,7 @@ def test_a_model_acts_with_the_papers_integrator():
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_a_model_that_does_nothing_changes_no_bit(integrator):
+def test_no_op_surrounding_changes_no_bit(integrator):
     p, q = (carried(integrator, models, steps=1) for models in ((), (Calm(), Wind(speed=0.0))))
     for one, other in zip(p, q, strict=True):
         assert np.array_equal(one, other, equal_nan=True)

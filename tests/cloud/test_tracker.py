@@ -29,7 +29,7 @@ def test_the_tolerance_is_the_one_that_the_manual_tells():
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_what_is_compiled_beforehand_has_an_example_of_each_argument(integrator, monkeypatch):
+def test_precompilation_has_an_example_of_each_argument(integrator, monkeypatch):
     """Numbers are double, and a lane is counted as the loop counts it: else it would be compiled again."""
     found = {}
 

@@ -144,7 +144,7 @@ def test_with_little_inertia_it_goes_as_without():
 
 
 @pytest.mark.parametrize(("h", "ratios"), [(2.0, (1.6, 1.0, 0.8)), (1.7, (1.2, 1.0, 0.9))])
-def test_so_does_a_soft_ellipsoid_that_the_shear_turns_while_it_settles(h, ratios):
+def test_settling_soft_ellipsoid_in_shear_follows_its_equations(h, ratios):
     """The lighter at the same weight, in proportion to γ̇τ; to 2e-3, the error of steps of `stokes`."""
 
     def ended(integrator, lightness):

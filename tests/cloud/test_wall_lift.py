@@ -301,7 +301,7 @@ def test_the_nearest_of_all_walls_is_told(monkeypatch):
     assert expected[:6].max() < 5.0
 
 
-def test_walls_are_seen_from_a_mesh_as_from_a_half_space():
+def test_walls_of_a_mesh_act_like_a_half_space():
     """A cloud on a mesh with one wall, against the flow in closed form."""
     grid = block(4, perturbation=0.0)
     mesh = build_mesh(grid, box_patches(grid))

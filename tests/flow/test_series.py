@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from foam_writer import write_case
 from mesh_shapes import block, box_patches
+from small_clouds import assert_same
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.patches import Escape, Rebound
-from foamprb.cloud.state import Particles, Status, spheres
+from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
@@ -85,11 +86,6 @@ def cloud_in(flow, dt, integrator="paper", start=0.0, n=3, spread=0.0, tolerance
     walls = [Rebound() if patch.type == "wall" else Escape() for patch in flow.patches]
     models = Models(integrator=integrator, tolerance=tolerance)
     return Cloud(p, flow, WATER, walls, dt, models, start=start, **options)
-
-
-def assert_same(a: Particles, b: Particles):
-    for name, x, y in zip(Particles._fields, a, b, strict=True):
-        np.testing.assert_array_equal(x, y, err_msg=name)
 
 
 def test_what_is_linear_in_time_is_met_exactly(mesh, random):

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parcels import G, header, numbers
+from foam_writer import header
+from parcels import G, numbers
 from scipy import stats
 
 from foamprb import prepare
@@ -114,16 +115,18 @@ def prepared(flow: Path, case: Path, model: str) -> Path:
         before, name, after = (case / "0" / field).read_text().partition("frontAndBack")
         (case / "0" / field).write_text(before + name + after.replace("empty", "symmetry"))
     for path, text in FILES.items():
-        (case / path).write_text(header(path) + text)
+        (case / path).write_text(header("dictionary", Path(path).name) + text)
     for path, text, patches in (
         ("constant/kinematicCloudProperties", CLOUD, f"{PATCHES} frontAndBack {{ type none; }}"),
         ("constant/softCloudProperties", SOFT, PATCHES),
     ):
-        (case / path).write_text(header(path) + text.replace("MODEL", model).replace("PATCHES", patches))
+        (case / path).write_text(
+            header("dictionary", Path(path).name) + text.replace("MODEL", model).replace("PATCHES", patches)
+        )
     heights = 0.002 + 0.02 * (np.arange(N) + 0.5) / N
     places = "\n".join(f"(0.002 {y:.9g} 0)" for y in heights)
-    (case / "constant/positions").write_text(header("positions", "vectorField") + f"{N}\n(\n{places}\n)\n")
-    (case / "constant/g").write_text(header("g", "uniformDimensionedVectorField") + G)
+    (case / "constant/positions").write_text(header("vectorField", "positions") + f"{N}\n(\n{places}\n)\n")
+    (case / "constant/g").write_text(header("uniformDimensionedVectorField", "g") + G)
     schemes = case / "system/fvSchemes"
     schemes.write_text(schemes.read_text().replace("steadyState", "Euler"))
     return case

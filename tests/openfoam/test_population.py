@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parcels import G, header, numbers
+from foam_writer import header
+from parcels import G, numbers
 from scipy import stats
 
 from foamprb import prepare
@@ -125,10 +126,10 @@ def write_box(case: Path) -> None:
     for folder in ("0", "constant", "system"):
         (case / folder).mkdir(parents=True)
     for path, text in FILES.items():
-        (case / path).write_text(header(path) + text)
+        (case / path).write_text(header("dictionary", Path(path).name) + text)
     (case / "constant/injectionModels").write_text(injections())
-    (case / "0/U").write_text(header("U", "volVectorField") + U)
-    (case / "constant/g").write_text(header("g", "uniformDimensionedVectorField") + G)
+    (case / "0/U").write_text(header("volVectorField", "U") + U)
+    (case / "constant/g").write_text(header("uniformDimensionedVectorField", "g") + G)
 
 
 @pytest.fixture(scope="module")

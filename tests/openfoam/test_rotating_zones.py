@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from parcels import header
+from foam_writer import header
 
 from foamprb import prepare
 from foamprb.cloud.state import Status
@@ -61,7 +61,7 @@ def case(tmp_path_factory):
 def stuck(case: Path, how: str) -> float:
     """Share of the particles that met a blade in a third of a turn."""
     path = case / "constant/softCloudProperties"
-    path.write_text(header(path.name) + CLOUD.replace("HOW", how))
+    path.write_text(header("dictionary", path.name) + CLOUD.replace("HOW", how))
     cloud = prepare(case, 150, threads=1).cloud
     assert isinstance(cloud.flow, RotatingFlow) == (how == "relative")
     cloud.advance(200)

@@ -46,7 +46,7 @@ def test_settings_hold(live):
     assert main(["run", "-case", str(live), "-dry-run"]) == 0
 
 
-def test_what_enters_leaves_and_divides_as_prescribed(live):
+def test_flow_enters_leaves_and_divides_as_prescribed(live):
     rates = t_junction.flow_rates(live)
     assert rates["inlet"] == pytest.approx(-FLOW, rel=1e-9)
     assert rates["side"] == pytest.approx(SHARE * FLOW, rel=1e-9)

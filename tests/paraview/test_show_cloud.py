@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import pyvista
+from foam_writer import header
 from numpy.typing import NDArray
 from paths import ROOT
 from pvpython import pvpython
@@ -57,10 +58,6 @@ def duct(tmp_path: Path) -> Path:
         header("dictionary", "controlDict") + "startTime 0; endTime 1; deltaT 1; writeInterval 1;\n"
     )
     return case
-
-
-def header(kind: str, name: str) -> str:
-    return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 
 
 def foam_list(kind: str, name: str, entries: list[str]) -> str:

@@ -13,7 +13,7 @@ from foamprb.errors import InputError
 from foamprb.results.atomic import atomic_write, forget, only_writer, remove_unfinished
 
 
-def test_writes_whole_file_and_nothing_else(tmp_path: Path) -> None:
+def test_whole_file_is_written(tmp_path: Path) -> None:
     path = tmp_path / "new" / "table.csv"
     with atomic_write(path) as temporary:
         temporary.write_text("a\n")
@@ -136,7 +136,7 @@ def test_a_folder_has_one_writer(tmp_path: Path) -> None:
         pass
 
 
-def test_a_file_whose_memory_is_given_up_is_as_it_was(tmp_path: Path, monkeypatch) -> None:
+def test_file_is_unchanged_after_its_pages_are_dropped(tmp_path: Path, monkeypatch) -> None:
     """Whether it is there or not, and on a file system that takes no advice as well."""
 
     def refuse(*_: object) -> None:

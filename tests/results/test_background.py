@@ -61,7 +61,7 @@ def test_one_piece_of_work_at_a_time_in_order() -> None:
 
 
 @pytest.mark.parametrize("word", ["check", "finish", "begin"])
-def test_what_went_wrong_is_said_once(word: str) -> None:
+def test_error_is_reported_once(word: str) -> None:
     with Writer() as writer:
         writer.begin(fail)
         wait_for(lambda: writer._unfinished is not None and writer._unfinished.done())
@@ -70,7 +70,7 @@ def test_what_went_wrong_is_said_once(word: str) -> None:
         writer.finish()
 
 
-def test_leaving_raises_what_went_wrong_last() -> None:
+def test_leaving_raises_the_last_error() -> None:
     with pytest.raises(OSError, match="no space"), Writer() as writer:
         writer.begin(fail)
 

@@ -140,7 +140,7 @@ def test_a_damaged_one_gives_way_to_the_one_before(
         store.latest()
 
 
-def test_what_a_killed_writer_left_is_removed_and_other_files_are_not(tmp_path: Path) -> None:
+def test_leftovers_of_a_killed_writer_are_removed(tmp_path: Path) -> None:
     for name in (".0.1.checkpoint.0123abcd.tmp", "notes.txt", "x.checkpoint"):
         (tmp_path / name).touch()
     store = Checkpoints(tmp_path)

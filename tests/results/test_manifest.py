@@ -19,7 +19,7 @@ def files(folder: Path, *names: str) -> list[Path]:
     return made
 
 
-def test_what_is_expected_is_read_again_by_relative_names(tmp_path: Path) -> None:
+def test_expected_files_are_listed_by_relative_names(tmp_path: Path) -> None:
     expected = [tmp_path / name for name in ("a.vtp", "deep/er/b.csv", 'odd "näme"\n.vtp')]
     manifest = Manifest(tmp_path)
     manifest.expect(expected)
@@ -39,7 +39,7 @@ def test_without_a_manifest_nothing_is_listed(tmp_path: Path) -> None:
     assert Manifest.read(tmp_path).files == set()
 
 
-def test_what_did_not_come_to_be_is_dropped_from_the_list(tmp_path: Path) -> None:
+def test_missing_files_are_dropped_from_the_list(tmp_path: Path) -> None:
     manifest = Manifest(tmp_path)
     a, b, c, d = (tmp_path / name for name in "abcd")
     manifest.expect([a, b])
@@ -65,7 +65,7 @@ def test_a_failed_write_keeps_the_list_before_it(tmp_path: Path, monkeypatch: py
     assert Manifest.read(tmp_path).files == {tmp_path / "a"}
 
 
-def test_removal_takes_files_and_emptied_folders_and_nothing_else(tmp_path: Path) -> None:
+def test_removal_takes_listed_files_and_emptied_folders_only(tmp_path: Path) -> None:
     listed = files(tmp_path, "a.vtp", "pieces/0.vtp", "pieces/1.vtp", "tracks/tracks.vtp", "gone/x")
     (own,) = files(tmp_path, "tracks/notes.txt")
     listed[-1].unlink()
@@ -97,7 +97,7 @@ def test_a_damaged_manifest_is_one_message(tmp_path: Path, damage: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["../other", "/etc/passwd", "a/../../b", "."])
-def test_a_manifest_names_nothing_outside_its_folder(tmp_path: Path, name: str) -> None:
+def test_manifest_lists_no_file_outside_its_folder(tmp_path: Path, name: str) -> None:
     # Written by somebody who knows the checksum.
     content = {"format": 1, "files": [name], "sha256": sha256(name.encode()).hexdigest()}
     Manifest(tmp_path).path.write_text(json.dumps(content))

@@ -111,7 +111,7 @@ def test_parquet_has_the_columns_of_the_text(tmp_path: Path) -> None:
     assert read_table(tmp_path / "t.csv", words=("id",))["id"].tolist() == ["7", "8"]
 
 
-def test_what_is_no_parquet_is_said(tmp_path: Path) -> None:
+def test_broken_parquet_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "t.parquet"
     write_table(path, {"x": np.arange(1000.0)})
     path.write_bytes(path.read_bytes()[:500])

@@ -187,7 +187,7 @@ def test_a_cloud_in_parts_is_one_file(tmp_path: Path, sizes: tuple[int, ...]) ->
 
 
 @pytest.mark.parametrize("good", [0, 1, 2])
-def test_what_goes_wrong_in_a_part_is_raised_and_keeps_the_old_file(
+def test_error_in_a_part_keeps_the_old_file(
     tmp_path: Path, good: int, capfd: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "cloud.vtp"

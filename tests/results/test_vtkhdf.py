@@ -33,7 +33,7 @@ def test_each_time_has_its_own_cloud_of_its_own_size(tmp_path, random):
             np.testing.assert_array_equal(found.point_data["d"], cloud.arrays["d"])
 
 
-def test_a_file_that_cannot_be_made_leaves_what_was_there(tmp_path):
+def test_failed_write_keeps_the_old_file(tmp_path):
     path = tmp_path / "a.vtkhdf"
     path.write_text("before")
 

@@ -64,7 +64,7 @@ def pipe_into_head(*words: str) -> tuple[int, str, str]:
     return foamprb.returncode, err, line
 
 
-def test_a_run_whose_log_nobody_reads_ends_quietly(tmp_path):
+def test_run_with_a_closed_log_ends_quietly(tmp_path):
     case = copy_of_pipe(tmp_path)
     edit(case, r"writeInterval\s+\S+;", "writeInterval 0.0001;")
     status, err, line = pipe_into_head("run", "-case", str(case))
@@ -72,7 +72,7 @@ def test_a_run_whose_log_nobody_reads_ends_quietly(tmp_path):
     assert line.startswith(("Compiling the particle loop", "Reading flow of case"))
 
 
-def test_a_run_that_is_under_way_when_nobody_reads_on_ends_quietly(tmp_path):
+def test_run_whose_log_is_closed_later_ends_quietly(tmp_path):
     case = copy_of_pipe(tmp_path)
     edit(case, r"writeInterval\s+\S+;", "writeInterval 0.0001;")
     words = [sys.executable, "-m", "foamprb", "run", "-case", str(case)]
@@ -89,7 +89,7 @@ def test_a_run_that_is_under_way_when_nobody_reads_on_ends_quietly(tmp_path):
 
 
 @pytest.mark.parametrize("words", [("info", "-case", str(PIPE)), ("run", "-h")])
-def test_output_that_nobody_reads_ends_quietly(words):
+def test_command_with_closed_output_ends_quietly(words):
     """Whether the whole of it went into the pipe before its end was closed, or not."""
     status, err, _ = pipe_into_head(*words)
     assert status in (0, 128 + signal.SIGPIPE)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from pipe_case import edit, fates, message, put_scalar, time_folder, with_eddies
+from foam_writer import put_scalar
+from pipe_case import edit, fates, message, time_folder, with_eddies
 
 from foamprb.cli import main
 
@@ -13,7 +14,7 @@ def case(tmp_path):
     return with_eddies(tmp_path)
 
 
-def test_the_log_says_that_it_acts_and_what_it_leaves_out(case, capsys):
+def test_log_names_the_dispersion_model_and_its_limits(case, capsys):
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     said = capsys.readouterr()
     assert "Selecting dispersionModel stochasticDispersionRAS (seed 1, fluctuations normal," in said.out
@@ -24,7 +25,7 @@ def test_the_log_says_that_it_acts_and_what_it_leaves_out(case, capsys):
 
 
 def test_too_long_a_step_is_warned_of(case, capsys):
-    put_scalar(case, "epsilon", "0 2 -3", 50.0)
+    put_scalar(time_folder(case), "epsilon", "0 2 -3", 50.0)
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     assert "deltaT is 10 of the eddies' median life of 2e-06 s" in capsys.readouterr().out
 

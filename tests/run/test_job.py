@@ -224,7 +224,7 @@ def of(p, injector):
     return p.take(np.flatnonzero(p.injector == injector))
 
 
-def test_what_particles_do_not_feel_of_the_flow_is_a_warning(case, capsys):
+def test_effects_not_modelled_are_warnings(case, capsys):
     (time_folder(case) / "nut").write_text(
         "FoamFile { version 2.0; format ascii; class volScalarField; object nut; }\n"
         "dimensions [0 2 -1 0 0 0 0]; internalField uniform 1e-3; boundaryField {}"
@@ -288,7 +288,7 @@ def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     ("rho", "nu", "expected"), [(1.208, 1.491e-5, "rosenbrock"), (1000.0, 1e-6, "stokes")]
 )
 @pytest.mark.parametrize("solid", ["Ca 0.5; referenceShearRate 923.8", "shearModulus 0.033"])
-def test_what_auto_will_choose_is_known_before_the_flow_is_read(rho, nu, expected, solid, case):
+def test_choice_of_auto_is_estimated_before_the_flow_is_read(rho, nu, expected, solid, case):
     """In air and in water: else a process compiles a loop that nobody wants."""
     edit(case, r"shape\s+paper;", "shape auto;")
     edit(case, r"rhoInf\s+\S+;", f"rhoInf {rho};")

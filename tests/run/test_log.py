@@ -37,7 +37,7 @@ def doubts_in(gradient, Ca):
     return doubts(groups(cloud, 0), "stokes", "it")
 
 
-def test_a_line_now_and_then_says_how_far_a_run_is_and_what_is_left(caplog, monkeypatch):
+def test_progress_lines_give_the_time_left(caplog, monkeypatch):
     now = [0.0]
     monkeypatch.setattr(log.clock, "perf_counter", lambda: now[0])
     with caplog.at_level(logging.INFO, "foamprb"), log.progress_bar(1.0, 3.0) as show:

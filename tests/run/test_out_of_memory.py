@@ -67,7 +67,7 @@ def _nothing_wanted():
     memory.forget()
 
 
-def test_a_message_names_what_was_asked_for_and_what_there_is(monkeypatch):
+def test_message_names_requested_and_available_memory(monkeypatch):
     monkeypatch.setattr(memory, "memory", lambda: 2e9)
     monkeypatch.setattr(memory, "_limit", lambda _: 0.0)
     assert str(memory.ran_out(MemoryError())) == "not enough memory; there are 2 GB."
@@ -79,7 +79,7 @@ def test_a_message_names_what_was_asked_for_and_what_there_is(monkeypatch):
     assert "10 particles; needs more than 2 GB, and there are 2 GB." in str(memory.ran_out(MemoryError()))
 
 
-def test_only_what_comes_of_memory_is_taken_for_it():
+def test_only_memory_errors_are_reported_as_such():
     assert memory.ran_out(ValueError("no")) is None
     assert memory.ran_out(OSError(28, "No space left on device")) is None
     assert memory.ran_out(OSError(12, "Cannot allocate memory")) is not None

@@ -32,7 +32,7 @@ def record(case):
     return json.loads(text, parse_constant=lambda word: pytest.fail(word))
 
 
-def test_a_run_says_what_it_was_and_one_that_goes_on_its_new_end(case):
+def test_record_describes_a_run_and_its_continuation(case):
     assert main(["run", "-case", str(case)]) == 0
     first = record(case)
     assert first["settings"]["text"] == (case / "constant/softCloudProperties").read_text()

@@ -36,7 +36,7 @@ def test_the_log_says_how_a_zone_is_seen(case, capsys):
     assert "rotating zones (MRFProperties: rotor), but particles move in them" in capsys.readouterr().out
 
 
-def test_an_integrator_with_inertia_is_refused_with_what_to_do(case, capsys):
+def test_integrator_with_inertia_is_refused_with_a_remedy(case, capsys):
     edit(case, r"shape\s+paper;", "shape rosenbrock;")
     said = message(case, capsys)
     assert "need the integrator stokes, not rosenbrock: set integrationSchemes/shape stokes, or" in said

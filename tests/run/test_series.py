@@ -52,7 +52,7 @@ def message(case, capsys, *options):
     return error
 
 
-def test_velocities_between_the_times_are_those_of_the_line(case, random):
+def test_velocity_is_linear_between_times(case, random):
     flow, start, middle = read_series(case), read_case(case, 0), read_case(case, 0.5)
     x = random.random((20, 3))
     hosts = flow.locate(x)
@@ -92,7 +92,7 @@ def test_injection_starts_with_the_flow_unless_it_says_otherwise(case):
     assert read_pvd(folder / "softCloud.pvd")[1].time == pytest.approx(0.9)
 
 
-def test_a_first_time_at_rest_is_named_where_nothing_enters(case, capsys):
+def test_first_time_at_rest_is_named_where_no_fluid_enters(case, capsys):
     """The first time of a solution that changes in time is often one at rest."""
     start = 'type manualInjection; positionsFile "positions"; SOI 0.3;'
     edit(case, start, "type patchInjection; patch floor; parcelsPerSecond 100; duration 0.1;")
@@ -144,7 +144,7 @@ def test_a_single_time_is_a_steady_flow(case):
         assert job.cloud.start == 0.0
 
 
-def test_a_dry_run_reads_what_it_needs_and_says_what_it_found(case, capsys):
+def test_dry_run_reports_the_times_of_the_flow(case, capsys):
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     out = capsys.readouterr().out
     assert "2 particles, 24 steps" in out

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from foam_writer import header, write_case
+from foam_writer import header, put_scalar, write_case
 from paths import PIPE
 
 from foamprb.cli import main
@@ -28,7 +28,7 @@ def case(tmp_path: Path) -> Path:
     return tmp_path / "pipe"
 
 
-def test_what_is_written_is_accepted_without_a_doubt(case, capsys):
+def test_template_is_accepted_without_warnings(case, capsys):
     assert main(["init", "-case", str(case)]) == 0
     assert main(["run", "-dry-run", "-case", str(case)]) == 0
     said = capsys.readouterr().out
@@ -36,7 +36,7 @@ def test_what_is_written_is_accepted_without_a_doubt(case, capsys):
     assert "particles                1000" in said
 
 
-def test_it_says_what_the_case_says(case):
+def test_template_quotes_the_case(case):
     text = write_template(case).read_text()
     assert re.search(r"^ +patch +inlet; +// largest inflow$", text, re.MULTILINE)
     assert re.search(r"^ +wall +\{ type stick; \} // wall", text, re.MULTILINE)
@@ -158,18 +158,11 @@ def test_patches_with_odd_names_and_many_walls_are_matched(case):
     assert names == ["Escape", "Escape", "Mirror", *["Stick"] * 9]
 
 
-def scalar_field(file, dimensions, value):
-    file.write_text(
-        header("volScalarField", file.name) + f"dimensions {dimensions}; internalField uniform {value}; "
-        'boundaryField { ".*" { type zeroGradient; } }'
-    )
-
-
-@pytest.mark.parametrize(("second", "unit"), [("epsilon", "[0 2 -3 0 0 0 0]"), ("omega", "[0 0 -1 0 0 0 0]")])
+@pytest.mark.parametrize(("second", "unit"), [("epsilon", "0 2 -3"), ("omega", "0 0 -1")])
 def test_a_mean_flow_is_offered_the_dispersion_by_its_eddies(tmp_path, second, unit):
     write_case(tmp_path, perturbation=0.0)
-    scalar_field(tmp_path / "1e1/k", "[0 2 -2 0 0 0 0]", 0.01)
-    scalar_field(tmp_path / "1e1" / second, unit, 3)
+    put_scalar(tmp_path / "1e1", "k", "0 2 -2", 0.01)
+    put_scalar(tmp_path / "1e1", second, unit, 3)
     file = write_template(tmp_path)
     text = file.read_text()
     assert re.search(rf"dispersionModel +none; +// or stochasticDispersionRAS: k and {second} are", text)
@@ -180,8 +173,8 @@ def test_a_mean_flow_is_offered_the_dispersion_by_its_eddies(tmp_path, second, u
 
 def test_a_laminar_flow_is_offered_no_eddies(tmp_path):
     write_case(tmp_path, perturbation=0.0)
-    scalar_field(tmp_path / "1e1/k", "[0 2 -2 0 0 0 0]", 0)
-    scalar_field(tmp_path / "1e1/epsilon", "[0 2 -3 0 0 0 0]", 0)
+    put_scalar(tmp_path / "1e1", "k", "0 2 -2", 0)
+    put_scalar(tmp_path / "1e1", "epsilon", "0 2 -3", 0)
     assert "dispersion" not in write_template(tmp_path).read_text()
 
 

@@ -319,7 +319,7 @@ class TestGiven:
             (4, "(0.1 2 -1), (0.1 3 -1), (0.1 4 -1), .... "),
         ],
     )
-    def test_of_places_outside_three_are_told(self, outside, told):
+    def test_message_lists_three_places_outside(self, outside, told):
         x = [(0.1, 0.5, 0.0), *((0.1, 2.0 + k, -1.0) for k in range(outside))]
 
         def read(path, columns):

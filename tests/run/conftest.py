@@ -1,0 +1,40 @@
+"""Runs of the short pipe case that several modules begin with."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from pipe_case import EARLIER, results, short_case, stop_after
+
+from foamprb.cli import main
+
+
+@pytest.fixture(scope="session")
+def truth(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """Results of a run that was never interrupted."""
+    case = short_case(tmp_path_factory.mktemp("truth"))
+    assert main(["run", "-case", str(case), "-threads", "2"]) == 0
+    found = results(case)
+    assert len(found) == 13
+    assert b",stuck,wall," in found["fates.csv"]
+    return found
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> Path:
+    return short_case(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def _stopped(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    case = short_case(tmp_path_factory.mktemp("stopped"))
+    stop_after(case, EARLIER)
+    return case
+
+
+@pytest.fixture
+def stopped(_stopped: Path, tmp_path: Path) -> Path:
+    """A case whose run was stopped at 3 ms, with particles pending."""
+    return shutil.copytree(_stopped, tmp_path / "pipe")
