@@ -1,4 +1,4 @@
-"""Bodies as they are gathered from a run's files."""
+"""Bodies gathered from the files of a run."""
 
 from __future__ import annotations
 
@@ -49,13 +49,13 @@ def test_every_time_has_its_own_particles(case, moved):
         np.testing.assert_array_equal(bodies.x[k, bodies.present[k]], cloud.points)
         assert np.allclose(bodies.F[k, bodies.present[k]], moved.F[k, cloud.arrays["origId"]], atol=1e-6)
     np.testing.assert_allclose(bodies.radius, moved.radius, rtol=1e-12)
-    # Where a body is not yet, it waits where it will be released.
+    # Before its release a body has the position of its release.
     late = np.flatnonzero(~bodies.present[0])
     release = np.argmax(bodies.present[:, late], axis=0)
     np.testing.assert_array_equal(bodies.x[0, late], moved.x[release, late])
 
 
-def test_the_order_in_a_file_is_of_no_account(case, moved):
+def test_the_order_in_a_file_does_not_matter(case, moved):
     cloud = clouds(moved)[-1]
     order = np.random.default_rng(3).permutation(len(cloud.points))
     replace(case, M - 1, points=cloud.points[order], **{n: a[order] for n, a in cloud.arrays.items()})
@@ -84,7 +84,7 @@ def test_fates_are_those_of_the_table_and_of_the_last_time(case, with_table):
     assert fate.codes[0, :4].tolist() == [0, 1, 2, 0]
 
 
-def test_what_the_table_tells_is_there_for_each_body(case):
+def test_columns_of_fates_become_arrays(case):
     results = open_run(case)
     bodies = gather(results, range(M))
     more = fields_of_fates(bodies, results.fates())
@@ -92,7 +92,7 @@ def test_what_the_table_tells_is_there_for_each_body(case):
     assert more["t1"].unit == "s"
 
 
-def test_values_that_never_change_are_there_once(case):
+def test_constant_values_are_stored_once(case):
     fields = gather(open_run(case), range(M)).fields
     assert fields["d"].values.shape == (1, N, 1)
     assert fields["U"].values.shape == (M, N, 3)
@@ -114,7 +114,7 @@ def test_failed_bodies_are_not_drawn(case, moved):
     assert bodies.present[-1].sum() == N - 2
     assert np.isfinite(bodies.x).all()
     assert np.isfinite(bodies.F).all()
-    # They are where they were last seen.
+    # They keep their last valid position.
     np.testing.assert_array_equal(bodies.x[-1, 3], bodies.x[-2, 3])
 
 
@@ -158,7 +158,7 @@ def test_arrays_by_name(case, text, expected):
         ("d:x", "It has no components"),
     ],
 )
-def test_arrays_that_there_are_not(case, text, said):
+def test_unknown_arrays_are_refused(case, text, said):
     with pytest.raises(InputError, match=said.replace("?", r"\?")):
         require_array(open_run(case), text)
 
@@ -195,7 +195,7 @@ class TestDamage:
         with pytest.raises(InputError, match=r"softCloud_000002\.vtp: no array 'shearRate'"):
             gather(open_run(case), range(M))
 
-    def test_files_that_are_no_bodies(self, case):
+    def test_files_without_shapes_are_refused(self, case):
         replace(case, M - 1, glyph=None)
         with pytest.raises(InputError, match="no array 'glyph'"):
             open_run(case)
@@ -219,9 +219,9 @@ class TestDamage:
 def test_a_cloud_without_particles(tmp_path):
     folder = tmp_path / "postProcessing/softCloud"
     empty = clouds(motion(1, 1))[0]
-    nobody = dataclasses.replace(
+    none = dataclasses.replace(
         empty, points=np.zeros((0, 3)), arrays={name: array[:0] for name, array in empty.arrays.items()}
     )
-    Series(ResultsFolder(folder, "softCloud")).append(nobody)
+    Series(ResultsFolder(folder, "softCloud")).append(none)
     bodies = gather(open_run(tmp_path), [0])
     assert bodies.x.shape == (1, 0, 3)

@@ -1,4 +1,4 @@
-"""The page in Chromium: what it draws, what it answers, and that it asks nobody for anything."""
+"""Page in Chromium: drawing, selection, controls, and no request to any network."""
 
 from __future__ import annotations
 
@@ -70,16 +70,16 @@ def browser() -> Iterator[Any]:
 
 
 class Tab:
-    """A page of the browser, and all that it said and asked for."""
+    """Page of the browser, with its messages and requests."""
 
     def __init__(self, browser: Any, address: str, words: str = "", **options: Any) -> None:
         size = {"width": WIDTH, "height": HEIGHT}
         self.page = browser.new_page(**{"viewport": size, "color_scheme": "light", **options})
-        self.said: list[str] = []
-        self.asked: list[str] = []
-        self.page.on("console", lambda message: self.said.append(message.text))
-        self.page.on("pageerror", lambda error: self.said.append(str(error)))
-        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.messages: list[str] = []
+        self.requests: list[str] = []
+        self.page.on("console", lambda message: self.messages.append(message.text))
+        self.page.on("pageerror", lambda error: self.messages.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
         self.page.goto(f"{address}#{words}")
         self.run("foamprb.ready")
         self.run("foamprb.draw()")
@@ -88,7 +88,7 @@ class Tab:
         return self.page.evaluate(f"async () => await ({script})")
 
     def wait(self, condition: str) -> None:
-        """Wait until something is so; the page's policy forbids what Playwright has for that."""
+        """Wait for a condition; the policy of the page forbids Playwright's own function."""
         until = time.monotonic() + 30.0
         while not self.run(condition):
             assert time.monotonic() < until, condition
@@ -98,7 +98,7 @@ class Tab:
         return str(self.page.locator(f"#{name}").inner_text())
 
     def pixels(self) -> NDArray[np.uint8]:
-        """What the canvas shows, (height, width, 3)."""
+        """Return the picture on the screen, (height, width, 3)."""
         self.run("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
         return np.array(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB"))
 
@@ -109,8 +109,8 @@ def tab(browser, address, request) -> Iterator[Tab]:
     opened = Tab(browser, address, **found)
     yield opened
     try:
-        assert opened.said == []
-        assert [url for url in opened.asked if not url.startswith((address, "blob:"))] == []
+        assert opened.messages == []
+        assert [url for url in opened.requests if not url.startswith((address, "blob:"))] == []
     finally:
         opened.page.close()
 
@@ -119,7 +119,7 @@ NAKED = pytest.mark.parametrize("tab", [{"words": "naked"}], indirect=True)
 
 
 def projected(scene: Scene, points: NDArray[np.float64], width: int, height: int) -> NDArray[np.float64]:
-    """Pixels, (n, 2), and depth of points in a picture without words."""
+    """Return pixels, (n, 2), and depth of points in a picture without texts."""
     camera = scene.camera
     across = np.cross(camera.up, camera.towards)
     across /= np.linalg.norm(across)
@@ -137,7 +137,7 @@ def projected(scene: Scene, points: NDArray[np.float64], width: int, height: int
 
 
 def in_front(scene: Scene, frame: int, width: int, height: int) -> list[int]:
-    """Bodies of which the middle is seen: no other is near it and nearer to the eye."""
+    """Return the bodies whose centre no other body hides."""
     bodies = scene.bodies
     shown = np.flatnonzero(bodies.shown[frame])
     at = projected(scene, bodies.x[frame, shown], width, height)
@@ -151,7 +151,7 @@ def in_front(scene: Scene, frame: int, width: int, height: int) -> list[int]:
 
 
 class TestPicture:
-    def test_it_draws_and_says_nothing(self, tab):
+    def test_it_draws_without_messages(self, tab):
         assert tab.text("title") == "cube"
         assert tab.text("caption") == "30 bodies, drawn 1.5× larger"
         assert tab.text("clock") == "t = 0.4 s"
@@ -217,7 +217,7 @@ class TestPicture:
         assert (tab.pixels()[5, 5] == (16, 21, 27)).all()
 
     def test_the_mark_goes_with_the_material(self, browser, tmp_path):
-        """Spheres that only turn: their picture changes from time to time by the mark alone."""
+        """The picture of rotating spheres changes only by their marks."""
         angle = 0.3 * np.arange(7)
         F = np.zeros((7, 2, 3, 3))
         F[..., 2, 2] = 1.0
@@ -236,7 +236,7 @@ class TestPicture:
             opened.page.evaluate("() => { document.getElementById('mark').click(); }")
         assert changed[0] > 0.05
         assert changed[1] == 0.0
-        assert opened.said == []
+        assert opened.messages == []
         opened.page.close()
 
 
@@ -246,7 +246,7 @@ def saturation(image: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 class TestNumbers:
-    def test_what_it_unpacked_is_what_was_run(self, tab, moved):
+    def test_decoded_positions_are_the_positions_of_the_run(self, tab, moved):
         places = np.array(tab.run("Array.from(foamprb.data.x)")).reshape(M, N, 3)
         frame = tab.run("foamprb.data.scene.frame")
         present = np.array(
@@ -282,7 +282,7 @@ class TestChoosing:
         assert tab.run("foamprb.state.chosen") == -1
 
     def test_the_edge_of_a_body_is_where_it_is_drawn(self, tab):
-        """Pixels of the chosen body's accent outline answer for it, those beyond do not."""
+        """Pixels inside the outline of the selected body select it, pixels beyond do not."""
         tab.run("foamprb.choose(4)")
         for t in range(M):
             tab.run(f"foamprb.show({t})")
@@ -408,7 +408,7 @@ class TestTime:
 
 
 class TestControls:
-    def test_enlargement_is_said(self, tab):
+    def test_enlargement_is_shown(self, tab):
         tab.page.locator("#enlargement").fill("0")
         assert tab.text("caption") == "30 bodies, drawn to scale"
         assert tab.text("enlargement-text") == "to scale"
@@ -504,7 +504,7 @@ class TestControls:
         tab.page.keyboard.press("0")
         tab.run(f"foamprb.eye.zoom(0.8, {at['x']}, {at['y']})")
         now = tab.run("foamprb.placeOf(4)")
-        # Exactly in the plane of the target, nearly before and behind it.
+        # Exact in the plane of the target, approximate in front of and behind it.
         assert math.hypot(now["x"] - at["x"], now["y"] - at["y"]) < 0.1 * 900
 
     def test_the_picture_can_be_saved_with_its_words(self, tab):
@@ -518,7 +518,7 @@ class TestControls:
         assert (image[20:120, 30:300].min(axis=2) < 60).any()
         assert (image[20:120, -300:-30].min(axis=2) < 60).any()
 
-    def test_the_keys_are_told(self, tab):
+    def test_the_keys_are_listed(self, tab):
         tab.page.keyboard.press("h")
         assert tab.page.is_visible("#about")
         assert "MIT License" in tab.text("about")
@@ -565,11 +565,11 @@ def test_nothing_overlaps_and_nothing_is_cut(browser, address, size, scheme):
         for b in boxes[:k]:
             apart = a[0] >= b[2] - 0.5 or b[0] >= a[2] - 0.5 or a[1] >= b[3] - 0.5 or b[1] >= a[3] - 0.5
             assert apart, (a, b)
-    assert opened.said == []
+    assert opened.messages == []
     opened.page.close()
 
 
-def test_without_WebGL_it_says_so(browser, address):
+def test_missing_WebGL_is_reported(browser, address):
     page = browser.new_page()
     page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null;")
     page.goto(address)
@@ -594,5 +594,5 @@ def test_a_hundred_thousand_bodies_stay_fluid(browser, tmp_path):
     })()""")
     assert times[len(times) // 4] < 33.0
     assert opened.run("(foamprb.draw(), foamprb.renderer.info.render.triangles)") < 210_000
-    assert opened.said == []
+    assert opened.messages == []
     opened.page.close()

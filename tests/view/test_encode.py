@@ -1,4 +1,4 @@
-"""What comes back from a page's numbers, and how exactly."""
+"""Encoding of a page's numbers and its errors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ WHOLE = hnp.arrays(np.int64, SHAPES, elements=st.integers(-(2**24), 2**24))
 
 
 class Shapes:
-    """What is packed of bodies' shapes."""
+    """The attributes of bodies that are packed."""
 
     def __init__(self, F: np.ndarray) -> None:
         self.F = F.astype(np.float32)
@@ -43,11 +43,11 @@ def test_whole_numbers_come_back(whole):
 
 
 @pytest.mark.parametrize("shape", [(0,), (3, 0), (0, 2, 3)])
-def test_nothing_comes_back_as_nothing(shape):
+def test_empty_arrays_keep_their_shape(shape):
     assert unpacked(pack(np.zeros(shape, dtype=np.int64))).shape == shape
 
 
-def test_what_moves_evenly_takes_no_room():
+def test_even_motion_takes_little_space():
     """2000 bodies at 100 times on straight lines: an eighth of a byte for each of 600 000 numbers.
 
     Where each begins and how fast it goes, 30 bits, are 0.05 bytes of that.

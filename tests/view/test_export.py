@@ -42,7 +42,7 @@ def test_one_file_has_every_array_of_every_time(case):
         np.testing.assert_array_equal(found.points, expected.points)
         for name in expected.point_data:
             np.testing.assert_array_equal(found.point_data[name], expected.point_data[name])
-    # Bodies that come later are not there at first.
+    # Bodies that are released later are missing at first.
     assert run.snapshot(0.0).n_points < run.snapshot().n_points
 
 
@@ -106,8 +106,8 @@ def test_openfoams_files_go_into_the_case_if_asked(case):
 
 
 @pytest.mark.parametrize("inside", [False, True])
-def test_what_an_earlier_run_left_there_goes(case, inside):
-    """Its later times would look as if this run had gone so far; what OpenFOAM wrote stays."""
+def test_files_of_an_earlier_export_are_removed(case, inside):
+    """Later times of an earlier run are removed; files of OpenFOAM stay."""
     options = ["-output", str(case)] if inside else []
     target = case if inside else case / "postProcessing/softCloud/openfoam"
     export(case, "openfoam", *options)
@@ -132,7 +132,7 @@ def test_a_body_a_little_outside_is_in_the_cell_at_the_wall(case):
     np.testing.assert_array_equal(_cells(flow, outside), _cells(flow, inside))
 
 
-def test_what_cannot_be_exported_is_said(case, capsys, tmp_path_factory):
+def test_impossible_exports_are_reported(case, capsys, tmp_path_factory):
     empty = tmp_path_factory.mktemp("empty")
     assert main(["export", "vtkhdf", "-case", str(empty)]) == 1
     assert "no results here" in capsys.readouterr().err
@@ -146,7 +146,7 @@ def test_a_stress_has_openfoams_order(tmp_path):
     stress = np.array([[1.0, 2.0, 3.0, 4.0, 5.0, np.nan]])
     folder = tmp_path / "0.1/lagrangian/c"
     write_lagrangian(folder, np.zeros((1, 3)), np.array([7]), {"S": stress, "q": np.zeros((1, 4))})
-    # xx yy zz xy yz xz become xx xy xz yy yz zz; what is no number becomes 0.
+    # xx yy zz xy yz xz become xx xy xz yy yz zz; NaN becomes 0.
     assert numbers(folder / "S").tolist() == [1.0, 4.0, 0.0, 2.0, 5.0, 3.0]
     assert 'location    "0.1/lagrangian/c";' in (folder / "S").read_text()
     assert not (folder / "q").exists()

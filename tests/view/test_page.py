@@ -1,4 +1,4 @@
-"""The page: what it holds, how large it is, and that it needs nothing else."""
+"""Contents and size of the page, and its independence of other files."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def page(text):
     return PageReader(text)
 
 
-class TestWhatItHolds:
+class TestContents:
     def test_particles_of_each_time(self, page, moved):
         ids = page.whole(page.scene["bodies"]["ids"])
         np.testing.assert_array_equal(ids, np.arange(N))
@@ -155,7 +155,7 @@ class TestColours:
 
     @pytest.mark.parametrize("block", [0, 1])
     def test_words_can_be_read(self, block):
-        """WCAG AA: 4.5 for words, 3 for what one must see to use a control."""
+        """WCAG AA: 4.5 for text, 3 for marks of controls."""
         blocks = re.findall(r":root[^{]*\{([^}]*)\}", (PAGE / "page.css").read_text())
         colours = dict(re.findall(r"--([\w-]+): (#\w{6})", blocks[block]))
         for ground in ("paper", "panel", "raised"):
@@ -255,7 +255,7 @@ class TestCommand:
         assert main(["view", "-case", str(case), "-window"]) == 1
         assert "-window needs a display" in capsys.readouterr().err
 
-    def test_a_time_that_was_not_written_is_said(self, case, capsys):
+    def test_a_time_that_was_not_written_is_reported(self, case, capsys):
         assert main(["view", "-case", str(case), "-time", "0.33"]) == 0
         assert "-time 0.33 s was not written; the nearest is 0.3 s" in capsys.readouterr().out
         page = PageReader((case / "postProcessing/softCloud/softCloud.html").read_text())

@@ -1,4 +1,4 @@
-"""foamprb paraview: what is missing is said, and what is there is started."""
+"""Command ``foamprb paraview``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def case(tmp_path):
     return tmp_path
 
 
-def test_what_is_missing_is_said(case, capsys, monkeypatch):
+def test_missing_state_and_program_are_reported(case, capsys, monkeypatch):
     assert main(["paraview", "-case", str(case)]) == 1
     assert "softCloud.py: missing" in capsys.readouterr().err
     write_state(case / "postProcessing/softCloud/softCloud.py", "softCloud")

@@ -119,17 +119,17 @@ class TestPictures:
         assert (image(paths[0]) != image(paths[1])).any()
 
     def test_a_window_has_a_slider_for_the_time(self, case, monkeypatch):
-        """As far as it goes without a display: nobody looks at it."""
+        """The window is replaced by an off-screen plotter."""
         scene = make_scene(Request(case), open_run(case), range(5))
-        asked = {}
+        found = {}
 
         def add_slider(_, callback, limits, **more):
-            asked["limits"] = limits
+            found["limits"] = limits
             callback(1.2)
 
         monkeypatch.setattr(pyvista, "OFF_SCREEN", True)
         monkeypatch.setattr(pyvista.Plotter, "add_slider_widget", add_slider)
-        monkeypatch.setattr(pyvista.Plotter, "show", lambda plotter: asked.update(names=list(plotter.actors)))
+        monkeypatch.setattr(pyvista.Plotter, "show", lambda plotter: found.update(names=list(plotter.actors)))
         window(scene, (300, 200), LIGHT)
-        assert asked["limits"] == (0, 4)
-        assert {"bodies", "mark", "clock", "caption", "title", "legend"} <= set(asked["names"])
+        assert found["limits"] == (0, 4)
+        assert {"bodies", "mark", "clock", "caption", "title", "legend"} <= set(found["names"])

@@ -1,4 +1,4 @@
-"""The report: what it counts, that it is one page without a network, and that both grounds can be read."""
+"""Report: its numbers, its independence of a network, and its contrast on both backgrounds."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Reader(HTMLParser):
             assert self.open.pop() == tag
 
 
-def test_the_page_asks_nobody_for_anything(page):
+def test_the_page_needs_no_network(page):
     reader = Reader()
     reader.feed(page)
     assert all(source.startswith("data:") for source in reader.sources)

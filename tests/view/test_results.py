@@ -64,7 +64,7 @@ def test_without_pyvista_tables_are_read_and_the_extra_is_named(case, monkeypatc
         run.snapshot()
 
 
-def test_what_is_missing_or_damaged_is_said(case):
+def test_missing_and_damaged_files_are_reported(case):
     run = foamprb.open_run(case)
     with pytest.raises(InputError, match=r"no table 'fate'. Did you mean 'fates'"):
         run.table("fate")

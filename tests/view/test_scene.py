@@ -32,7 +32,7 @@ from foamprb.view.scene import (
 )
 from foamprb.view.show import Request, make_scene, spread
 
-NOBODY = Bodies(
+EMPTY = Bodies(
     times=np.zeros(1),
     ids=np.zeros(0, dtype=np.int64),
     radius=np.zeros(0),
@@ -113,7 +113,7 @@ class TestGeometry:
             ("(0 0 3) (0 0 1)", "misses the mesh"),
         ],
     )
-    def test_what_is_no_plane(self, text, said):
+    def test_invalid_planes_are_refused(self, text, said):
         with pytest.raises(InputError, match=said):
             read_plane(text, np.zeros(3), np.ones(3))
 
@@ -131,7 +131,7 @@ class TestCamera:
     @given(SIDES, st.floats(0.3, 3.0), st.sampled_from([(0, 0, 0), (0, -9.81, 0), (3.0, 0, -9.0)]))
     def test_everything_is_seen_unless_it_is_long(self, sides, aspect, g):
         geometry = slab(sides)
-        camera = camera_for(geometry, NOBODY, 0, np.array(g, dtype=float))
+        camera = camera_for(geometry, EMPTY, 0, np.array(g, dtype=float))
         assert np.linalg.norm(camera.towards) == pytest.approx(1.0)
         across = np.cross(camera.up, camera.towards)
         across /= np.linalg.norm(across)
@@ -145,8 +145,8 @@ class TestCamera:
             assert (np.abs(seen @ across) <= slope * aspect * depth).all()
             assert (np.abs(seen @ upright) <= slope * depth).all()
 
-    def test_what_words_take_leaves_less_room(self):
-        camera = camera_for(slab((1.0, 1.0, 1.0)), NOBODY, 0, np.zeros(3))
+    def test_texts_leave_less_room(self):
+        camera = camera_for(slab((1.0, 1.0, 1.0)), EMPTY, 0, np.zeros(3))
         assert camera.distance(2.0, 0.5) > 1.5 * camera.distance(2.0)
 
     def test_of_a_long_pipe_the_part_with_most_bodies(self, bodies):
@@ -160,7 +160,7 @@ class TestCamera:
 
     def test_a_flat_case_is_looked_at_straight(self):
         geometry = slab((2.0, 1.0, 0.01))._replace(flat=np.array([0.0, 0.0, 1.0]))
-        camera = camera_for(geometry, NOBODY, 0, np.zeros(3))
+        camera = camera_for(geometry, EMPTY, 0, np.zeros(3))
         np.testing.assert_allclose(camera.towards, [0.0, 0.0, 1.0])
         np.testing.assert_allclose(camera.up, [0.0, 1.0, 0.0])
 
@@ -250,7 +250,7 @@ def with_values(values):
     n = len(values)
     field = Field("D", "D", "", ("",), np.array(values, dtype=np.float32)[None, :, None])
     status = Codes("status", "status", ("pending", "active"), np.ones((1, n), dtype=np.uint8))
-    return replace(NOBODY, present=np.ones((1, n), dtype=bool), status=status, fields={"D": field})
+    return replace(EMPTY, present=np.ones((1, n), dtype=bool), status=status, fields={"D": field})
 
 
 class TestOutliers:
@@ -266,12 +266,12 @@ class TestOutliers:
     def test_where_nearly_all_are_alike_the_others_count(self):
         assert limits_of(with_values([*[0.0] * 999, 7.0]), "D", "", PERCENTILES) == (0.0, 7.0)
 
-    def test_the_legend_knows_of_them(self, tmp_path):
+    def test_the_legend_marks_values_beyond(self, tmp_path):
         write_run(tmp_path, motion(40, 8), mesh=False)
         results = open_run(tmp_path)
 
-        def scene(**asked):
-            return make_scene(Request(tmp_path, **asked), results, range(8))
+        def scene(**options):
+            return make_scene(Request(tmp_path, **options), results, range(8))
 
         assert scene(percentiles=ALL).beyond == (False, False)
         assert scene(percentiles=(30.0, 70.0)).beyond == (True, True)
@@ -280,7 +280,7 @@ class TestOutliers:
         assert middle.limits[1] - middle.limits[0] < usual.limits[1] - usual.limits[0]
 
     @pytest.mark.parametrize("wrong", [(1.0, 1.0), (-1.0, 99.0), (1.0, 101.0), (math.nan, 99.0)])
-    def test_what_are_no_percentiles(self, tmp_path, wrong):
+    def test_invalid_percentiles_are_refused(self, tmp_path, wrong):
         write_run(tmp_path, motion(4, 2), mesh=False)
         with pytest.raises(InputError, match=r"-percentiles .*: two numbers from 0 to 100"):
             make_scene(Request(tmp_path, percentiles=wrong), open_run(tmp_path), range(2))

@@ -32,7 +32,7 @@ FATES = {"active": NAMES[0], "stuck": NAMES[5], "escaped": NAMES[2], "failed": N
 """Colour of each fate, with a contrast of about 3 to light and dark backgrounds."""
 _INK, _SOFT, _PAPER = "#17202a", "#4c5966", "#ffffff"
 _BINS = 40
-_HATCHES = ("", "///", "...", "xxx")
+_HATCHES = dict(zip(FATES, ("", "///", "...", "xxx"), strict=True))
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,
@@ -123,10 +123,10 @@ def shares(counts: dict[str, dict[str, int]]) -> Plot:
 
     def draw(_: Any, axes: Any) -> None:
         left = np.zeros(len(patches))
-        for k, (fate, colour) in enumerate(FATES.items()):
+        for fate, colour in FATES.items():
             widths = np.array([counts[patch].get(fate, 0) for patch in patches], dtype=float)
             if widths.any():
-                axes.barh(patches, widths, left=left, color=colour, label=fate, hatch=_HATCHES[k],
+                axes.barh(patches, widths, left=left, color=colour, label=fate, hatch=_HATCHES[fate],
                           edgecolor=_PAPER, linewidth=0.5, height=0.68)  # fmt: skip
                 left += widths
         for row, total in enumerate(left):
@@ -151,11 +151,13 @@ def histogram(groups: dict[str, Floats], symbol: str, unit: str) -> Plot:
             low, high = low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0)
         edges = np.linspace(low, high, _BINS + 1) / factor
         bottom = np.zeros(_BINS)
-        for k, (fate, values) in enumerate(groups.items()):
+        for fate, values in groups.items():
             height = np.histogram(values[np.isfinite(values)] / factor, edges)[0]
             if height.any():
-                axes.bar(edges[:-1], height, np.diff(edges), bottom=bottom, align="edge", label=fate,
-                         color=FATES[fate], hatch=_HATCHES[k], edgecolor=_PAPER, linewidth=0.4)  # fmt: skip
+                axes.bar(
+                    edges[:-1], height, np.diff(edges), bottom=bottom, align="edge", label=fate,
+                    color=FATES[fate], hatch=_HATCHES[fate], edgecolor=_PAPER, linewidth=0.4,
+                )  # fmt: skip
                 bottom += height
         axes.set(xlabel=_label(symbol, name), ylabel="particles")
         axes.legend(fontsize=9)
