@@ -12,11 +12,12 @@ import pytest
 from pipe_case import copy_of_pipe, edit, fates
 
 from foamprb.cli import main
-from foamprb.cloud.injection.distribution import DISTRIBUTIONS
+from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution
 from foamprb.cloud.injection.models import INJECTIONS, Places
-from foamprb.cloud.injection.shapes import SHAPES
+from foamprb.cloud.injection.shapes import SHAPES, Shape
 from foamprb.cloud.patches import ESCAPE, INTERACTIONS
 from foamprb.cloud.state import set_rest_shape
+from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Positive, Vector3
 from foamprb.settings.patches import INTERACTION_MODELS, KindRule
@@ -36,7 +37,7 @@ class RowInjection:
 
 
 @dataclass(frozen=True)
-class TwoSizes:
+class TwoSizes(Distribution):
     """Half of the values are small, the others large."""
 
     small: float
@@ -51,7 +52,7 @@ class TwoSizes:
 
 
 @dataclass(frozen=True)
-class Disc:
+class Disc(Shape):
     """Discs, flat along the axis of the pipe."""
 
     thickness: Annotated[float, Positive]
@@ -69,7 +70,7 @@ class Swallow:
 
 
 @dataclass(frozen=True)
-class Count:
+class Count(CloudFunction):
     """The number of samples."""
 
     every: int
