@@ -1,12 +1,12 @@
-"""A steady flow with rotating zones of cells, as particles see it in the frozen-rotor picture.
+"""Steady flow with rotating zones of cells, in the frozen-rotor approximation.
 
-In a zone all is seen from the rotor: the velocity is u − Ω × (x − x₀), its gradient l − W with W·a = Ω × a,
-and the walls that turn with it stand still. Nothing is turned or moved where a particle enters or leaves.
+In a zone everything is relative to the rotor: the velocity is u − Ω × (x − x₀), its gradient l − W with
+W·a = Ω × a, and the rotating walls are at rest. Particles that enter or leave a zone are not turned or moved.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, minus, vector_product
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
-from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.sampling import sample_with
+from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walk_on, walls
 from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import sample as sample_mesh
@@ -28,7 +28,7 @@ __all__ = ["RotatingFlow", "RotatingZone"]
 
 
 class RotatingZone(NamedTuple):
-    """A zone of cells that turns."""
+    """Rotating zone of cells."""
 
     name: str
     cells: NDArray[np.int64]
@@ -39,11 +39,11 @@ class RotatingZone(NamedTuple):
 
 
 class RotatingArrays(NamedTuple):
-    """What the kernels read."""
+    """Arrays of the flow that the kernels read."""
 
     mesh: MeshArrays
     zone: NDArray[np.int16]
-    """(n_cells,) number of the zone of each cell, 0 for none."""
+    """(n_cells,) number of each cell's zone, 0 for none."""
     omega: Floats
     """(n_zones + 1, 3), 1/s; zeros first."""
     origin: Floats
@@ -51,14 +51,13 @@ class RotatingArrays(NamedTuple):
 
 
 def rotation_at(flow: RotatingArrays, host: int) -> tuple[Vector, Vector]:
-    """Ω, 1/s, and a point of the axis, m, of the frame in which a host is seen."""
+    """Return Ω, 1/s, and a point of the axis, m, of the frame of a host."""
     z = flow.zone[flow.mesh.tets[host, 0] - flow.mesh.n_points]
-    w, o = flow.omega, flow.origin
-    return (w[z, 0], w[z, 1], w[z, 2]), (o[z, 0], o[z, 1], o[z, 2])
+    return point(flow.omega, z), point(flow.origin, z)
 
 
 def sample(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, and gradient, 1/s, relative to the frame of the host; steady there."""
+    """Return velocity, m/s, and gradient, 1/s, relative to the frame of the host."""
     u, l, _ = sample_mesh(flow.mesh, host, x, t)
     w, o = rotation_at(flow, host)
     u = minus(u, vector_product(w, minus(x, o)))
@@ -71,24 +70,24 @@ def sample(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[Vector
 
 
 def turbulence(flow: RotatingArrays, host: int, x: Vector, t: float) -> Turbulence:
-    """:func:`foamprb.flow.walk.turbulence`, the same in all frames."""
+    """See :func:`foamprb.flow.walk.turbulence`; the same in all frames."""
     return turbulence_mesh(flow.mesh, host, x, t)
 
 
 def curvature(flow: RotatingArrays, host: int, x: Vector, t: float) -> Curvature:
-    """:func:`foamprb.flow.walk.curvature`, the same in all frames: a rotation has no second derivatives."""
+    """See :func:`foamprb.flow.walk.curvature`; the same in all frames."""
     return curvature_mesh(flow.mesh, host, x, t)
 
 
 class RotatingFlow(MeshFlow):
-    """A :class:`MeshFlow` whose velocities at the nodes are absolute, and rotating zones of its cells.
+    """:class:`MeshFlow` with absolute velocities at the nodes and rotating zones of cells.
 
     Parameters
     ----------
     rotating
-        The zones; of a cell in several the last counts.
+        The zones; a cell in several belongs to the last one.
     mesh, u, l, notes, zones, time, turbulence
-        As of a :class:`MeshFlow`.
+        See :class:`MeshFlow`.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -106,18 +105,8 @@ class RotatingFlow(MeshFlow):
         "rotation_at": rotation_at,
     }
 
-    def __init__(
-        self,
-        rotating: Sequence[RotatingZone],
-        mesh: Mesh,
-        u: Floats,
-        l: Floats,
-        notes: Iterable[str] = (),
-        zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
-        time: str = "",
-        turbulence: Floats | None = None,
-    ) -> None:
-        super().__init__(mesh, u, l, notes, zones, time, turbulence)
+    def __init__(self, rotating: Sequence[RotatingZone], mesh: Mesh, *given: Any, **options: Any) -> None:
+        super().__init__(mesh, *given, **options)
         self.rotating = tuple(rotating)
         self._zone = np.zeros(mesh.n_cells, dtype=np.int16)
         for number, zone in enumerate(rotating, 1):
@@ -128,7 +117,7 @@ class RotatingFlow(MeshFlow):
 
     @staticmethod
     def nothing() -> RotatingArrays:  # type: ignore[override]
-        """What the kernels read where there is no flow, for which they can be compiled."""
+        """See :meth:`MeshFlow.nothing`."""
         return RotatingArrays(no_mesh(), np.empty(0, dtype=np.int16), np.empty((0, 3)), np.empty((0, 3)))
 
     def arrays(  # type: ignore[override]
@@ -138,21 +127,18 @@ class RotatingFlow(MeshFlow):
         sight: float = 0.0,
         seen: Sequence[int] = (),
     ) -> RotatingArrays:
-        """As of a :class:`MeshFlow`, with the zones."""
+        """Return the arrays of :meth:`MeshFlow.arrays` with the zones."""
         mesh = super().arrays(reach, touchable, sight, seen)
         return RotatingArrays(mesh, self._zone, self._omega, self._origin)
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Mesh, velocities and zones, by name."""
+        """Return mesh, velocities and zones, by name."""
         return {**super().traits(), "zone": self._zone, "omega": self._omega, "origin": self._origin}
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """As of a :class:`MeshFlow`, relative to the frames of the hosts."""
+        """See :meth:`MeshFlow.sample`; relative to the frames of the hosts."""
         return sample_with(sample, self.arrays(), points, hosts, t)
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
-        """As of a :class:`MeshFlow`, with velocities relative to the frames of the hosts."""
-        faces = super().patch_faces(name, t)
-        corners = faces.vertices.reshape(-1, 3)
-        velocity, _ = self.sample(corners, np.repeat(faces.hosts, 3), t)
-        return faces._replace(velocity=velocity.reshape(-1, 3, 3))
+        """See :meth:`MeshFlow.patch_faces`; velocities are relative to the frames of the hosts."""
+        return with_velocity(super().patch_faces(name, t), self, t)

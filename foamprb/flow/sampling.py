@@ -1,4 +1,4 @@
-"""Velocities at many points, by the compiled function ``sample`` of a flow."""
+"""Velocities at many points, by the kernel ``sample`` of a flow."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import numpy as np
 
 from foamprb.body.tensor import Tensor, Vector
 from foamprb.compile.link import link
-from foamprb.flow.base import Floats, Ints
+from foamprb.flow.base import Floats, Ints, PatchFaces, Sampled
 
 
 def sample(flow: Any, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Stand for the function of a flow, which :func:`sample_with` puts in its place."""
+    """Placeholder for the kernel of a flow, which :func:`sample_with` binds."""
     raise NotImplementedError
 
 
 def sample_with(
     kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float
 ) -> tuple[Floats, Floats]:
-    """Velocities and gradients as :meth:`Flow.sample`, by a flow's kernel ``sample`` and what it reads."""
+    """Return velocities and gradients as :meth:`Flow.sample`, by a kernel ``sample`` and its arrays."""
     points = np.ascontiguousarray(points, dtype=np.float64)
     velocities, gradients = np.empty((len(points), 3)), np.empty((len(points), 9))
     hosts = np.ascontiguousarray(hosts, dtype=np.int32)
@@ -29,10 +29,16 @@ def sample_with(
     return velocities, gradients.reshape(-1, 3, 3)
 
 
-# A cloud is sampled some thousands of particles at a time, and linking costs as much as to sample those.
+# Linking costs as much as sampling some thousands of particles.
 @lru_cache(maxsize=16)
 def _sampler(kernel: Callable[..., Any]) -> Any:
     return link(_sample_all, {"sample": kernel})
+
+
+def with_velocity(faces: PatchFaces, flow: Sampled, t: float) -> PatchFaces:
+    """Return triangles of a patch with the velocity at their corners at time t, s."""
+    velocity, _ = flow.sample(faces.vertices.reshape(-1, 3), np.repeat(faces.hosts, 3), t)
+    return faces._replace(velocity=velocity.reshape(-1, 3, 3))
 
 
 def _sample_all(

@@ -1,7 +1,7 @@
-"""A flow that changes in time: fields known at some times, linear in time between them.
+"""Flow that changes in time: fields given at several times, linear in time between them.
 
-Only the times about the present one are in memory; the next is read in the background while particles
-advance. The mesh does not move.
+Only the times around the current one are in memory; the next one is prefetched while particles advance. The
+mesh does not move.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector, between
+from foamprb.body.tensor import Tensor, Vector, between, minus
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Tetrahedra, Turbulence
+from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
-from foamprb.flow.sampling import sample_with
+from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.walk import blend_turbulence, corners, curvature_in, interpolate, inward, shape
 from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
@@ -41,7 +41,7 @@ _LONGEST_END = 2.0
 
 
 class SeriesArrays(NamedTuple):
-    """What the kernels read of a flow on a mesh at the times that are loaded."""
+    """Arrays of a transient flow that the kernels read: the mesh, and the fields at the loaded times."""
 
     mesh: MeshArrays
     times: Floats
@@ -55,9 +55,9 @@ class SeriesArrays(NamedTuple):
 
 
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity u (m/s), l_ij = ∂u_i/∂x_j (1/s) and ∂u/∂t (m/s²), linear in the tetrahedron ``host`` and in t.
+    """Return u (m/s), l_ij = ∂u_i/∂x_j (1/s) and ∂u/∂t (m/s²), linear in the tetrahedron ``host`` and in t.
 
-    At a loaded time ∂u/∂t is that of the interval after it, if that is loaded.
+    At a loaded time ∂u/∂t is the one of the following interval, if that interval is loaded.
     """
     k = _interval(flow, t)
     w = shape(flow.mesh, host, x)
@@ -65,18 +65,17 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
     u1, l1 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k + 1]), w)
     length = flow.times[k + 1] - flow.times[k]
     s = (t - flow.times[k]) / length
-    d = (u1[0] - u0[0], u1[1] - u0[1], u1[2] - u0[2])
-    u = (u0[0] + s * d[0], u0[1] + s * d[1], u0[2] + s * d[2])
+    d = minus(u1, u0)
     l = (
         l0[0] + s * (l1[0] - l0[0]), l0[1] + s * (l1[1] - l0[1]), l0[2] + s * (l1[2] - l0[2]),
         l0[3] + s * (l1[3] - l0[3]), l0[4] + s * (l1[4] - l0[4]), l0[5] + s * (l1[5] - l0[5]),
         l0[6] + s * (l1[6] - l0[6]), l0[7] + s * (l1[7] - l0[7]), l0[8] + s * (l1[8] - l0[8]),
     )  # fmt: skip
-    return u, l, (d[0] / length, d[1] / length, d[2] / length)
+    return between(u0, u1, s), l, (d[0] / length, d[1] / length, d[2] / length)
 
 
 def _interval(flow: SeriesArrays, t: float) -> int:
-    """Number of the interval between loaded times that holds t."""
+    """Return the index of the interval between loaded times that holds t."""
     k = 0
     while k < flow.times.shape[0] - 2 and t > flow.times[k + 1] - 2.0 * flow.slack:
         k += 1
@@ -84,7 +83,7 @@ def _interval(flow: SeriesArrays, t: float) -> int:
 
 
 def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence:
-    """:func:`foamprb.flow.walk.turbulence`, linear in t."""
+    """See :func:`foamprb.flow.walk.turbulence`; linear in t."""
     if flow.fields.shape[1] <= _OF_VELOCITY:
         return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     k = _interval(flow, t)
@@ -92,16 +91,12 @@ def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence
     a = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k]), w)
     b = blend_turbulence(flow.fields, _OF_VELOCITY, corners(flow.mesh, host, flow.first[k + 1]), w)
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
-    return (
-        a[0] + s * (b[0] - a[0]),
-        a[1] + s * (b[1] - a[1]),
-        between(a[2], b[2], s),
-        between(a[3], b[3], s),
-    )
+    k_epsilon = a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])
+    return *k_epsilon, between(a[2], b[2], s), between(a[3], b[3], s)
 
 
 def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
-    """As :func:`foamprb.flow.walk.curvature`, linear in time."""
+    """See :func:`foamprb.flow.walk.curvature`; linear in t."""
     k = _interval(flow, t)
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
     a = curvature_in(flow.mesh, host, flow.fields, 3, flow.first[k])
@@ -113,69 +108,68 @@ def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature: 
 
 
 def walk(flow: SeriesArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """:func:`foamprb.flow.walk.walk` on the mesh, which does not move."""
+    """See :func:`foamprb.flow.walk.walk`."""
     return walk_mesh(flow.mesh, host, x0, x1)
 
 
 def walk_on(flow: SeriesArrays, host: int, ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """:func:`foamprb.flow.walk.walk_on`."""
+    """See :func:`foamprb.flow.walk.walk_on`."""
     return walk_on_mesh(flow.mesh, host, ahead, x0, x1)
 
 
 def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """:func:`foamprb.flow.walk.gap`."""
+    """See :func:`foamprb.flow.walk.gap`."""
     return gap_mesh(flow.mesh, host, x, F, R)
 
 
 def walls(flow: SeriesArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """:func:`foamprb.flow.planes.walls`."""
+    """See :func:`foamprb.flow.planes.walls`."""
     return walls_mesh(flow.mesh, host, x, cut, chosen)
 
 
 def normal(flow: SeriesArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
-    """:func:`foamprb.flow.walk.normal`."""
+    """See :func:`foamprb.flow.walk.normal`."""
     return inward(flow.mesh, triangle)
 
 
 def cross(flow: SeriesArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
-    """:func:`foamprb.flow.walk.cross`."""
+    """See :func:`foamprb.flow.walk.cross`."""
     return cross_mesh(flow.mesh, triangle, x)
 
 
 def recover(flow: SeriesArrays, x: Vector) -> int:
-    """:func:`foamprb.flow.walk.recover`."""
+    """See :func:`foamprb.flow.walk.recover`."""
     return locate(flow.mesh, x)
 
 
 def cell_volume(flow: SeriesArrays, host: int) -> float:
-    """:func:`foamprb.flow.walk.cell_volume`."""
+    """See :func:`foamprb.flow.walk.cell_volume`."""
     return cell_volume_mesh(flow.mesh, host)
 
 
-class SeriesFlow:
-    """A flow given by u and ∇u at the nodes of a mesh at several times, linear between them.
+class SeriesFlow(MeshFlow):
+    """Flow given by u and ∇u at the nodes of a mesh at several times, linear between them.
 
     Parameters
     ----------
     mesh
         The mesh.
     times
-        Rising, at least two, s.
+        At least two, rising, s.
     read
-        Gives u (n_nodes, 3) in m/s and l (n_nodes, 3, 3) in 1/s of the time with a given index, and with
-        ``turbulent`` k, ε, ∇k and ∇(k²/3ε) (n_nodes, 8); it is called by one thread at a time, not always the
-        same.
+        Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
+        also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8). It is called by one thread at a time, not always the same.
     period
-        Duration after which the flow repeats itself, s: the times before ``times[0] + period`` count, and at
-        that time the first field comes again.
+        Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
+        that time the first field follows.
     notes
-        What the user should know about the flow, sentence by sentence.
+        Sentences for the user about the flow.
     keep
         Number of times to keep in memory, if more than a step needs.
     zones
-        Gives the cells of each zone, by name; it is called when a zone is asked for.
+        Returns the cells of each zone by name; called when a zone is requested.
     turbulent
-        Whether ``read`` gives the turbulence as well.
+        Whether ``read`` returns the turbulence.
 
     Raises
     ------
@@ -211,12 +205,9 @@ class SeriesFlow:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
             raise InputError(f"the times {', '.join(f'{t:g}' for t in self.times)} do not rise.")
-        self.period = period
-        self.mesh = mesh
         nodes = mesh.n_points + mesh.n_cells
-        self._steady = MeshFlow(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
-        self.patches, self.notes, self.bounds = self._steady.patches, self._steady.notes, self._steady.bounds
-        self.width, self.lists_walls = self._steady.width, self._steady.lists_walls
+        super().__init__(mesh, np.zeros((nodes, 3)), np.zeros((nodes, 3, 3)), notes, zones)
+        self.period = period
         self._read, self._keep = read, keep
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())
@@ -224,18 +215,18 @@ class SeriesFlow:
         width = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
         self._fields = np.empty((0, nodes, width))
         self._in_memory: dict[int, int] = {}
-        """Place in ``_fields`` of each time in memory, by its index, the longest unused first."""
+        """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
         self._prefetched: tuple[int, Future[tuple[Floats, ...]]] | None = None
 
     @staticmethod
-    def nothing() -> SeriesArrays:
-        """As :meth:`MeshFlow.nothing`."""
+    def nothing() -> SeriesArrays:  # type: ignore[override]
+        """See :meth:`MeshFlow.nothing`."""
         return SeriesArrays(no_mesh(), np.empty(0), np.empty(0, dtype=np.int64), np.empty((0, 12)), 0.0)
 
     def load(self, start: float, end: float) -> float:
-        """Bring the times from the last one up to ``start`` to the first one from ``end`` on into memory.
+        """Load the times from the last one up to ``start`` to the first one from ``end`` on.
 
         Returns
         -------
@@ -244,7 +235,7 @@ class SeriesFlow:
         Raises
         ------
         InputError
-            The flow does not reach so far, or one of its times cannot be read.
+            The flow does not cover ``start`` to ``end``, or one of its times cannot be read.
         """
         if not (self.span[0] - self._slack <= start and end <= self.span[1] + self._slack):
             raise InputError(
@@ -253,105 +244,74 @@ class SeriesFlow:
             )
         first, last = self._level_before(start), self._level_after(end)
         if last == first:
-            # At one of the times either interval would do, but to the last bit it must always be the same.
+            # At a given time both intervals are exact, but round-off requires always the same one.
             first, last = (first - 1, last) if self._is_level(first - 1) else (first, last + 1)
-        levels = range(first, last + 1)
-        wanted = [self._index(level) for level in levels]
+        self._levels = range(first, last + 1)
+        wanted = [self._index(level) for level in self._levels]
         self._make_room(wanted)
         for index in wanted:
             self._fetch(index)
-        self._levels = levels
         following = self._index(last + 1)
         if self._is_level(last + 1) and following not in self._in_memory:
             self._prefetch(following)
-        return self._time(last)
+        return self._time_of(last)
 
-    def arrays(
+    def arrays(  # type: ignore[override]
         self,
         reach: float = 0.0,
         touchable: Sequence[int] | None = None,
         sight: float = 0.0,
         seen: Sequence[int] = (),
     ) -> SeriesArrays:
-        """What the kernels read, at the times that were loaded last; see :meth:`MeshFlow.arrays`."""
+        """Return the arrays for the kernels at the times loaded last; see :meth:`MeshFlow.arrays`."""
         nodes = self._fields.shape[1]
         places = [self._in_memory[self._index(level)] for level in self._levels]
         return SeriesArrays(
-            self._steady.arrays(reach, touchable, sight, seen),
-            np.array([self._time(level) for level in self._levels]),
+            super().arrays(reach, touchable, sight, seen),
+            np.array([self._time_of(level) for level in self._levels]),
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
             self._slack,
         )
 
-    def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """As :meth:`MeshFlow.move`; the fields, which change, are not moved."""
-        self._steady.move(place)
-        self.mesh = self._steady.mesh
+    def _first(self) -> Floats:
+        """Return the fields (n_nodes, 12 or 20) at the first time."""
+        self.load(self.times[0], self.times[0])
+        first: Floats = self._fields[self._in_memory[0]]
+        return first
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """The first time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
-        self.load(self.times[0], self.times[0])
-        first = self._fields[self._in_memory[0]]
+        """Return the name of the first time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        first = self._first()
         return f"{self.times[0]:g}", first[:, :3], first[:, 3:_OF_VELOCITY]
 
     def turbulence_at_nodes(self) -> Floats:
-        """The first time's k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); without rows if they were not read."""
+        """Return k, ε, ∇k and ∇(k²/3ε) (n, 8) at all nodes at the first time; no rows if not read."""
         if self._fields.shape[2] == _OF_VELOCITY:
             return np.empty((0, _OF_TURBULENCE))
-        self.load(self.times[0], self.times[0])
-        first: Floats = self._fields[self._in_memory[0], :, _OF_VELOCITY:]
-        return first
+        return self._first()[:, _OF_VELOCITY:]
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Mesh, times, and velocities at the first of them, by name."""
-        self.load(self.times[0], self.times[0])
-        first = self._fields[self._in_memory[0]]
-        return {**self._steady.traits(), "times": self.times, "period": self.period or 0.0, "fields": first}
-
-    def locate(self, points: Floats) -> Ints:
-        """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
-        return self._steady.locate(points)
+        """Return mesh, times, and fields at the first time, by name."""
+        return {
+            **super().traits(), "times": self.times, "period": self.period or 0.0, "fields": self._first(),
+        }  # fmt: skip
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s.
-
-        Raises
-        ------
-        InputError
-            As :meth:`load`.
-        """
+        """Load time t and sample there; see :meth:`MeshFlow.sample` and :meth:`load`."""
         self.load(t, t)
         return sample_with(sample, self.arrays(), points, hosts, t)
 
-    def cell_size(self, hosts: Ints) -> Floats:
-        """Cube root of the volume of the hosts' cells, (n,), m."""
-        return self._steady.cell_size(hosts)
-
-    def cell_zone(self, name: str | None) -> Tetrahedra:
-        """Tetrahedra of a zone of cells, or of all cells; InputError when there is no such zone."""
-        return self._steady.cell_zone(name)
-
     def patch_faces(self, name: str, t: float) -> PatchFaces:
-        """Triangles of the patch ``name`` at time t, s.
+        """Return the triangles of a patch at time t, s; see :meth:`MeshFlow.patch_faces` and :meth:`load`."""
+        return with_velocity(super().patch_faces(name, t), self, t)
 
-        Raises
-        ------
-        InputError
-            There is no such patch; or as :meth:`load`.
-        """
-        faces = self._steady.patch_faces(name, t)
-        corners = faces.vertices.reshape(-1, 3)
-        velocity, _ = self.sample(corners, np.repeat(faces.hosts, 3), t)
-        return faces._replace(velocity=velocity.reshape(-1, 3, 3))
-
-    # A level is the number of a time, counted on from period to period; its index that of the time in the
-    # first period, whose field it has.
+    # A level counts the times on from period to period; the index is that of its time in the first period.
 
     def _index(self, level: int) -> int:
         return level if self.period is None else level % len(self.times)
 
-    def _time(self, level: int) -> float:
+    def _time_of(self, level: int) -> float:
         if self.period is None:
             return self.times[level]
         cycle, index = divmod(level, len(self.times))
@@ -361,17 +321,17 @@ class SeriesFlow:
         return level >= 0 and (self.period is not None or level < len(self.times))
 
     def _level_before(self, t: float) -> int:
-        """The last level up to t."""
+        """Return the last level up to t."""
         cycle, rest = self._cycle(t)
         return max(0, cycle * len(self.times) + bisect_right(self._ends, rest + self._slack) - 1)
 
     def _level_after(self, t: float) -> int:
-        """The first level from t on."""
+        """Return the first level from t on."""
         cycle, rest = self._cycle(t)
         return cycle * len(self.times) + min(bisect_left(self._ends, rest - self._slack), len(self._ends) - 1)
 
     def _cycle(self, t: float) -> tuple[int, float]:
-        """The number of the period in which t lies, and the time of the first that corresponds to t."""
+        """Return the count of periods before t, and the corresponding time of the first period."""
         if self.period is None:
             return 0, t
         cycle = math.floor((t - self.times[0]) / self.period)
@@ -390,7 +350,8 @@ class SeriesFlow:
     def _fetch(self, index: int) -> None:
         if index in self._in_memory:
             return
-        u, l, *turbulence = self._read_now(index)
+        future, self._prefetched = self._prefetch(index), None
+        u, l, *turbulence = future.result()
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
@@ -401,26 +362,20 @@ class SeriesFlow:
             self._fields[place, :, _OF_VELOCITY:] = turbulence[0]
         self._in_memory[index] = place
 
-    def _read_now(self, index: int) -> tuple[Floats, ...]:
+    def _prefetch(self, index: int) -> Future[tuple[Floats, ...]]:
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
-        future = self._prefetched[1]
-        self._prefetched = None
-        return future.result()
-
-    def _prefetch(self, index: int) -> None:
-        if self._prefetched is None or self._prefetched[0] != index:
-            self._prefetched = index, self._reader.submit(self._read, index)
+        return self._prefetched[1]
 
 
 def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
-    """The times of the first period; raise InputError if they do not fill it."""
+    """Return the times of the first period; raise InputError if they do not fill it."""
     end = times[0] + period
     first = tuple(t for t in times if t < end - _SLACK * period)
     steps = np.diff([*first, end])
     if len(first) < 2 or steps[-1] > _LONGEST_END * steps[:-1].max():
         raise InputError(
-            f"the period {period:g} s asks for fields up to nearly {end:g} s, but of the {len(times)} times "
+            f"the period {period:g} s requires fields up to nearly {end:g} s, but of the {len(times)} times "
             f"from {times[0]:g} s on the last before that is {first[-1]:g} s."
         )
     return first

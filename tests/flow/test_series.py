@@ -445,7 +445,7 @@ def test_a_period_ends_where_the_first_time_comes_again(scale):
 
 def test_levels_count_on_from_period_to_period(mesh):
     _, flow = tables(mesh, (1.0, 1.5, 2.0), period=2.0)
-    assert [flow._time(level) for level in range(7)] == [1.0, 1.5, 2.0, 3.0, 3.5, 4.0, 5.0]
+    assert [flow._time_of(level) for level in range(7)] == [1.0, 1.5, 2.0, 3.0, 3.5, 4.0, 5.0]
     assert [flow._index(level) for level in range(7)] == [0, 1, 2, 0, 1, 2, 0]
     for t, before, after in (
         (1.0, 0, 0), (1.2, 0, 1), (1.5, 1, 1), (2.5, 2, 3), (3.0, 3, 3), (3.1, 3, 4), (4.9, 5, 6),
@@ -505,11 +505,11 @@ def test_what_tells_a_series_from_another(mesh):
     assert np.array_equal(traits["fields"], values[0])
     assert np.array_equal(traits["tets"], mesh.tets)
     assert tables(mesh, (1.0, 1.5))[1].traits()["period"] == 0.0
-    faces, steady = flow.patch_faces("floor", 1.25), flow._steady.patch_faces("floor", 1.25)
+    faces, steady = flow.patch_faces("floor", 1.25), MeshFlow.patch_faces(flow, "floor", 1.25)
     mean = 0.5 * (values[0] + values[1])
     at = np.flatnonzero(mesh.triangle_patch == 0)
     np.testing.assert_allclose(faces.velocity, mean[mesh.triangles[at], :3], atol=1e-12)
     assert np.array_equal(faces.vertices, steady.vertices)
     hosts = np.array([0, 3], dtype=np.int32)
-    assert flow.cell_size(hosts) == pytest.approx(flow._steady.cell_size(hosts))
+    assert flow.cell_size(hosts) == pytest.approx(np.cbrt(mesh.volumes[flow.cell_of(hosts)]))
     assert flow.cell_zone(None).volumes.sum() == pytest.approx(1.0)

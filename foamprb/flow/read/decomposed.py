@@ -128,7 +128,7 @@ class ReconstructedCase:
         """The flow, with notes on where it comes from, at a time; the folder is removed after the flow."""
         weakref.finalize(flow, _let_go, self)
         folder = self._folders[0] / time / self.region
-        at_rest = isinstance(flow, MeshFlow)
+        at_rest = not isinstance(flow, SeriesFlow)
         caveats: list[Caveat] = caveats_of_case(
             self.case, folder, self.region, moving=at_rest, turbulent=turbulent, relative=relative
         )
