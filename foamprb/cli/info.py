@@ -20,7 +20,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
-    from foamprb.flow.read.source import describe_source
+    from foamprb.flow.read.flows import describe_source
 
     print("\n".join(describe_source(arguments.case, source_of(arguments))))
     return 0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
-    from foamprb.flow.read.source import Source
+    from foamprb.flow.read.source import FlowSource
 
 __all__ = ["add_case", "add_cloud", "add_flow", "source_of"]
 
@@ -45,7 +45,7 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def source_of(arguments: argparse.Namespace) -> Source:
+def source_of(arguments: argparse.Namespace) -> FlowSource:
     """Return the source of the flow that the options of :func:`add_flow` select.
 
     Raises
@@ -53,14 +53,14 @@ def source_of(arguments: argparse.Namespace) -> Source:
     InputError
         If the feature angle is out of range.
     """
-    from foamprb.flow.read.division import Division
-    from foamprb.flow.read.source import Source
+    from foamprb.flow.read.source import Division
+    from foamprb.flow.read.source import FlowSource
 
     angle = arguments.featureAngle
     if angle is not None and not 0.0 < angle < 180.0:
         raise InputError(f"-featureAngle {angle:g}: an angle between 0 and 180 degrees is needed.")
     divided = arguments.patchArray or angle is not None
-    return Source(
+    return FlowSource(
         arguments.flow,
         arguments.region,
         arguments.velocity,

@@ -385,9 +385,7 @@ class MeshFlow:
         zones = self._zones()
         if name not in zones:
             raise InputError(f"cellZone {name} is not in the mesh. {suggestion(name, zones)}")
-        cells = zones[name]
-        if len(cells) and not (cells.min() >= 0 and cells.max() < self.mesh.n_cells):
-            raise InputError(f"cellZone {name} names cells beyond the mesh's {self.mesh.n_cells}.")
+        cells = require_cells(name, zones[name], self.mesh.n_cells)
         start, end = self.mesh.cell_start[cells], self.mesh.cell_start[cells + 1]
         return np.concatenate([np.empty(0, dtype=np.int32), *map(np.arange, start, end)]).astype(np.int32)
 
@@ -395,3 +393,10 @@ class MeshFlow:
 def _locate_all(flow: MeshArrays, points: Floats, hosts: Ints) -> None:
     for i in range(points.shape[0]):
         hosts[i] = locate(flow, (points[i, 0], points[i, 1], points[i, 2]))
+
+
+def require_cells(name: str, cells: NDArray[np.int64], n_cells: int) -> NDArray[np.int64]:
+    """Return the cells of a zone; InputError if the mesh does not have them."""
+    if len(cells) and not 0 <= cells.min() <= cells.max() < n_cells:
+        raise InputError(f"cellZone {name} names cells beyond the mesh's {n_cells}.")
+    return cells

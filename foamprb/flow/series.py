@@ -10,6 +10,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -379,3 +380,50 @@ def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
             f"from {times[0]:g} s on the last before that is {first[-1]:g} s."
         )
     return first
+
+
+_MOST_IN_MEMORY = 1 << 28
+"""Bytes up to which all times of a periodic flow stay in memory."""
+
+
+def series_of(
+    source: Path,
+    mesh: Mesh,
+    names: Sequence[str],
+    read: Callable[[str], tuple[Floats, ...]],
+    period: float | None,
+    notes: Sequence[str],
+    zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
+    turbulent: bool = False,
+) -> SeriesFlow:
+    """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
+
+    Parameters
+    ----------
+    source
+        The case or file, for messages.
+    mesh
+        Mesh of all times.
+    names
+        Names of the times, rising.
+    read
+        Returns the fields at the time of a name; see :class:`SeriesFlow`.
+    period, notes, zones, turbulent
+        See :class:`SeriesFlow`.
+
+    Raises
+    ------
+    InputError
+        The times do not rise, or do not fill the period.
+    """
+    note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
+    note += "." if period is None else f", and repeats itself every {period:g} s."
+    columns = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
+    keep = _MOST_IN_MEMORY // (8 * columns * (mesh.n_points + mesh.n_cells)) if period is not None else 0
+    times = [float(name) for name in names]
+    try:
+        return SeriesFlow(
+            mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones, turbulent
+        )
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from None

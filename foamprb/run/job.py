@@ -34,13 +34,8 @@ from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Flow
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.source import (
-    Source,
-    check_region,
-    read_flow,
-    read_transient_flow,
-    rotations_of,
-)
+from foamprb.flow.read.flows import check_region, read_flow, read_transient_flow, rotations_of
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.rotating import RotatingFlow
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.folder import ResultsFolder
@@ -112,7 +107,7 @@ def prepare(
     time: float | str | None = None,
     dictionary: Path | None = None,
     threads: int | None = None,
-    source: Source | None = None,
+    source: FlowSource | None = None,
     precompile: bool = False,
     tables: str = "csv",
 ) -> Job:
@@ -143,7 +138,7 @@ def prepare(
     """
     require_kind(tables)
     case = Path(case)
-    source = source or Source()
+    source = source or FlowSource()
     check_region(case, source)
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
@@ -223,7 +218,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
     )
 
 
-def _read_flow(settings: Settings, time: float | str | None, source: Source) -> Flow:
+def _read_flow(settings: Settings, time: float | str | None, source: FlowSource) -> Flow:
     solution = settings.solution
     if solution.transient:
         return read_transient_flow(

@@ -21,10 +21,11 @@ from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import available_times
 from foamprb.flow.read.decomposed import is_only_decomposed
+from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import processors
-from foamprb.flow.read.source import Source, check_region, read_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import turbulence_fields
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
@@ -73,7 +74,7 @@ class FluidGuess:
     lines: tuple[str, ...]
 
 
-def write_template(case: Path, source: Source | None = None) -> Path:
+def write_template(case: Path, source: FlowSource | None = None) -> Path:
     """Write ``constant/softCloudProperties`` for a case; that of its region, if the source names one.
 
     Returns
@@ -85,7 +86,7 @@ def write_template(case: Path, source: Source | None = None) -> Path:
     InputError
         If it is there already, which is left as it is; or the case has no mesh or no flow.
     """
-    source = source or Source()
+    source = source or FlowSource()
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     check_region(case, source)
@@ -106,7 +107,7 @@ def write_template(case: Path, source: Source | None = None) -> Path:
     return file
 
 
-def template(case: Path, flow: MeshFlow, source: Source) -> str:
+def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
     fluid = _fluid(case, source)
@@ -241,7 +242,7 @@ def _rounded(value: float) -> float:
 # What the case's dictionaries say
 
 
-def _fluid(case: Path, source: Source) -> FluidGuess:
+def _fluid(case: Path, source: FlowSource) -> FluidGuess:
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
     nu, mu, lines = None, None, []
@@ -309,7 +310,7 @@ def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
     return found
 
 
-def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     """Return the entries for zones of ``MRFProperties``, if any."""
     if source.file is not None:
         return []
@@ -328,7 +329,7 @@ def _rotating(case: Path, flow: MeshFlow, source: Source) -> list[str]:
     ]
 
 
-def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
+def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     """Return the entry for turbulent dispersion, if the case has its fields."""
     if source.file is not None:
         return []
@@ -341,7 +342,7 @@ def _dispersion(case: Path, flow: MeshFlow, source: Source) -> list[str]:
     return [_line("dispersionModel", "none", why), ""]
 
 
-def _transient(case: Path, source: Source) -> list[str]:
+def _transient(case: Path, source: FlowSource) -> list[str]:
     """Return a hint on transient flow, if the case has several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
     if len(names) < 2 or _steady(case, source.region):
@@ -377,7 +378,9 @@ FoamFile
 """
 
 
-def _sub_models(case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: float, source: Source) -> str:
+def _sub_models(
+    case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: float, source: FlowSource
+) -> str:
     size = [
         "sizeDistribution",
         "{",

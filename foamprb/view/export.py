@@ -12,7 +12,8 @@ from scipy.spatial import cKDTree
 from foamprb.cloud.state import Status
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.source import Source, read_flow
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.results.foam import remove_lagrangian, write_lagrangian
 from foamprb.results.ovito import write_dump
 from foamprb.results.vtkhdf import write_vtkhdf
@@ -24,7 +25,9 @@ _TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "ovito": "{}.dump"}
 """Default file or folder of each kind, beside the results."""
 
 
-def export(kind: str, case: Path, cloud: str | None, source: Source, time: str, output: Path | None) -> Path:
+def export(
+    kind: str, case: Path, cloud: str | None, source: FlowSource, time: str, output: Path | None
+) -> Path:
     """Write the results of a run, finished or not, for another program.
 
     Parameters

@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.read.source import Source
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
 from foamprb.results.pvd import Entry, read_pvd
@@ -81,9 +81,9 @@ class Run:
         """Name of the cloud."""
         return self.results.cloud
 
-    def source(self, source: Source | None) -> Source:
+    def source(self, source: FlowSource | None) -> FlowSource:
         """Return the source of the flow, in the region of the run."""
-        return replace(source or Source(), region=self.results.region)
+        return replace(source or FlowSource(), region=self.results.region)
 
     @property
     def times(self) -> NDArray[np.float64]:

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from foamprb.errors import InputError
-from foamprb.flow.read.source import Source, read_flow
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
@@ -52,8 +53,8 @@ class Request:
 
     case: Path
     cloud: str | None = None
-    source: Source | None = None
-    """Source of the geometry and of the flow on a plane."""
+    source: FlowSource | None = None
+    """FlowSource of the geometry and of the flow on a plane."""
     flow_time: str = LATEST
     time: float | None = None
     """First time shown, or time of a picture, s; by default the time with most bodies."""
@@ -206,7 +207,8 @@ def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | 
     try:
         flow = read_flow(request.case, request.flow_time, run.source(request.source))
     except InputError as error:
-        if request.slice is not None or request.flow_time != LATEST or request.source not in (None, Source()):
+        given = request.source not in (None, FlowSource())
+        if given or request.slice is not None or request.flow_time != LATEST:
             raise
         log.warning("No geometry is shown: %s", error)
         return None, None

@@ -15,7 +15,9 @@ from paths import ROOT
 from foamprb import Cloud, Medium, Models, Rebound, Status, read_case, read_mesh_file, spheres
 from foamprb.cli import main
 from foamprb.flow.read.describe import describe
-from foamprb.flow.read.source import Source, read_flow
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.openfoam import Case
+from foamprb.flow.read.source import FlowSource
 
 pytestmark = pytest.mark.openfoam
 
@@ -67,7 +69,7 @@ def test_no_particle_is_lost_in_a_mesh_of_snappy_hex_mesh(tool, tmp_path):
     case = tmp_path / "bend"
     subprocess.run([ROOT / "cases/snappy/Allrun", case], check=True)
     flow = read_case(case)
-    cells = describe(case).cells
+    cells = describe(Case(case)).cells
     assert cells["polyhedron"] > 4000
     assert cells["prism"] > 1000
     crowd_is_kept(tool, flow, 20_000)
@@ -137,7 +139,7 @@ def test_parts_of_a_case_with_coupled_patches_are_the_whole(name, tool, cases, t
     cut = "".join(path.read_text() for path in case.glob("processor*/constant/polyMesh/boundary"))
     assert ("processorCyclic" in cut) == (name == "cyclic")
     for gradient in ("", "grad(U)"):
-        parts = read_flow(case, source=Source(gradient=gradient, decomposed=True))
+        parts = read_flow(case, source=FlowSource(gradient=gradient, decomposed=True))
         assert_same(read_case(case, gradient=gradient), parts)
 
 
@@ -208,7 +210,7 @@ def test_a_region_of_a_mesh_that_is_split(tool, cases, tmp_path):
     )
     shutil.copy(case / "system/decomposeParDict", case / "system/left")
     tool.run(case, "decomposePar", "-region", "left")
-    parts = read_flow(case, source=Source(region="left", decomposed=True))
+    parts = read_flow(case, source=FlowSource(region="left", decomposed=True))
     assert parts.notes[0] == "The flow was put together from 2 processor folders."
     assert_same(left, parts)
 

@@ -13,12 +13,14 @@ from paths import ROOT
 
 import foamprb
 from foamprb.cli import main
-from foamprb.flow.read.decomposed import read_decomposed_case, read_decomposed_series
+from foamprb.flow.read.flows import read_flow, read_transient_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.results.pvd import read_pvd
 
 pytestmark = pytest.mark.openfoam
 
 CASE = ROOT / "cases/pulsatilePipe"
+PARTS = FlowSource(decomposed=True)
 MEAN_FLOW = 0.012
 """Error of the coarse mesh's mean flow, which carries the particles astray."""
 
@@ -101,11 +103,11 @@ def decomposed(live, request, tmp_path_factory):
 
 
 def test_a_decomposed_case_is_the_whole_to_the_last_bit(decomposed, random):
-    whole, parts = foamprb.read_case(decomposed, 3.05), read_decomposed_case(decomposed, 3.05)
+    whole, parts = foamprb.read_case(decomposed, 3.05), read_flow(decomposed, 3.05, PARTS)
     assert [patch.name for patch in parts.patches] == [patch.name for patch in whole.patches]
     for name, a, b in zip(whole.arrays()._fields, whole.arrays(1e-3), parts.arrays(1e-3), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
-    series = [read(decomposed, "3:3.1") for read in (foamprb.read_series, read_decomposed_series)]
+    series = [foamprb.read_series(decomposed, "3:3.1"), read_transient_flow(decomposed, "3:3.1", None, PARTS)]
     x = random.random((20, 3)) * [0.06, 1e-3, 1e-3]
     for t in (3.0, 3.03, 3.05, 3.075):
         u, l = (

@@ -14,8 +14,7 @@ from transient_case import SCALE, write_transient_case
 
 from foamprb.cli import main
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.read.series import read_series
+from foamprb.flow.read.openfoam import read_case, read_series
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import prepare
@@ -215,7 +214,7 @@ MISTAKES = {
     ),
     "a period that the times do not fill": (
         lambda c: edit(c, "transient yes; ", "transient yes; period 4; "), [],
-        ["the period 4 s asks for fields up to nearly 4 s", "1.5 s"],
+        ["the period 4 s requires fields up to nearly 4 s", "1.5 s"],
     ),
     "no velocity at a time": (lambda c: (c / "0.5/U").unlink(), [], ["0.5: no field U; the fields are p"]),
     "a velocity cut short": (cut_short, [], ["1.5"]),

@@ -1,4 +1,4 @@
-"""The patches that ``polyMesh/boundary`` lists."""
+"""Patches of ``polyMesh/boundary``."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from foamprb.dictionary.schema import read_entries
 from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import Transform
+from foamprb.flow.mesh.mesh import Mesh
 
 CONSTRAINTS = frozenset(
     {
@@ -52,12 +53,12 @@ TYPES = CONSTRAINTS | {
     "regionCoupledWall",
     "wall",
 }
-"""The types of patches that OpenFOAM has; it takes a patch of any other type for a plain ``patch``."""
+"""Types of patches of OpenFOAM, which treats any other type as a plain ``patch``."""
 _SIMILAR = 0.84
 
 
 class PatchInfo(NamedTuple):
-    """A patch as ``polyMesh/boundary`` lists it."""
+    """Patch of ``polyMesh/boundary``."""
 
     name: str
     type: str
@@ -67,20 +68,29 @@ class PatchInfo(NamedTuple):
     neighbour: str
     """The patch that a coupled patch leads to."""
     transform: Transform
-    """How a cyclicAMI patch lies to it."""
+    """Motion from a cyclicAMI patch to its neighbour."""
     entries: dict[str, str]
-    """All its entries but for dictionaries."""
+    """All entries except dictionaries."""
 
     @property
     def groups(self) -> frozenset[str]:
-        """The groups of patches that it is in; its type is one if it is a constraint type or ``wall``."""
+        """Return the groups of the patch; a constraint type or ``wall`` is a group too."""
         names = self.entries.get("inGroups", "").partition("(")[2].partition(")")[0].split()
         return frozenset(map(unquoted, names)) | ({self.type} & (CONSTRAINTS | {"wall"}))
 
 
+class CaseMesh(NamedTuple):
+    """Mesh of a case at a time, and its patches as the case lists them."""
+
+    mesh: Mesh
+    patches: tuple[PatchInfo, ...]
+    notes: tuple[str, ...] = ()
+    """Sentences for the user."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class _BoundaryEntry:
-    """What is read of a patch in ``polyMesh/boundary``."""
+    """Entries of a patch in ``polyMesh/boundary``."""
 
     type: str
     nFaces: Annotated[int, NonNegative]
@@ -93,7 +103,7 @@ class _BoundaryEntry:
     rotationAngle: float | None = None
 
 
-# What OpenFOAM does not allow in a word; VTK crashes on some of it.
+# Characters that OpenFOAM does not allow in a word; VTK crashes on some of them.
 _NO_WORD = re.compile(r"""[\s"'/;{}]""")
 
 
@@ -103,8 +113,8 @@ def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     Raises
     ------
     InputError
-        The file is missing or broken, a patch has a name that is no word of OpenFOAM or occurs twice, does
-        not begin where the one before it ends, or has a type that is nearly one of OpenFOAM's, as ``wal``.
+        The file is missing or broken; the name of a patch is not a word of OpenFOAM or occurs twice; a patch
+        does not begin where the previous one ends; a type is misspelt, like ``wal``.
     """
     found = existing(path)
     if found is None:

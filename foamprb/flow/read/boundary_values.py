@@ -16,7 +16,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo
-from foamprb.flow.read.field import Field, PatchField
+from foamprb.flow.read.field import FoamField, PatchField
 from foamprb.flow.reconstruct import VALUELESS
 
 
@@ -37,7 +37,7 @@ Rule = Callable[[PatchField, Faces], Floats | None]
 """Gives the values (n, 3), m/s, of a boundary condition; None if an entry is missing that it needs."""
 
 
-def boundary_values(field: Field, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:
+def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:
     """Velocity at the boundary faces, (n_boundary, 3), m/s; zero on patches that say nothing about it.
 
     Parameters
@@ -70,7 +70,7 @@ def boundary_values(field: Field, patches: Sequence[PatchInfo], mesh: Mesh, cell
     return values
 
 
-def _check_type(field: Field, patch: PatchInfo, entry: PatchField | None) -> None:
+def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) -> None:
     """Raise InputError if a patch has no entry, or one that OpenFOAM would refuse on a patch of its type."""
     if entry is None:
         if patch.type in CONSTRAINTS:
@@ -91,7 +91,7 @@ def _check_type(field: Field, patch: PatchInfo, entry: PatchField | None) -> Non
         )
 
 
-def _values(field: Field, patch: PatchInfo, entry: PatchField, faces: Faces) -> Floats:
+def _values(field: FoamField, patch: PatchInfo, entry: PatchField, faces: Faces) -> Floats:
     always, otherwise = RULES.get(entry.type, (False, None))
     given = entry.fields.get("value")
     found = given if given is not None and not always else otherwise and otherwise(entry, faces)

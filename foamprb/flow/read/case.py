@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from foamprb.dictionary.files import existing, has_both_forms
 from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.tree import Stream, unquoted
+from foamprb.dictionary.tree import Dictionary, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.field import Kind
 from foamprb.flow.read.foamfile import header, read_cell_zones
@@ -24,6 +24,39 @@ class MissingFieldError(InputError):
 
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
+
+
+_OFF = frozenset({"no", "off", "false", "n", "f", "none"})
+
+
+def find_dictionary(case: Path, region: str, *names: str) -> Dictionary | None:
+    """Read the first of some dictionaries in ``constant`` or ``system`` of a region, else of the case.
+
+    Returns None if there is no such file; raises InputError if it cannot be read.
+    """
+    path = find_file(case, region, *names)
+    return None if path is None else read_dictionary(path, case)
+
+
+def find_file(case: Path, region: str, *names: str) -> Path | None:
+    """Return the first of some files in ``constant`` or ``system`` of a region, else of the case, or None."""
+    for part in dict.fromkeys((region, "")):
+        for path in (case / folder / part / name for name in names for folder in ("constant", "system")):
+            if existing(path) is not None:
+                return path
+    return None
+
+
+def active_zones(root: Dictionary) -> list[Dictionary]:
+    """Return the dictionaries in a dictionary that are not switched off by ``active``."""
+    entries = [entry for entry in root.entries.values() if isinstance(entry, Dictionary)]
+    return [entry for entry in entries if word_of(entry, "active") not in _OFF]
+
+
+def word_of(dictionary: Dictionary, key: str, default: str = "") -> str:
+    """Return the text of an entry."""
+    entry = dictionary.entries.get(key)
+    return entry.text if isinstance(entry, Stream) else default
 
 
 def available_times(case: Path) -> tuple[str, ...]:
@@ -43,12 +76,11 @@ def regions(case: Path) -> tuple[str, ...]:
 
 def _listed_regions(case: Path) -> set[str]:
     """The words in the inner parentheses of ``regions ( fluid (air water) solid (heater) )``."""
-    path = case / "constant/regionProperties"
     try:
-        entry = read_dictionary(path, case).entries.get("regions") if existing(path) else None
+        root = find_dictionary(case, "", "regionProperties")
     except InputError:
         return set()
-    text = entry.text if isinstance(entry, Stream) else ""
+    text = word_of(root, "regions") if root else ""
     return {unquoted(word) for words in re.findall(r"\(([^()]*)\)", text) for word in words.split()}
 
 

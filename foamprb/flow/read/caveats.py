@@ -1,4 +1,4 @@
-"""What a case says of its flow that particles will not feel: a warning for each, and what it means."""
+"""Warnings about properties of the flow of a case that particles will not feel."""
 
 from __future__ import annotations
 
@@ -8,86 +8,79 @@ from pathlib import Path
 
 import numpy as np
 
-from foamprb.dictionary.dimensions import DENSITY, MASS_FLUX, VOLUME_FLUX
+from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
 from foamprb.dictionary.files import existing, read_bytes
-from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.dictionary.tree import Dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.read.boundary import PatchInfo
-from foamprb.flow.read.field import Kind, read_field
+from foamprb.flow.read.boundary import CaseMesh, PatchInfo
+from foamprb.flow.read.case import active_zones, find_dictionary, word_of
+from foamprb.flow.read.field import DENSITY_FIELD, FoamField, Kind
 
 _FLUX = Kind("surfaceScalarField", "scalar", (VOLUME_FLUX, MASS_FLUX), "a flux")
-_RHO = Kind("volScalarField", "scalar", (DENSITY,), "a density")
-_OFF = frozenset({"no", "off", "false", "n", "f", "none"})
 _STATIC = "staticFvMesh"
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
 _HEAD = 1 << 16
 LEAST_LOSS = 1e-3
-"""Share of the flux by which inflow and outflow must differ for a warning."""
+"""Fraction of the flux by which inflow and outflow must differ for a warning."""
 ROUND_OFF = 1e-9
-"""Share of the flux of the largest velocity through the whole boundary by which they must differ, too."""
+"""Fraction of the largest velocity times the area of the boundary by which they must differ, too."""
 
 
 def caveats_of_case(
     case: Path,
-    folder: Path,
     region: str,
+    folder: Path,
+    read: Callable[[str, Kind], FoamField],
     *,
     moving: bool = True,
     turbulent: bool = False,
     relative: bool = False,
 ) -> list[Caveat]:
-    """Warnings from the dictionaries of a case, and from what lies in a time directory beside the velocity.
+    """Return warnings from the dictionaries of a case, and from the fields beside the velocity.
 
     Parameters
     ----------
     case, region
         The case, and a region of its mesh.
-    folder
-        The time directory, or the region's part of it.
+    folder, read
+        Folder of the fields at the time, and the function that reads one of them.
     moving
-        Whether the flow is read at one time only, so that a mesh that moves stands still.
+        True if the flow is read at one time only, so that a moving mesh stands still.
     turbulent
-        Whether a model of its eddies acts, so that they need no warning.
+        True if a model of the eddies acts, so that they need no warning.
     relative
-        Whether particles in rotating zones are seen from the rotors, likewise.
+        True if rotating zones are described in the frames of their rotors, so that they need no warning.
     """
     found = [*_rotating(case, region, relative), *_porous(case, region)]
     found += () if turbulent else _turbulent(folder)
-    found += [*_compressible(folder, case), *_phases(folder)]
+    found += [*_compressible(read), *_phases(folder)]
     return [*found, *(_moving(case, region, folder) if moving else ())]
 
 
 def caveat_of_flux(
-    mesh: Mesh,
-    patches: Sequence[PatchInfo],
-    cells: Floats,
-    boundary: Floats,
-    case: Path,
-    folder: Path,
-    velocity: str,
+    whole: CaseMesh, cells: Floats, boundary: Floats, read: Callable[[str, Kind], FoamField], velocity: str
 ) -> list[Caveat]:
-    """A warning if more fluid enters through the boundary than leaves, or less.
+    """Return a warning if inflow and outflow differ.
 
     Parameters
     ----------
-    mesh, patches
-        The mesh, and its patches as the case lists them.
+    whole
+        The mesh.
     cells
-        (n_cells, 3) velocity at the cells, m/s: what is small against it may be round-off of a closed domain.
+        (n_cells, 3) velocity at the cells, m/s; differences that are small against it are round-off.
     boundary
-        (n_boundary, 3) velocity at the boundary faces, m/s, for want of ``phi``.
-    case, folder
-        The case, and the time directory where ``phi`` may be.
+        (n_boundary, 3) velocity at the boundary faces, m/s, used where there is no ``phi``.
+    read
+        Reads a field at the time.
     velocity
         Name of the velocity; ``phi`` is the flux of ``U`` only.
     """
-    phi = _flux(folder, case, patches) if velocity == "U" else None
-    if phi is None and _varies(folder, case):
-        # Without phi nothing tells how much mass goes through.
+    mesh = whole.mesh
+    phi = _flux(read, whole.patches) if velocity == "U" else None
+    if phi is None and _spread(_density(read)):
+        # Without phi the flux of mass is unknown.
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
     flux = phi[0] if phi else np.einsum("ni,ni->n", boundary, mesh.boundary_areas)
@@ -106,13 +99,13 @@ def caveat_of_flux(
 
 
 def _rotating(case: Path, region: str, relative: bool) -> Iterator[Caveat]:
-    zones = _zones(case, region, "MRFProperties", ("constant",), lambda _: True)
+    zones = _zones(case, region, "MRFProperties")
     if zones and not relative:
         yield Caveat(
             f"the flow has rotating zones (MRFProperties: {zones}), but particles move in them with the "
             "absolute velocity: they meet the blades only where the mesh has them, as if these stood still."
         )
-    if _zones(case, region, "SRFProperties", ("constant",), lambda _: True) is not None:
+    if _zones(case, region, "SRFProperties") is not None:
         yield Caveat(
             "the flow is that of a rotating frame (SRFProperties), but rotating frames are not modelled: "
             "centrifugal and Coriolis forces on particles are left out."
@@ -121,10 +114,8 @@ def _rotating(case: Path, region: str, relative: bool) -> Iterator[Caveat]:
 
 def _porous(case: Path, region: str) -> Iterator[Caveat]:
     zones = [
-        _zones(
-            case, region, "fvOptions", ("constant", "system"), lambda entry: "orosity" in _word(entry, "type")
-        ),
-        _zones(case, region, "porosityProperties", ("constant",), lambda _: True),
+        _zones(case, region, "fvOptions", lambda entry: "orosity" in word_of(entry, "type")),
+        _zones(case, region, "porosityProperties"),
     ]
     if any(zones):
         yield Caveat(
@@ -145,14 +136,14 @@ def _turbulent(folder: Path) -> Iterator[Caveat]:
 
 
 def is_not_zero(path: Path) -> bool:
-    """Whether there is a field that is not zero everywhere."""
+    """Return True if there is a field that is not zero everywhere."""
     found = existing(path)
     return found is not None and not _ZERO.search(read_bytes(found, _HEAD))
 
 
-def _compressible(folder: Path, case: Path) -> Iterator[Caveat]:
-    values = _density(folder, case)
-    if values is not None and _spread(values):
+def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
+    values = _density(read)
+    if _spread(values):
         yield Caveat(
             f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf, and so is the viscosity."
@@ -171,8 +162,8 @@ def _phases(folder: Path) -> Iterator[Caveat]:
 
 def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
     try:
-        root = _dictionary(case, region, "dynamicMeshDict", ("constant",))
-        kind = "" if root is None else _word(root, "dynamicFvMesh") or "dynamicMeshDict"
+        root = find_dictionary(case, region, "dynamicMeshDict")
+        kind = "" if root is None else word_of(root, "dynamicFvMesh") or "dynamicMeshDict"
     except InputError:
         kind = "dynamicMeshDict"
     if kind in ("", _STATIC):
@@ -185,41 +176,25 @@ def _moving(case: Path, region: str, folder: Path) -> Iterator[Caveat]:
 
 
 def _zones(
-    case: Path, region: str, name: str, folders: Sequence[str], meant: Callable[[Dictionary], bool]
+    case: Path, region: str, name: str, meant: Callable[[Dictionary], bool] = lambda _: True
 ) -> str | None:
-    """Names of those entries of a dictionary that are meant and not switched off; None if there is no file.
+    """Return the names of the active entries that are meant in a dictionary; None if there is no file.
 
     A dictionary that cannot be read may have any.
     """
     try:
-        root = _dictionary(case, region, name, folders)
+        root = find_dictionary(case, region, name)
     except InputError:
         return "which cannot be read"
-    if root is None:
-        return None
-    entries = [entry for entry in root.entries.values() if isinstance(entry, Dictionary)]
-    return ", ".join(e.key for e in entries if _word(e, "active") not in _OFF and meant(e))
+    return None if root is None else ", ".join(zone.key for zone in active_zones(root) if meant(zone))
 
 
-def _dictionary(case: Path, region: str, name: str, folders: Sequence[str]) -> Dictionary | None:
-    """The dictionary of a name, of the region or else of the case; None if there is none."""
-    for path in (case / folder / part / name for part in dict.fromkeys((region, "")) for folder in folders):
-        if existing(path) is not None:
-            return read_dictionary(path, case)
-    return None
-
-
-def _word(dictionary: Dictionary, key: str) -> str:
-    entry = dictionary.entries.get(key)
-    return entry.text if isinstance(entry, Stream) else ""
-
-
-def _flux(folder: Path, case: Path, patches: Sequence[PatchInfo]) -> tuple[Floats, str, str] | None:
-    """Flux out of the boundary faces (n,), its name and its unit; None if ``phi`` does not give it."""
-    if existing(folder / "phi") is None:
-        return None
+def _flux(
+    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
+) -> tuple[Floats, str, str] | None:
+    """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
     try:
-        phi = read_field(folder / "phi", _FLUX, case)
+        phi = read("phi", _FLUX)
     except InputError:
         return None
     values = []
@@ -235,18 +210,14 @@ def _flux(folder: Path, case: Path, patches: Sequence[PatchInfo]) -> tuple[Float
     return np.concatenate([np.empty(0), *values]), "phi", unit
 
 
-def _density(folder: Path, case: Path) -> Floats | None:
-    """Density at the cells, kg/m³, if the time has it."""
+def _density(read: Callable[[str, Kind], FoamField]) -> Floats:
+    """Return the density at the cells, kg/m³, or no values."""
     try:
-        return None if existing(folder / "rho") is None else read_field(folder / "rho", _RHO, case).cells
+        return read("rho", DENSITY_FIELD).cells
     except InputError:
-        return None
+        return np.empty((0, 1))
 
 
 def _spread(values: Floats) -> bool:
+    """Return True if the values differ by more than round-off."""
     return bool(np.ptp(values) > 1e-6 * np.abs(values).max(initial=0.0)) if len(values) else False
-
-
-def _varies(folder: Path, case: Path) -> bool:
-    values = _density(folder, case)
-    return values is not None and _spread(values)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,18 @@ from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.read.boundary import TYPES, PatchInfo
 from foamprb.flow.read.case import shown
+from foamprb.flow.read.field import FoamField
 from foamprb.flow.read.foamfile import header, read_faces, read_labels, require_room
 
 LARGEST = 1e30
-"""Of lengths in m and velocities in m/s, so that products of a few of them stay finite."""
+"""Limit of lengths in m and velocities in m/s: products of a few of them stay finite."""
+_PLANAR = {"symmetryPlane": "; the type of a curved one is symmetry", "wedge": ""}
+_SINGLE = 6e-8
+"""Relative error of coordinates in single precision."""
+_LEAST_TURN = 1e-6
+"""Least angle, rad, by which a face is held to be turned, however exact its coordinates."""
 
 
 def require_numbers(values: Floats, source: Path, what: str, where: str = "number") -> None:
@@ -103,3 +111,82 @@ def _require_faces(path: Path, limit: int) -> None:
         raise InputError(
             f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a number of them."
         )
+
+
+def require_patch_shapes(mesh: Mesh, source: Path) -> None:
+    """Raise InputError for curved symmetry planes and wedges, and for ``empty`` patches of a 3-D mesh."""
+    normals, doubt = _normals(mesh)
+    faces = [slice(*mesh.patch_start[i : i + 2]) for i in range(len(mesh.patches))]
+    for patch, part in zip(mesh.patches, faces, strict=True):
+        if patch.type in _PLANAR and part.stop > part.start:
+            turned = np.linalg.norm(normals[part] - normals[part][0], axis=1)
+            if np.any(turned > doubt[part] + doubt[part][0]):
+                angle = np.degrees(2.0 * np.arcsin(min(0.5 * turned.max(), 1.0)))
+                raise InputError(
+                    f"{source}: patch {patch.name} is of type {patch.type}, but not planar: its faces turn "
+                    f"by up to {angle:.3g} degrees{_PLANAR[patch.type]}."
+                )
+    empty = [part for patch, part in zip(mesh.patches, faces, strict=True) if patch.type == "empty"]
+    rows = np.concatenate([np.empty(0, dtype=np.intp), *(np.arange(p.start, p.stop) for p in empty)])
+    if len(rows):
+        _require_flat(mesh, rows, normals[rows], doubt[rows], source)
+
+
+def _require_flat(mesh: Mesh, rows: Floats, normals: Floats, doubt: Floats, source: Path) -> None:
+    """Each empty face must look along a coordinate, and each cell have two in each such direction."""
+    names = " and ".join(patch.name for patch in mesh.patches if patch.type == "empty")
+    axis = np.argmax(np.abs(normals), axis=1)
+    aside = np.sqrt(np.maximum(1.0 - normals[np.arange(len(rows)), axis] ** 2, 0.0))
+    if np.any(aside > doubt):
+        raise InputError(
+            f"{source}: empty patch {names}: {np.count_nonzero(aside > doubt)} of {len(rows)} faces do not "
+            "look along x, y or z, as those of a mesh of two dimensions or one do (checkMesh tells)."
+        )
+    owner = mesh.owner[mesh.n_internal :][rows]
+    for direction in np.unique(axis):
+        count = np.bincount(owner[axis == direction], minlength=mesh.n_cells)
+        wrong = np.flatnonzero(count != 2)
+        if len(wrong):
+            raise InputError(
+                f"{source}: empty patch {names}: cell {wrong[0]} has {count[wrong[0]]} faces on it along "
+                f"{'xyz'[direction]}, not 2; the mesh has several layers of cells there, and is not one of "
+                "two dimensions (checkMesh tells)."
+            )
+
+
+def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:
+    """A note for each patch of a type that OpenFOAM itself does not have."""
+    return [
+        f"Patch {patch.name} is of type {patch.type}, which is taken for a plain patch, as by OpenFOAM."
+        for patch in patches
+        if patch.type not in TYPES
+    ]
+
+
+def _normals(mesh: Mesh) -> tuple[Floats, Floats]:
+    """Unit normals of the boundary faces (n, 3), and the angles (n,), rad, by which they may be off."""
+    start = mesh.face_start[mesh.n_internal :].astype(np.intp)
+    corners = mesh.points[mesh.face_points[start[0] :]]
+    spread = np.linalg.norm(corners - np.repeat(mesh.boundary_centres, np.diff(start), axis=0), axis=1)
+    extent = np.maximum.reduceat(spread, start[:-1] - start[0]) if len(spread) else spread
+    areas = np.maximum(np.linalg.norm(mesh.boundary_areas, axis=1), 1e-300)
+    # A face of length 2·extent is about as wide as its area over that.
+    doubt = 8.0 * _SINGLE * np.abs(mesh.points).max() * 2.0 * extent / areas + _LEAST_TURN
+    return mesh.boundary_areas / areas[:, None], doubt
+
+
+def at_cells(field: FoamField, mesh: Mesh) -> Floats:
+    """Return the values of a field at all cells, (n_cells, components).
+
+    Raises
+    ------
+    InputError
+        The counts of values and of cells differ, or a value is not finite.
+    """
+    if len(field.cells) not in (1, mesh.n_cells):
+        raise InputError(
+            f"{field.path}: internalField has {len(field.cells)} values, but there are {mesh.n_cells} cells."
+        )
+    cells = np.ascontiguousarray(np.broadcast_to(field.cells, (mesh.n_cells, field.cells.shape[1])))
+    require_numbers(cells, field.path, "value", "at cell")
+    return cells

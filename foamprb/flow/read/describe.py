@@ -1,10 +1,10 @@
-"""What a case holds, for a person to read."""
+"""Contents of a case or a mesh file, for a person to read."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,13 +12,18 @@ from foamprb.flow.base import Floats
 from foamprb.flow.mesh.cells import CELL_KINDS
 from foamprb.flow.mesh.lists import cell_types, points_of
 from foamprb.flow.read.boundary import PatchInfo, read_boundary
-from foamprb.flow.read.case import available_times, fields_of, mesh_files, mesh_folder, regions, require_case
+from foamprb.flow.read.case import available_times, mesh_files, mesh_folder, require_case
 from foamprb.flow.read.checks import noted_counts, require_labels
+from foamprb.flow.read.meshfile import open_file
+from foamprb.flow.read.openfoam import Case
+from foamprb.flow.read.source import Division
+from foamprb.flow.read.times import listed
 from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
+from foamprb.flow.read.vtkfile import times_of_file
 
 
 class TimeInfo(NamedTuple):
-    """A time directory: its name as OpenFOAM wrote it, and its fields by name with their classes."""
+    """Time directory: its name as OpenFOAM wrote it, and the classes of its fields by name."""
 
     name: str
     fields: dict[str, str]
@@ -26,7 +31,7 @@ class TimeInfo(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseInfo:
-    """What a case holds."""
+    """Contents of a case."""
 
     case: Path
     times: tuple[TimeInfo, ...]
@@ -37,24 +42,18 @@ class CaseInfo:
     bounds: tuple[Floats, Floats]
     """Lowest and highest coordinates, m."""
     region: str = ""
-    """The region that this is about."""
+    """Region that is described."""
     regions: tuple[str, ...] = ()
     """All regions."""
 
     def lines(self) -> list[str]:
-        """The same for a person to read."""
-        low, high = ("({:g} {:g} {:g})".format(*corner) for corner in self.bounds)
+        """Return the contents as lines of text."""
         return [
             f"Case    {self.case}",
             *([f"Region  {self.region}"] if self.region else []),
             *([f"Regions {', '.join(self.regions)}"] if self.regions else []),
             "",
-            "Mesh",
-            f"    {'points':20s} {self.points:10d}",
-            *(f"    {kind:20s} {n:10d}" for kind, n in self.cells.items()),
-            f"    {'bounds [m]':20s} {low} {high}",
-            "",
-            "Patches",
+            *_lines_of_mesh(self.points, self.cells, self.bounds),
             *(f"    {patch.name:20s} {patch.faces:10d} faces  {patch.type}" for patch in self.patches),
             "",
             "Times and fields",
@@ -65,29 +64,67 @@ class CaseInfo:
         ]
 
 
-def describe(case: Path, region: str = "") -> CaseInfo:
-    """Tell what a case, or a region of it, holds, without reading a field.
+def describe(case: Case) -> CaseInfo:
+    """Return the contents of a case, without reading a field.
 
     Raises
     ------
     InputError
-        The folder is no case, or its mesh cannot be read.
+        The folder is not a case, or its mesh cannot be read.
     """
-    require_case(case, region)
-    names = available_times(case)
-    times = tuple(TimeInfo(name, fields_of(case / name / region)) for name in names)
-    folder = mesh_folder(case, names[-1] if names else None, region)
-    patches = read_boundary(folder / "boundary", case)
-    require_labels(folder, noted_counts(folder))
-    files = mesh_files(case, names[-1] if names else None, region)
-    blocks, messages = read_blocks(files, patches=False)
-    raise_first_error(folder, messages)
+    root, region = case.mesh_root, case.region
+    with case.messages():
+        require_case(root, region)
+        names = available_times(root)
+        times = tuple(TimeInfo(name, case.fields(name)) for name in names)
+        last = names[-1] if names else None
+        folder = mesh_folder(root, last, region)
+        patches = read_boundary(folder / "boundary", root)
+        require_labels(folder, noted_counts(folder))
+        blocks, messages = read_blocks(mesh_files(root, last, region), patches=False)
+        raise_first_error(folder, messages)
     grid = blocks["internalMesh"]
-    kinds = np.bincount(cell_types(grid), minlength=256)
-    cells = {
-        CELL_KINDS.get(number, f"VTK type {number}"): int(kinds[number])
-        for number in np.flatnonzero(kinds).tolist()
-    }
     points = points_of(grid).astype(np.float64)
     bounds = (points.min(axis=0), points.max(axis=0))
-    return CaseInfo(case, times, patches, len(points), cells, bounds, region, regions(case))
+    return CaseInfo(case.root, times, patches, len(points), _kinds(grid), bounds, region, case.regions())
+
+
+def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:
+    """Return the contents of a mesh file as lines of text.
+
+    Raises
+    ------
+    InputError
+        See :func:`foamprb.flow.read.meshfile.read_mesh_file`.
+    """
+    grid, mesh, _, note = open_file(path, velocity, "latestTime", division)
+    bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
+    lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, _kinds(grid), bounds)]
+    for index, patch in enumerate(mesh.patches):
+        rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
+        centre = "({:g} {:g} {:g})".format(*mesh.boundary_centres[rows].mean(axis=0))
+        lines.append(f"    {patch.name:20s} {rows.stop - rows.start:10d} faces  {patch.type}  about {centre}")
+    lines += ["", "Arrays"]
+    for where, data in (("cells", grid.cell_data), ("points", grid.point_data)):
+        lines += [f"    {name:20s} at {where}, {np.shape(data[name])[1:] or 'scalar'}" for name in list(data)]
+    times = times_of_file(path)
+    return [*lines, *(["", "Times", f"    {listed(times)}"] if times else []), "", note]
+
+
+def _kinds(grid: Any) -> dict[str, int]:
+    """Return the number of cells of each kind, by name."""
+    counts = np.bincount(cell_types(grid), minlength=256)
+    numbers = np.flatnonzero(counts).tolist()
+    return {CELL_KINDS.get(number, f"VTK type {number}"): int(counts[number]) for number in numbers}
+
+
+def _lines_of_mesh(points: int, cells: dict[str, int], bounds: tuple[Floats, Floats]) -> list[str]:
+    low, high = ("({:g} {:g} {:g})".format(*corner) for corner in bounds)
+    return [
+        "Mesh",
+        f"    {'points':20s} {points:10d}",
+        *(f"    {kind:20s} {n:10d}" for kind, n in cells.items()),
+        f"    {'bounds [m]':20s} {low} {high}",
+        "",
+        "Patches",
+    ]

@@ -1,8 +1,7 @@
-"""A boundary without named patches, divided into patches by an array on its faces or at its edges."""
+"""Division of a boundary without named patches, by an array on its faces or at its sharp edges."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from scipy.sparse import csgraph
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
 from foamprb.flow.read.vtk_guard import load_pyvista
 
@@ -21,18 +21,8 @@ BOUNDARY = "boundary"
 _MOST_PATCHES = 1000
 
 
-@dataclass(frozen=True)
-class Division:
-    """How a boundary without named patches is divided into patches; not at all by default."""
-
-    array: str = ""
-    """Integer array on the surface cells of the file: each value is a patch."""
-    feature_angle: float | None = None
-    """Angle in degrees: patches end at edges where the boundary turns by more."""
-
-
 def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh, str]:
-    """The mesh with its boundary divided as asked, and what the user should know."""
+    """Return the mesh with its boundary divided as requested, and a note for the user."""
     mesh = build_mesh(grid, None, source=str(path))
     if division.array:
         labels, names = _by_array(mesh, whole, division.array, path)
@@ -64,19 +54,18 @@ def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh
 
 
 def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[np.intp], list[str]]:
-    """The patch of each boundary face by an array on the surface cells, and the patches' names."""
+    """Return the patch of each boundary face by an array on the surface cells, and the patches' names."""
     if array not in whole.cell_data:
         raise InputError(f"{path}: no cell array {array}. {suggestion(array, whole.cell_data.keys())}")
     values = np.asarray(whole.cell_data[array])
     if values.ndim != 1 or values.dtype.kind not in "iu":
-        raise InputError(f"{path}: cell array {array} is not one of whole numbers, one for each cell.")
-    flat = [
-        kind for kind in np.unique(whole.celltypes).tolist() if load_pyvista().CellType(kind).dimension == 2
-    ]
+        raise InputError(f"{path}: cell array {array} is not an array of integers, one for each cell.")
+    flat = [kind for kind in np.unique(whole.celltypes).tolist() if load_pyvista().CellType(kind).dimension == 2]
     rows = np.flatnonzero(np.isin(whole.celltypes, flat))
     if len(rows) == 0:
         raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")
-    names = {int(value[0]): name for name, value in _groups(whole) if int(value[1]) == 2}
+    groups = [(str(name), whole.field_data[name]) for name in list(whole.field_data.keys())]
+    names = {int(value[0]): name for name, value in groups if np.size(value) == 2 and int(value[1]) == 2}
     found = {
         frozenset(
             map(tuple, np.asarray(whole.points, dtype=np.float64)[whole.get_cell(row).point_ids] + 0.0)
@@ -94,16 +83,8 @@ def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[n
     return labels, list(used)
 
 
-def _groups(grid: Any) -> list[tuple[str, Any]]:
-    return [
-        (str(name), grid.field_data[name])
-        for name in grid.field_data.keys()  # noqa: SIM118
-        if np.size(grid.field_data[name]) == 2
-    ]
-
-
 def _boundary_edges(mesh: Mesh) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
-    """The edges of the boundary faces, face after face: a number for each that its points give; its face."""
+    """Return the edges of the boundary faces, face by face, as integers made of their points; their faces."""
     start = mesh.face_start[mesh.n_internal :].astype(np.intp)
     sizes = np.diff(start)
     a = mesh.face_points[start[0] :].astype(np.int64)
@@ -113,7 +94,7 @@ def _boundary_edges(mesh: Mesh) -> tuple[NDArray[np.int64], NDArray[np.intp]]:
 
 
 def _crossings(mesh: Mesh) -> list[str]:
-    """A warning where the boundary crosses itself, as it does about a cell that names a wrong point."""
+    """Return a warning if the boundary touches or crosses itself, as at a cell with a wrong point."""
     edges, _ = _boundary_edges(mesh)
     crossings = np.count_nonzero(np.unique(edges, return_counts=True)[1] > 2)
     if not crossings:
@@ -125,7 +106,7 @@ def _crossings(mesh: Mesh) -> list[str]:
 
 
 def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
-    """The patch of each boundary face: faces are together across edges that turn by less than the angle."""
+    """Return the patch of each boundary face; edges that turn by less than the angle join faces."""
     edges, face = _boundary_edges(mesh)
     order = np.argsort(edges, kind="stable")
     same = edges[order[1:]] == edges[order[:-1]]
@@ -143,6 +124,6 @@ def _by_angle(mesh: Mesh, angle: float) -> NDArray[np.intp]:
 
 
 def patch_names(mesh: Mesh) -> str:
-    """The patches by name, type and number of faces."""
+    """Return the patches by name, type and number of faces, for a message."""
     faces = np.diff(mesh.patch_start).tolist()
     return listed([f"{p.name} ({p.type}, {n} faces)" for p, n in zip(mesh.patches, faces, strict=True)])

@@ -13,7 +13,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.dictionary.dimensions import RATE, VELOCITY, Dimensions, described, read_dimensions, written
+from foamprb.dictionary.dimensions import (
+    DENSITY,
+    RATE,
+    VELOCITY,
+    Dimensions,
+    described,
+    read_dimensions,
+    written,
+)
 from foamprb.dictionary.grammar import parse_dictionary
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError
@@ -37,6 +45,7 @@ class Kind(NamedTuple):
 
 VELOCITY_FIELD = Kind("volVectorField", "vector", (VELOCITY,), "a velocity")
 GRADIENT_FIELD = Kind("volTensorField", "tensor", (RATE,), "the gradient of a velocity")
+DENSITY_FIELD = Kind("volScalarField", "scalar", (DENSITY,), "a density")
 
 
 class PatchField(NamedTuple):
@@ -51,8 +60,8 @@ class PatchField(NamedTuple):
     """All other entries but dictionaries, as text."""
 
 
-class Field(NamedTuple):
-    """A field."""
+class FoamField(NamedTuple):
+    """Field of a case."""
 
     path: Path
     kind: Kind
@@ -92,7 +101,7 @@ _LIST = re.compile(
 _CONSTRAINT_TYPES = re.compile(rb'#includeEtc\s+"caseDicts/setConstraintTypes"')
 
 
-def read_field(path: Path, kind: Kind, case: Path) -> Field:
+def read_field(path: Path, kind: Kind, case: Path) -> FoamField:
     """Read a field.
 
     Parameters
@@ -128,7 +137,7 @@ def read_field(path: Path, kind: Kind, case: Path) -> Field:
         of_patches = {unquoted(key): reader.patch(key, entry.dictionary()) for key, entry in entries.items()}
     except InputError as error:
         raise InputError(f"{case}: {error}" if str(case) not in str(error) else str(error)) from None
-    return Field(file.path, kind, cells, of_patches, dimensions)
+    return FoamField(file.path, kind, cells, of_patches, dimensions)
 
 
 def _without_lists(file: FoamFile, kind: Kind) -> tuple[str, list[ListAt]]:

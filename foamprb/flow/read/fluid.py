@@ -1,4 +1,4 @@
-"""The fluid of a case: its viscosity and density, from the dictionaries of OpenFOAM's solvers and ``rho``."""
+"""Viscosity and density of the fluid of a case, from the dictionaries of OpenFOAM's solvers and ``rho``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
 from foamprb.dictionary.constraints import Positive
-from foamprb.dictionary.dimensions import DENSITY
 from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
@@ -16,31 +15,26 @@ from foamprb.dictionary.schema import read_entry
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
-from foamprb.flow.read.case import available_times
-from foamprb.flow.read.field import Kind, read_field
+from foamprb.flow.read.case import available_times, find_file, word_of
+from foamprb.flow.read.field import DENSITY_FIELD, read_field
 from foamprb.flow.read.times import pick_time
 
 FILES = ("transportProperties", "physicalProperties", "thermophysicalProperties")
 """Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
-_RHO = Kind("volScalarField", "scalar", (DENSITY,), "a density")
 
 
 class CaseViscosity(NamedTuple):
-    """A viscosity: kinematic, m²/s, or dynamic, Pa s; the other is None."""
+    """Viscosity: kinematic, m²/s, or dynamic, Pa s; the other is None."""
 
     nu: float | None
     mu: float | None
     temperature: float | None = None
-    """To which it belongs, K, if it depends on one."""
+    """Temperature, K, if the viscosity depends on it."""
 
 
 def fluid_file(case: Path, region: str) -> Path | None:
-    """The dictionary of the fluid, of the region or else of the case; None if there is none."""
-    for folder in dict.fromkeys((case / "constant" / region, case / "constant")):
-        for name in FILES:
-            if existing(folder / name) is not None:
-                return folder / name
-    return None
+    """Return the dictionary of the fluid, of the region or else of the case; None if there is none."""
+    return find_file(case, region, *FILES)
 
 
 def read_viscosity(file: Path, case: Path, temperature: float | None = None) -> CaseViscosity:
@@ -49,16 +43,16 @@ def read_viscosity(file: Path, case: Path, temperature: float | None = None) -> 
     Parameters
     ----------
     file
-        What :func:`fluid_file` gives.
+        Dictionary of the fluid; see :func:`fluid_file`.
     case
         The case, for the messages.
     temperature
-        Of the fluid, K, if the user states one.
+        Temperature of the fluid, K, if the user states it.
 
     Raises
     ------
     InputError
-        The dictionary has none, or one of another kind; or it depends on a temperature, and none is stated.
+        The viscosity is missing or of another kind; or it depends on a temperature that is not stated.
     """
     root = read_dictionary(file, case)
     if "thermoType" in root.entries or "mixture" in root.entries:
@@ -80,7 +74,7 @@ def read_viscosity(file: Path, case: Path, temperature: float | None = None) -> 
 
 
 def _of_mixture(root: Dictionary, temperature: float | None) -> CaseViscosity:
-    """The viscosity of a ``pureMixture``: constant, or at a temperature by Sutherland or a polynomial."""
+    """Return the viscosity of a ``pureMixture``, constant or by Sutherland's law or a polynomial."""
     law = _transport(root)
     transport = _at(root, "mixture/transport")
     if law in ("const", "constTransport"):
@@ -102,13 +96,13 @@ def _of_mixture(root: Dictionary, temperature: float | None) -> CaseViscosity:
 
 
 def _sutherland(transport: Dictionary, T: float) -> float:
-    """μ = A_s √T/(1 + T_s/T)."""
+    """Return μ = A_s √T/(1 + T_s/T)."""
     As, Ts = (float(read_entry(transport, key, Annotated[float, Positive])) for key in ("As", "Ts"))
     return As * math.sqrt(T) / (1.0 + Ts / T)
 
 
 def _polynomial(transport: Dictionary, T: float) -> float:
-    """μ = Σ c_k T^k."""
+    """Return μ = Σ c_k T^k."""
     entries = [entry for key, entry in transport.entries.items() if key.startswith("muCoeffs<")]
     numbers = re.findall(r"[^\s()]+", entries[0].text) if entries and isinstance(entries[0], Stream) else []
     try:
@@ -121,11 +115,10 @@ _LAWS: dict[str, Any] = {"sutherland": _sutherland, "polynomial": _polynomial}
 
 
 def _transport(root: Dictionary) -> str:
-    """The word for the transport model: of ``thermoType { transport … }``, or within a name of old."""
+    """Return the transport model: of ``thermoType { transport … }``, or within a name of older versions."""
     kind = root.entries.get("thermoType")
     if isinstance(kind, Dictionary):
-        model = kind.entries.get("transport")
-        return model.text if isinstance(model, Stream) else ""
+        return word_of(kind, "transport")
     words = re.findall(r"(\w+)Transport\b", kind.text) if isinstance(kind, Stream) else []
     return words[0] if words else ""
 
@@ -144,7 +137,7 @@ def read_density(file: Path, case: Path) -> float | None:
     Raises
     ------
     InputError
-        The entry is no density.
+        The entry is not a density.
     """
     root = read_dictionary(file, case)
     for key in ("rhoInf", "rho"):
@@ -158,7 +151,7 @@ def read_density(file: Path, case: Path) -> float | None:
 
 
 def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
-    """Mean of the field ``rho`` over the cells, kg/m³, and the time's name; None if there is no such field.
+    """Return the mean of ``rho`` over the cells, kg/m³, and the time's name; None if there is no such field.
 
     Raises
     ------
@@ -172,5 +165,5 @@ def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str
     path = case / name / region / "rho"
     if existing(path) is None:
         return None
-    mean = float(read_field(path, _RHO, case).cells.mean())
+    mean = float(read_field(path, DENSITY_FIELD, case).cells.mean())
     return (mean, name) if 0.0 < mean < math.inf else None

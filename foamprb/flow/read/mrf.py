@@ -1,4 +1,4 @@
-"""Rotating zones: ``constant/MRFProperties`` of a case."""
+"""Rotating zones of ``constant/MRFProperties``."""
 
 from __future__ import annotations
 
@@ -11,53 +11,48 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.dictionary.files import existing
-from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.meshflow import require_cells
+from foamprb.flow.read.case import active_zones, find_dictionary, word_of
 from foamprb.flow.rotating import RotatingZone
 
 __all__ = ["Rotation", "read_rotations", "rotating_zones", "with_rotating_walls"]
 
-_OFF = frozenset({"no", "off", "false", "n", "f", "none"})
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 _SCALAR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?(?:constant )?{_NUMBER}")
 _VECTOR = re.compile(rf"(?:\w+ )?(?:\[[^\]]*\] )?\( {_NUMBER} {_NUMBER} {_NUMBER} \)")
 
 
 class Rotation(NamedTuple):
-    """A zone as the dictionary has it."""
+    """Entry of a zone in the dictionary."""
 
     name: str
-    """Of its entry."""
+    """Name of the entry."""
     zone: str
-    """Of the cells."""
+    """Name of the zone of cells."""
     omega: tuple[float, float, float]
     """Ω, 1/s."""
     origin: tuple[float, float, float]
     """A point of the axis, m."""
     still: tuple[str, ...]
-    """Patches that do not rotate: names or patterns."""
+    """Names or patterns of patches that do not rotate."""
     source: str
-    """The dictionary, for a message."""
+    """Dictionary, for messages."""
 
 
 def read_rotations(case: Path, region: str) -> tuple[Rotation, ...]:
-    """Read the zones that are active.
+    """Read the active zones.
 
     Raises
     ------
     InputError
         The dictionary cannot be read, or an entry is missing or not a constant.
     """
-    for path in (case / "constant" / part / "MRFProperties" for part in dict.fromkeys((region, ""))):
-        if existing(path) is not None:
-            entries = read_dictionary(path, case).entries.values()
-            zones = [entry for entry in entries if isinstance(entry, Dictionary)]
-            return tuple(_rotation(zone) for zone in zones if _word(zone, "active", "yes") not in _OFF)
-    return ()
+    root = find_dictionary(case, region, "MRFProperties")
+    return () if root is None else tuple(map(_rotation, active_zones(root)))
 
 
 def rotating_zones(
@@ -68,7 +63,7 @@ def rotating_zones(
     Raises
     ------
     InputError
-        The mesh has no such zone, or the zone cells that the mesh does not have.
+        The mesh does not have the zone or its cells.
     """
     found = []
     for rotation in rotations:
@@ -77,9 +72,7 @@ def rotating_zones(
                 f"{rotation.source}: cellZone is '{rotation.zone}', which the mesh does not have. "
                 f"{suggestion(rotation.zone, zones)}"
             )
-        cells = zones[rotation.zone]
-        if len(cells) and not (cells.min() >= 0 and cells.max() < n_cells):
-            raise InputError(f"cellZone {rotation.zone} names cells beyond the mesh's {n_cells}.")
+        cells = require_cells(rotation.zone, zones[rotation.zone], n_cells)
         found.append(RotatingZone(rotation.name, cells, rotation.omega, rotation.origin))
     return found
 
@@ -87,7 +80,7 @@ def rotating_zones(
 def with_rotating_walls(
     boundary: Floats, mesh: Mesh, rotations: Sequence[Rotation], zones: Sequence[RotatingZone]
 ) -> Floats:
-    """Velocities at the boundary faces (n_boundary, 3): of walls in a zone Ω × r, as OpenFOAM sets them."""
+    """Return the boundary velocities (n_boundary, 3) with Ω × r at walls in a zone, as OpenFOAM sets them."""
     values = boundary.copy()
     owner = mesh.owner[mesh.n_internal :]
     patch_of_face = np.repeat(np.arange(len(mesh.patches)), np.diff(mesh.patch_start))
@@ -110,14 +103,14 @@ def _rotation(zone: Dictionary) -> Rotation:
     most = np.abs(axis).max()
     if most == 0.0:
         raise zone.entries["axis"].mistake("is zero. Allowed: a vector (x y z) that is not zero.")
-    # The squares of very large and very small components are beyond what a number holds.
+    # The squares of very large or very small components overflow or underflow.
     axis /= most
     x, y, z = (speed / np.linalg.norm(axis) * axis).tolist()
     still = zone.entries.get("nonRotatingPatches")
     words = still.tokens if isinstance(still, Stream) else ()
     return Rotation(
         zone.key,
-        unquoted(_word(zone, "cellZone", zone.key)),
+        unquoted(word_of(zone, "cellZone", zone.key)),
         (x, y, z),
         (origin[0], origin[1], origin[2]),
         tuple(unquoted(word) for word in words if word not in "()" and not word.isdigit()),
@@ -134,8 +127,3 @@ def _numbers(zone: Dictionary, key: str, pattern: re.Pattern[str], allowed: str)
     if not found or not all(map(math.isfinite, found)):
         raise entry.mistake(f"is {entry}. Allowed: {allowed}; or solution/rotatingZones absolute.")
     return found
-
-
-def _word(zone: Dictionary, key: str, default: str) -> str:
-    entry = zone.entries.get(key)
-    return entry.text if isinstance(entry, Stream) else default

@@ -1,4 +1,4 @@
-"""k and ε of a case's turbulence model at the nodes, or k and ω."""
+"""k and ε, or k and ω, of a case's turbulence model at the nodes."""
 
 from __future__ import annotations
 
@@ -11,12 +11,11 @@ from foamprb.body.turbulence import dissipation
 from foamprb.dictionary.dimensions import DISSIPATION, RATE, SPECIFIC_ENERGY
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
-from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import MissingFieldError
 from foamprb.flow.read.caveats import is_not_zero
-from foamprb.flow.read.checks import require_numbers
-from foamprb.flow.read.field import Field, Kind
+from foamprb.flow.read.checks import at_cells
+from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
 __all__ = ["read_turbulence", "turbulence_fields"]
@@ -28,10 +27,9 @@ _LEAST = 1e-150
 
 
 def read_turbulence(
-    read: Callable[[str, Kind], Field],
+    read: Callable[[str, Kind], FoamField],
     folder: Path,
-    patches: tuple[PatchInfo, ...],
-    mesh: Mesh,
+    whole: CaseMesh,
     reconstruct: Reconstruction,
 ) -> Floats:
     """Read k and ε, or k and ω with ε = β* k ω, and reconstruct them.
@@ -39,11 +37,11 @@ def read_turbulence(
     Parameters
     ----------
     read
-        Gives the field of a name and a kind.
+        Reads the field of a name and a kind.
     folder
-        Of the time, for the messages.
-    patches, mesh, reconstruct
-        Of the case.
+        Folder of the time, for messages.
+    whole, reconstruct
+        Mesh of the case, and its reconstruction.
 
     Returns
     -------
@@ -58,17 +56,17 @@ def read_turbulence(
         k_field = read("k", _K)
     except MissingFieldError as missing:
         raise InputError(f"{folder}/k: no such field. {_WANTED}") from missing
-    k, at_patches = _values(k_field, patches, mesh)
+    k, at_patches = _values(k_field, whole)
     try:
-        epsilon, _ = _values(read("epsilon", _EPSILON), patches, mesh)
+        epsilon, _ = _values(read("epsilon", _EPSILON), whole)
     except MissingFieldError:
         try:
-            omega, _ = _values(read("omega", _OMEGA), patches, mesh)
+            omega, _ = _values(read("omega", _OMEGA), whole)
         except MissingFieldError as missing:
             raise InputError(f"{folder}/epsilon: no such field, and no omega. {_WANTED}") from missing
         epsilon = dissipation(k, omega)
-    # What a wall function says of ε or ω at the wall is no value of the flow: that of the cell counts.
-    owner = mesh.owner[mesh.n_internal :]
+    # Values of a wall function for ε or ω are not values of the flow; those of the cells are used.
+    owner = whole.mesh.owner[whole.mesh.n_internal :]
     wall = epsilon[owner]
     cells = np.stack([k, epsilon, _diffusivity(k, epsilon)], axis=1)
     boundary = np.stack([at_patches, wall, _diffusivity(at_patches, wall)], axis=1)
@@ -77,7 +75,7 @@ def read_turbulence(
 
 
 def turbulence_fields(folder: Path) -> tuple[str, ...]:
-    """Names of the fields of a time directory from which :func:`read_turbulence` has k and ε; () without."""
+    """Return the names of the fields in a time directory that :func:`read_turbulence` reads, or ()."""
     found = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
     return next(found, ()) if is_not_zero(folder / "k") else ()
 
@@ -86,24 +84,20 @@ _WANTED = "The dispersionModel needs k and epsilon, or k and omega, at the time 
 
 
 def _diffusivity(k: Floats, epsilon: Floats) -> Floats:
-    """k²/3ε, m²/s, of eddies of variance 2k/3 and life k/ε."""
+    """Return k²/3ε, m²/s, of eddies of variance 2k/3 and life k/ε."""
     diffusivity: Floats = k * k / (3.0 * epsilon + _LEAST)
     return diffusivity
 
 
-def _values(field: Field, patches: tuple[PatchInfo, ...], mesh: Mesh) -> tuple[Floats, Floats]:
-    """Values at the cells (n_cells,) and the boundary faces (n_boundary,), there of the cell if not given."""
-    if len(field.cells) not in (1, mesh.n_cells):
-        raise InputError(
-            f"{field.path}: internalField has {len(field.cells)} values, but there are {mesh.n_cells} cells."
-        )
-    cells = np.ascontiguousarray(np.broadcast_to(field.cells[:, 0], mesh.n_cells))
-    require_numbers(cells[:, None], field.path, "value", "at cell")
+def _values(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
+    """Return values at cells (n_cells,) and boundary faces (n_boundary,), there of the cell if not given."""
+    mesh = whole.mesh
+    cells = at_cells(field, mesh)[:, 0]
     if cells.min() < 0.0:
         cell = int(cells.argmin())
         raise InputError(f"{field.path}: the value at cell {cell} is {cells[cell]:g}. Allowed: none below 0.")
     boundary = cells[mesh.owner[mesh.n_internal :]].copy()
-    for index, patch in enumerate(patches):
+    for index, patch in enumerate(whole.patches):
         entry = field.of(patch)
         found = entry.fields.get("value") if entry else None
         if found is not None and len(found) in (1, patch.faces) and np.isfinite(found).all():

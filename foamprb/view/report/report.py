@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.state import Status
 from foamprb.errors import InputError
-from foamprb.flow.read.source import Source, read_flow
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.memory import OutOfMemory
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
@@ -64,7 +65,7 @@ def write_report(
     case: Path,
     output: Path | None = None,
     cloud: str | None = None,
-    source: Source | None = None,
+    source: FlowSource | None = None,
     paths: Sequence[int] | None = None,
 ) -> Path:
     """Write the report of a run, and its plots as files beside it, in the folder ``<report>Plots``.
@@ -127,7 +128,7 @@ def write_report(
     return target
 
 
-def _geometry(case: Path, source: Source) -> Geometry | None:
+def _geometry(case: Path, source: FlowSource) -> Geometry | None:
     try:
         return boundary(read_flow(case, "latestTime", source).mesh)
     except InputError as error:

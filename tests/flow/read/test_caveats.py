@@ -10,9 +10,9 @@ import pytest
 from foam_writer import decompose, header, write_case
 
 from foamprb.flow.base import Caveat
-from foamprb.flow.read.decomposed import read_decomposed_case
-from foamprb.flow.read.openfoam import read_case
-from foamprb.flow.read.series import read_series
+from foamprb.flow.read.decomposed import DecomposedCase
+from foamprb.flow.read.openfoam import read_case, read_series, steady_flow
+from foamprb.flow.read.source import FlowSource
 
 
 @pytest.fixture
@@ -115,7 +115,11 @@ def test_a_decomposed_case_warns_alike(tmp_path):
     decompose(tmp_path, mesh, np.arange(mesh.n_cells) % 2, ("0", "0.5", "1e1"))
     put(tmp_path / "constant/MRFProperties", MRF)
     put(tmp_path / "processor0/1e1/nut", NUT, "volScalarField")
-    found = [str(note) for note in read_decomposed_case(tmp_path).notes if isinstance(note, Caveat)]
+    found = [
+        str(note)
+        for note in steady_flow(DecomposedCase(tmp_path), "latestTime", FlowSource()).notes
+        if isinstance(note, Caveat)
+    ]
     assert len(found) == 2
     assert "MRFProperties: rotor" in found[0]
 

@@ -19,19 +19,22 @@ from foam_writer import decompose, header, rows, write_case
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.read.boundary import read_boundary
-from foamprb.flow.read.decomposed import (
-    ReconstructedCase,
-    is_only_decomposed,
-    read_decomposed_case,
-    read_decomposed_series,
-)
+from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
 from foamprb.flow.read.field import VELOCITY_FIELD, read_field
 from foamprb.flow.read.foamfile import read_faces, read_labels, read_vectors
-from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.read.openfoam import read_case, read_series, steady_flow, transient_flow
 from foamprb.flow.read.processors import processors
-from foamprb.flow.read.series import read_series
+from foamprb.flow.read.source import FlowSource
 
 TIMES = ("0", "0.5", "1e1")
+
+
+def read_parts(case, time="latestTime", region="", gradient=""):
+    return steady_flow(DecomposedCase(case, region), time, FlowSource(gradient=gradient))
+
+
+def series_of_parts(case, region="", gradient=""):
+    return transient_flow(DecomposedCase(case, region), None, None, FlowSource(gradient=gradient))
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +60,7 @@ def alone(case):
 
 
 def test_the_flow_is_that_of_the_whole_to_the_last_bit(written):
-    whole, parts = read_case(written, 0.5), read_decomposed_case(written, 0.5)
+    whole, parts = read_case(written, 0.5), read_parts(written, 0.5)
     assert parts.patches == whole.patches
     for name, a, b in zip(whole.arrays()._fields, whole.arrays(0.1), parts.arrays(0.1), strict=True):
         np.testing.assert_array_equal(a, b, err_msg=name)
@@ -71,12 +74,12 @@ def test_a_part_may_be_empty(tmp_path):
     parts[mesh.n_cells // 2 :] = 2
     decompose(tmp_path / "case", mesh, parts, ("0",))
     assert len(read_labels(tmp_path / "case/processor1/constant/polyMesh/owner")) == 0
-    a, b = read_case(tmp_path / "case"), read_decomposed_case(tmp_path / "case")
+    a, b = read_case(tmp_path / "case"), read_parts(tmp_path / "case")
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
 
 
 def test_a_series_of_times_too(written, random):
-    whole, parts = read_series(written), read_decomposed_series(written)
+    whole, parts = read_series(written), series_of_parts(written)
     x = random.random((20, 3))
     for t in (0.0, 0.2, 0.5, 7.0):
         for a, b in zip(*(flow.sample(x, flow.locate(x), t) for flow in (whole, parts)), strict=True):
@@ -117,11 +120,9 @@ def add_gradient(case):
 
 def test_regions_and_given_gradients_are_put_together_too(case, random):
     into_region(add_gradient(case))
-    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_decomposed_case))
+    a, b = (read(case, 0.5, region="air", gradient="grad(U)") for read in (read_case, read_parts))
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
-    whole, parts = (
-        read(case, region="air", gradient="grad(U)") for read in (read_series, read_decomposed_series)
-    )
+    whole, parts = (read(case, region="air", gradient="grad(U)") for read in (read_series, series_of_parts))
     x = random.random((20, 3))
     for t in (0.0, 0.2, 7.0):
         found, expected = (flow.sample(x, flow.locate(x), t) for flow in (parts, whole))
@@ -134,15 +135,15 @@ def test_regions_of_parts_alone(case, capsys):
     alone(into_region(case))
     assert is_only_decomposed(case, "air")
     with pytest.raises(InputError, match=r"divided into regions; choose one with -region\. Allowed: air"):
-        read_decomposed_case(case)
+        read_parts(case)
     with pytest.raises(InputError, match=r"no region aire\. Did you mean 'air'"):
-        read_decomposed_case(case, region="aire")
+        read_parts(case, region="aire")
     assert main(["info", "-case", str(case), "-region", "air"]) == 0
     out = capsys.readouterr().out
     assert re.search(r"^Region +air$", out, re.MULTILINE)
     assert re.search(r"^ +0.5 +U \(volVectorField\)$", out, re.MULTILINE)
     with pytest.raises(InputError, match=r"processor0/0\.5/air/grad\(U\): no such file"):
-        read_decomposed_case(case, 0.5, region="air", gradient="grad(U)")
+        read_parts(case, 0.5, region="air", gradient="grad(U)")
 
 
 def test_compressed_files_are_read_alike(case):
@@ -150,18 +151,18 @@ def test_compressed_files_are_read_alike(case):
         with gzip.open(f"{path}.gz", "wb") as file:
             file.write(path.read_bytes())
         path.unlink()
-    a, b = read_case(case), read_decomposed_case(case)
+    a, b = read_case(case), read_parts(case)
     np.testing.assert_array_equal(a.arrays().nodes, b.arrays().nodes)
 
 
 def test_the_temporary_folder_goes_with_the_flow(written, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    whole = ReconstructedCase(written)
-    folder = whole.folder
+    whole = DecomposedCase(written)
+    folder = whole.mesh_root
     assert (folder / "constant/polyMesh/points").is_file()
     del whole
     assert not folder.exists()
-    flow = read_decomposed_case(written)
+    flow = read_parts(written)
     (folder,) = tmp_path.iterdir()
     del flow
     assert not folder.exists()
@@ -175,8 +176,8 @@ def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monke
         (folder / "results.csv").write_text("of a day's work")
     script = (
         "import os, signal, sys\nfrom pathlib import Path\n"
-        "from foamprb.flow.read.decomposed import ReconstructedCase\n"
-        "whole = ReconstructedCase(Path(sys.argv[1]))\nprint(whole.folder, flush=True)\nsys.stdin.read(1)\n"
+        "from foamprb.flow.read.decomposed import DecomposedCase\n"
+        "whole = DecomposedCase(Path(sys.argv[1]))\nprint(whole.mesh_root, flush=True)\nsys.stdin.read(1)\n"
         "os.kill(os.getpid(), signal.SIGKILL)"
     )
     command = [sys.executable, "-c", script, str(written)]
@@ -189,13 +190,13 @@ def test_folders_that_killed_processes_left_are_removed(written, tmp_path, monke
     )
     with other:
         left = Path(other.stdout.readline().strip())
-        first = ReconstructedCase(written)
+        first = DecomposedCase(written)
         assert left.is_dir()
         other.communicate("x")
     assert other.returncode == -signal.SIGKILL
     assert left.is_dir()
-    second = ReconstructedCase(written)
-    assert sorted(tmp_path.iterdir()) == sorted([first.folder, second.folder, *of_others])
+    second = DecomposedCase(written)
+    assert sorted(tmp_path.iterdir()) == sorted([first.mesh_root, second.mesh_root, *of_others])
     assert all((folder / "results.csv").exists() for folder in of_others)
 
 
@@ -229,7 +230,7 @@ def test_zones_of_cells_are_put_together(case):
         (case / f"processor{part}/constant/polyMesh/cellZones").write_text(
             header("regIOobject", "cellZones") + f"2 ( {zone} {none} )"
         )
-    flow = read_decomposed_case(case)
+    flow = read_parts(case)
     found = np.unique(flow.cell_of(flow.cell_zone("first").hosts))
     expected = [read_labels(case / f"processor{part}/constant/polyMesh/cellProcAddressing")[[0, -1]]
                 for part in range(3)]  # fmt: skip
@@ -353,13 +354,13 @@ def test_a_mistake_is_named(mistake, case):
     break_it, message = MISTAKES[mistake]
     break_it(case)
     with pytest.raises(InputError, match=message) as caught:
-        read_decomposed_case(case)
+        read_parts(case)
     assert "foamprb-" not in str(caught.value)
 
 
 def test_messages_of_the_reader_name_the_case(case):
     with pytest.raises(InputError, match=re.escape(f"{case}: no time 7; the times are 0, 0.5, 1e1.")):
-        read_decomposed_case(case, 7)
+        read_parts(case, 7)
 
 
 def test_processors_are_in_the_order_of_their_numbers(tmp_path):

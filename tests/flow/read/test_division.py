@@ -11,7 +11,8 @@ from mesh_shapes import block, corners, grid, pipe
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.read import division
-from foamprb.flow.read.division import Division, divided, patch_names
+from foamprb.flow.read.division import divided, patch_names
+from foamprb.flow.read.source import Division
 
 FILE = Path("flow.vtu")
 

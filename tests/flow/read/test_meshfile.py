@@ -17,8 +17,9 @@ from foamprb.flow.base import Patch
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read import vtk_guard
-from foamprb.flow.read.division import Division
-from foamprb.flow.read.meshfile import describe_file, read_mesh_file, read_mesh_series
+from foamprb.flow.read.describe import describe_file
+from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
+from foamprb.flow.read.source import Division
 from foamprb.flow.reconstruct import Reconstruction
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])

@@ -9,11 +9,12 @@ from foam_writer import header, write_case
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.flows import read_flow, read_transient_flow
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
-from foamprb.flow.read.source import Source, read_flow, read_transient_flow
+from foamprb.flow.read.source import FlowSource
 from foamprb.flow.rotating import RotatingFlow
 
-RELATIVE = Source(relative=True)
+RELATIVE = FlowSource(relative=True)
 ROTOR = (
     "rotor {{ cellZone upper; active yes; nonRotatingPatches ({still}); origin (0.5 0.5 0); axis (0 0 2); "
     "omega {omega}; }} other {{ cellZone none; active no; }}"

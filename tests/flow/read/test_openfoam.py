@@ -22,8 +22,7 @@ from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.case import available_times, select_time
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
-from foamprb.flow.read.openfoam import read_case, read_fields
-from foamprb.flow.read.series import read_series
+from foamprb.flow.read.openfoam import Case, read_case, read_fields, read_series
 
 POLY = "constant/polyMesh/"
 
@@ -104,7 +103,7 @@ def test_compressed_files_are_read(case):
         (path.parent / (path.name + ".gz")).write_bytes(gzip.compress(path.read_bytes()))
         path.unlink()
     assert np.array_equal(read_fields(case)[1], before)
-    assert describe(case).patches[0][:3] == ("floor", "wall", 4)
+    assert describe(Case(case)).patches[0][:3] == ("floor", "wall", 4)
 
 
 def compressed_beside(path, text):
@@ -173,7 +172,7 @@ def test_times_keep_their_names(case):
 
 
 def test_description(case):
-    info = describe(case)
+    info = describe(Case(case))
     assert [time.name for time in info.times] == ["0", "0.5", "1e1"]
     assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
     assert [p[:3] for p in info.patches] == [("floor", "wall", 4), ("lid", "patch", 4), ("sides", "wall", 16)]
@@ -189,7 +188,7 @@ def test_a_mesh_that_moves_is_described_as_it_is_at_the_last_time(case):
         text = (case / "constant/polyMesh/points").read_text()
         assert text.count("(0 0 0)") == 1
         (case / time / "polyMesh/points").write_text(text.replace("(0 0 0)", f"({x} 0 0)"))
-    assert np.array_equal(describe(case).bounds, [[-1.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
+    assert np.array_equal(describe(Case(case)).bounds, [[-1.0, 0.0, 0.0], [1.0, 1.0, 1.0]])
 
 
 def test_regions(case):
@@ -205,7 +204,7 @@ def test_regions(case):
     assert np.array_equal(mesh.tets, whole[0].tets)
     assert np.array_equal(cells, whole[1])
     assert np.array_equal(boundary, whole[2])
-    info = describe(case, "air")
+    info = describe(Case(case, "air"))
     assert (info.region, info.regions, info.points) == ("air", ("air", "iron"), 27)
     assert info.times[0].fields == {"U": "volVectorField", "p": "volScalarField"}
     assert "Region  air" in info.lines()
@@ -482,7 +481,7 @@ def test_a_case_without_times(case):
         shutil.rmtree(case / time)
     with pytest.raises(InputError, match="no time directories; has the solver been run"):
         read_case(case)
-    assert describe(case).times == ()
+    assert describe(Case(case)).times == ()
 
 
 def test_the_pipe(random):

@@ -11,12 +11,18 @@ from foam_writer import decompose, header, write_case
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.read import reconstructpar
+from foamprb.flow.read import processors as processors_module
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.field import VELOCITY_FIELD, PatchField, read_field
 from foamprb.flow.read.foamfile import read_cell_zones
-from foamprb.flow.read.processors import common_times, processors, read_part, whole_patches
-from foamprb.flow.read.reconstructpar import checked, write_zones
+from foamprb.flow.read.processors import (
+    checked,
+    common_times,
+    processors,
+    read_part,
+    whole_patches,
+    write_zones,
+)
 
 
 @pytest.fixture(scope="module")
@@ -131,7 +137,7 @@ def test_patches_of_the_whole_are_those_of_the_parts_together(written):
 
 
 def test_pieces_of_a_whole_have_all_numbers_once_or_more():
-    number = reconstructpar._whole_number
+    number = processors_module._count
     assert number([np.array([2, 0]), np.array([1, 0])]) == 3
     assert number([np.array([2, 0]), np.array([3])]) == -1
     assert number([np.array([1, 0]), np.array([-1])]) == -1

@@ -12,8 +12,8 @@ from paths import PIPE
 
 from foamprb.cli import main
 from foamprb.errors import InputError
-from foamprb.flow.read.division import Division
-from foamprb.flow.read.source import Source, read_flow
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.source import Division, FlowSource
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def test_the_settings_of_one_folder_on_the_mesh_file_of_another(flow_file, tmp_p
     assert f"Reading flow of case {flow_file}" in said
     assert "Dry run: 5 particles" in said
     assert main(["run", *arguments, "-region", "air"]) == 1
-    assert "a mesh file has no regions, but region air is asked for" in capsys.readouterr().err
+    assert "a mesh file has no regions, but the region is air" in capsys.readouterr().err
 
 
 def test_the_settings_of_a_region_go_before_those_of_the_case(tmp_path, capsys):
@@ -78,5 +78,5 @@ def test_feature_angles_that_are_none(angle, flow_file, capsys):
 def test_the_boundary_of_a_case_is_not_divided(tmp_path):
     write_case(tmp_path)
     with pytest.raises(InputError, match="a case has its own patches"):
-        read_flow(tmp_path, source=Source(division=Division(feature_angle=30.0)))
+        read_flow(tmp_path, source=FlowSource(division=Division(feature_angle=30.0)))
     assert read_flow(tmp_path).mesh.n_cells == 8

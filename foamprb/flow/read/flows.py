@@ -1,0 +1,111 @@
+"""Flow of a case, whole or decomposed, or of a mesh file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.case import regions, require_region
+from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
+from foamprb.flow.read.describe import describe, describe_file
+from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
+from foamprb.flow.read.mrf import Rotation, read_rotations
+from foamprb.flow.read.openfoam import Case, steady_flow, transient_flow
+from foamprb.flow.read.source import FlowSource
+
+__all__ = ["check_region", "describe_source", "open_case", "read_flow", "read_transient_flow", "rotations_of"]
+
+
+def open_case(case: Path, source: FlowSource) -> Case:
+    """Return the case with its files, put together if only its processor folders hold the solution.
+
+    Raises
+    ------
+    InputError
+        The source requests what a case does not have, or see :class:`DecomposedCase`.
+    """
+    if source.division is not None:
+        raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
+    if source.decomposed or is_only_decomposed(case, source.region):
+        return DecomposedCase(case, source.region)
+    return Case(case, source.region)
+
+
+def describe_source(case: Path, source: FlowSource) -> Sequence[str]:
+    """Return lines that describe a case or a mesh file; InputError if it cannot be read."""
+    if source.file is not None:
+        return describe_file(source.file, source.velocity, source.division)
+    return describe(open_case(case, source)).lines()
+
+
+def check_region(case: Path, source: FlowSource) -> None:
+    """Raise InputError, with the names of all regions, if the case does not have the region of the source."""
+    if source.file is None and source.region and case.is_dir():
+        folders = [path for path in case.glob("processor*") if (path / "constant").is_dir()]
+        names = regions(case) or (regions(folders[0]) if folders else ())
+        require_region(case, source.region, names)
+
+
+def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource | None = None) -> MeshFlow:
+    """Read the flow of a case or of a mesh file at a time.
+
+    Raises
+    ------
+    InputError
+        See :func:`~foamprb.flow.read.openfoam.read_case` and
+        :func:`~foamprb.flow.read.meshfile.read_mesh_file`; or the source requests what its kind does not
+        have.
+    """
+    source = source or FlowSource()
+    if source.file is None:
+        return steady_flow(open_case(case, source), time, source)
+    _refuse_of_case(source)
+    return read_mesh_file(
+        source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
+    )
+
+
+def read_transient_flow(case: Path, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
+    """Prepare the flow of a case or of a mesh file at several times, which are read when needed.
+
+    Raises
+    ------
+    InputError
+        See :func:`~foamprb.flow.read.openfoam.read_series` and
+        :func:`~foamprb.flow.read.meshfile.read_mesh_series`; or the source requests what its kind does not
+        have.
+    """
+    if source.file is not None:
+        _refuse_of_case(source)
+        return read_mesh_series(
+            source.file, times, period, source.velocity, gradient=source.gradient, division=source.division
+        )
+    if rotations_of(case, source):
+        raise InputError(
+            f"{case}: rotating zones (MRFProperties) are seen from their rotors in steady flows only. "
+            "Allowed: solution/transient no, or solution/rotatingZones absolute."
+        )
+    return transient_flow(open_case(case, source), times, period, source)
+
+
+def rotations_of(case: Path, source: FlowSource) -> tuple[Rotation, ...]:
+    """Read the active zones of ``MRFProperties`` if they are described in the frames of their rotors.
+
+    Raises
+    ------
+    InputError
+        The dictionary cannot be read, or an entry is missing or not a constant.
+    """
+    return read_rotations(case, source.region) if source.relative and source.file is None else ()
+
+
+def _refuse_of_case(source: FlowSource) -> None:
+    if source.turbulent:
+        raise InputError(
+            f"{source.file}: only the velocity is read from a mesh file, but the dispersionModel needs k and "
+            "epsilon or omega. Allowed: dispersionModel none, or the case itself."
+        )
+    if source.region:
+        raise InputError(f"{source.file}: a mesh file has no regions, but the region is {source.region}.")
