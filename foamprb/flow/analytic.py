@@ -1,8 +1,6 @@
-"""Flows in closed form, behind the same interface as a mesh: for tests, validation and first steps.
+"""Flows in closed form with the interface of a flow on a mesh, for tests, validation and first steps.
 
-A flow gives the particle loop a tuple of numbers (:meth:`arrays`) and plain functions of it
-(:attr:`kernels`): ``sample``, ``walk``, ``gap``, ``normal``, ``recover`` and perhaps others; see
-:mod:`foamprb.flow.walk` for what each returns.
+The kernels are described in :class:`foamprb.flow.base.Flow`.
 """
 
 from __future__ import annotations
@@ -19,31 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, add, scale
 from foamprb.errors import InputError
+from foamprb.flow import channels
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
-from foamprb.flow.pipes import (
-    PipeArrays,
-    WomersleyArrays,
-    curvature_pipe,
-    curvature_womersley,
-    gap_pipe,
-    normal_pipe,
-    planes_of_pipe,
-    sample_pipe,
-    sample_womersley,
-    walk_pipe,
-)
 from foamprb.flow.sampling import sample_with
-from foamprb.flow.slits import (
-    SlitArrays,
-    curvature_slit,
-    gap_slit,
-    normal_slit,
-    planes_of_slit,
-    sample_slit,
-    walk_slit,
-)
 
-_FREE = -1
+_ZERO: Vector = (0.0, 0.0, 0.0)
 
 
 class LinearArrays(NamedTuple):
@@ -54,7 +32,7 @@ class LinearArrays(NamedTuple):
 
 
 def sample_linear(flow: LinearArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient ∂u_i/∂x_j, 1/s, and ∂u/∂t = 0, m/s²."""
+    """Return velocity, m/s, its gradient ∂u_i/∂x_j, 1/s, and ∂u/∂t = 0, m/s²."""
     g = flow.l
     L = (g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8])
     u = (
@@ -62,80 +40,87 @@ def sample_linear(flow: LinearArrays, host: int, x: Vector, t: float) -> tuple[V
         flow.u0[1] + L[3] * x[0] + L[4] * x[1] + L[5] * x[2],
         flow.u0[2] + L[6] * x[0] + L[7] * x[1] + L[8] * x[2],
     )
-    return u, L, (0.0, 0.0, 0.0)
+    return u, L, _ZERO
 
 
 def curvature_linear(flow: Any, host: int, x: Vector, t: float) -> Curvature:
-    """No second derivative."""
-    nothing = (0.0, 0.0, 0.0)
-    return nothing, nothing, nothing, nothing, nothing, nothing
+    """Return zeros: there are no second derivatives."""
+    return _ZERO, _ZERO, _ZERO, _ZERO, _ZERO, _ZERO
 
 
 def walk_free(flow: Any, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Nothing is in the way."""
-    return host, 1.0, _FREE, -1
+    """Reach x1: there are no walls."""
+    return host, 1.0, -1, -1
 
 
 def gap_free(flow: Any, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """No wall is near."""
-    return math.inf, _FREE, -1
+    """Return infinity: there are no walls."""
+    return math.inf, -1, -1
 
 
 def walls_free(flow: Any, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """No wall is near."""
+    """Return no planes: there are no walls."""
     return NO_PLANES
 
 
 def turbulence_free(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
-    """The flow has no eddies."""
-    return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    """Return zeros: there are no eddies."""
+    return 0.0, 0.0, _ZERO, _ZERO
 
 
 def no_rotation(flow: Any, host: int) -> tuple[Vector, Vector]:
-    """Nothing rotates: no angular velocity, and the origin."""
-    return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    """Return zero angular velocity and the origin: the frame is at rest."""
+    return _ZERO, _ZERO
 
 
 def normal_free(flow: Any, triangle: int, x: Vector) -> Vector:
-    """No wall has a normal."""
-    return 0.0, 0.0, 0.0
+    """Return zeros: there are no walls."""
+    return _ZERO
 
 
 def cross_free(flow: Any, triangle: int, x: Vector) -> tuple[int, Vector, Tensor]:
-    """No patch is coupled to another."""
+    """Stay at x: there are no coupled patches."""
     return 0, x, (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def recover_free(flow: Any, x: Vector) -> int:
-    """The flow is everywhere."""
+    """Return host 0, which is everywhere."""
     return 0
 
 
 def cell_volume_free(flow: Any, host: int) -> float:
-    """There are no cells."""
+    """Return infinity: there are no cells."""
     return math.inf
 
 
 def everywhere(points: Floats) -> NDArray[np.bool_]:
-    """True for each point of shape (n, 3)."""
+    """Return True for each point of shape (n, 3)."""
     return np.ones(len(points), dtype=bool)
 
 
+_UNBOUNDED: dict[str, Callable[..., Any]] = {
+    "walk": walk_free,
+    "gap": gap_free,
+    "normal": normal_free,
+    "recover": recover_free,
+}
+
+
 class AnalyticFlow:
-    """A flow in closed form.
+    """Flow in closed form.
 
     Parameters
     ----------
     parameters
-        The tuple that the kernels read.
+        Named tuple that the kernels read.
     kernels
-        The functions ``sample``, ``walk``, ``gap``, ``normal``, ``recover``.
+        Functions ``sample``, ``walk``, ``gap``, ``normal``, ``recover`` and optional ones.
     patches
         Boundaries, if any.
     inside
-        Tells for points of shape (n, 3) which lie in the flow.
+        Returns a mask of the points of shape (n, 3) in the flow.
     width
-        The shortest way between walls, m.
+        Shortest distance between walls, m.
     """
 
     lists_walls = False
@@ -157,7 +142,7 @@ class AnalyticFlow:
         self.span = (-math.inf, math.inf)
 
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
-        """Return infinity: the flow is known at all times."""
+        """Return infinity: the flow is defined at all times."""
         return math.inf
 
     def arrays(
@@ -167,32 +152,32 @@ class AnalyticFlow:
         sight: float = 0.0,  # noqa: ARG002
         seen: Sequence[int] = (),  # noqa: ARG002
     ) -> Any:
-        """Numbers that the kernels read; walls are exact, at any ``reach``."""
+        """Return the parameters; walls are exact at any ``reach``."""
         return self._parameters
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """There is nothing large."""
+        """No-op: there are no large arrays."""
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """Nothing: there are no nodes."""
+        """Return no rows: there are no nodes."""
         return "", np.empty((0, 3)), np.empty((0, 9))
 
     def turbulence_at_nodes(self) -> Floats:
-        """Nothing: there are no nodes."""
+        """Return no rows: there are no nodes."""
         return np.empty((0, 8))
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """The parameters, by name."""
+        """Return the parameters by name."""
         names: Mapping[str, ArrayLike] = self._parameters._asdict()
         return names
 
     def locate(self, points: Floats) -> Ints:
-        """0 for each point of shape (n, 3) in the flow, −1 for one outside."""
+        """Return host 0 for each point of shape (n, 3) in the flow, −1 outside."""
         inside = self._inside(points)
         return np.where(inside, 0, -1).astype(np.int32)
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:  # noqa: ARG002
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at time t, s."""
+        """Return velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at t, s."""
         u, gradient, _ = self.kernels["sample"](self._parameters, 0, tuple(points.T), t)
         zeros = np.zeros(len(points))
         return (
@@ -201,74 +186,55 @@ class AnalyticFlow:
         )
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
-        """Refuse: a flow in closed form has no faces.
-
-        Raises
-        ------
-        InputError
-            Always.
-        """
+        """Raise InputError: there are no faces."""
         raise InputError(f"patch {name}: a flow in closed form has no faces to inject from.")
 
     def cell_zone(self, name: str | None) -> Tetrahedra:
-        """Refuse: a flow in closed form has no cells.
-
-        Raises
-        ------
-        InputError
-            Always.
-        """
+        """Raise InputError: there are no cells."""
         what = "all cells" if name is None else f"cellZone {name}"
         raise InputError(f"{what}: a flow in closed form has no cells to inject into.")
 
     def cell_size(self, hosts: Ints) -> Floats:
-        """Infinite: there are no cells."""
+        """Return infinity: there are no cells."""
         return np.full(np.shape(hosts), np.inf)
 
 
 def linear(gradient: ArrayLike, u0: ArrayLike = (0.0, 0.0, 0.0)) -> AnalyticFlow:
-    """u = u0 + l·x with a constant gradient l_ij = ∂u_i/∂x_j, 1/s, of shape (3, 3)."""
+    """Return the flow u = u0 + l·x with a constant gradient l_ij = ∂u_i/∂x_j, 1/s, of shape (3, 3)."""
     g = np.ascontiguousarray(np.reshape(gradient, 9), dtype=float)
-    kernels: dict[str, Callable[..., Any]] = {
-        "sample": sample_linear,
-        "curvature": curvature_linear,
-        "walk": walk_free,
-        "gap": gap_free,
-        "normal": normal_free,
-        "recover": recover_free,
-    }
+    kernels = {"sample": sample_linear, "curvature": curvature_linear, **_UNBOUNDED}
     return AnalyticFlow(LinearArrays(np.asarray(u0, dtype=float), g), kernels)
 
 
 class FunctionArrays(NamedTuple):
-    """Steps of the differences by which a function's derivatives are taken, m and s."""
+    """Steps of the finite differences for a function's derivatives, m and s."""
 
     length: float
     time: float
 
 
 def velocity(x: float, y: float, z: float, t: float) -> tuple[float, float, float]:
-    """Stand for a user's function, which :func:`function` puts in its place."""
+    """Placeholder for a user's function, which :func:`function` binds."""
     raise NotImplementedError
 
 
 def velocity_gradient(x: float, y: float, z: float, t: float) -> tuple[Vector, Vector, Vector]:
-    """Stand for a user's gradient, as :func:`velocity` does for the velocity."""
+    """Placeholder for a user's gradient."""
     raise NotImplementedError
 
 
 def steady(x: float, y: float, z: float, t: float) -> Any:
-    """Call a function that knows no time."""
+    """Call a function of the place alone."""
     return of_place(x, y, z)
 
 
 def of_place(x: float, y: float, z: float) -> Any:
-    """Stand for a user's function of the place alone."""
+    """Placeholder for a user's function of the place alone."""
     raise NotImplementedError
 
 
 def sample_function(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient as given, 1/s, and ∂u/∂t by differences, m/s²."""
+    """Return velocity, m/s, the given gradient, 1/s, and ∂u/∂t by differences, m/s²."""
     a, b, c = velocity_gradient(x[0], x[1], x[2], t)
     l = (a[0] + 0.0, a[1] + 0.0, a[2] + 0.0, b[0] + 0.0, b[1] + 0.0, b[2] + 0.0,
          c[0] + 0.0, c[1] + 0.0, c[2] + 0.0)  # fmt: skip
@@ -276,7 +242,7 @@ def sample_function(flow: FunctionArrays, host: int, x: Vector, t: float) -> tup
 
 
 def sample_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s², by central differences of the fourth order."""
+    """Return velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s², by fourth-order central differences."""
     h, (x0, x1, x2) = flow.length, x
     p = _difference(
         _velocity(x0 - 2.0 * h, x1, x2, t), _velocity(x0 - h, x1, x2, t),
@@ -300,7 +266,7 @@ def _velocity(x: float, y: float, z: float, t: float) -> Vector:
 
 
 def _rate(flow: FunctionArrays, x: Vector, t: float) -> Vector:
-    """∂u/∂t at the fixed point."""
+    """Return ∂u/∂t at the fixed point."""
     h = flow.time
     return _difference(
         _velocity(x[0], x[1], x[2], t - 2.0 * h), _velocity(x[0], x[1], x[2], t - h),
@@ -309,7 +275,7 @@ def _rate(flow: FunctionArrays, x: Vector, t: float) -> Vector:
 
 
 def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
-    """Derivative at the middle of four values at −2h, −h, h and 2h."""
+    """Return the derivative at 0 from values at −2h, −h, h and 2h."""
     s, w = 8.0 / (12.0 * h), 1.0 / (12.0 * h)
     return (
         s * (c[0] - b[0]) - w * (d[0] - a[0]),
@@ -319,12 +285,12 @@ def _difference(a: Vector, b: Vector, c: Vector, d: Vector, h: float) -> Vector:
 
 
 def sample(flow: FunctionArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Stand for the one of the two above that a flow has."""
+    """Placeholder for the kernel ``sample`` of a flow."""
     raise NotImplementedError
 
 
 def curvature_by_differences(flow: FunctionArrays, host: int, x: Vector, t: float) -> Curvature:
-    """Second derivatives, 1/(m s), from the gradient by central differences of the fourth order."""
+    """Return second derivatives, 1/(m s), from the gradient by fourth-order central differences."""
     h, (x0, x1, x2) = flow.length, x
     p = _derivative(
         sample(flow, host, (x0 - 2.0 * h, x1, x2), t)[1], sample(flow, host, (x0 - h, x1, x2), t)[1],
@@ -342,16 +308,16 @@ def curvature_by_differences(flow: FunctionArrays, host: int, x: Vector, t: floa
 
 
 def _derivative(a: Tensor, b: Tensor, c: Tensor, d: Tensor, h: float) -> Tensor:
-    """As :func:`_difference`, of tensors."""
+    """Return the derivative of a tensor; see :func:`_difference`."""
     s, w = 8.0 / (12.0 * h), 1.0 / (12.0 * h)
     return add(scale(s, add(c, scale(-1.0, b))), scale(-w, add(d, scale(-1.0, a))))
 
 
 class FunctionFlow(AnalyticFlow):
-    """A flow given by a function of the user's; see :func:`function`."""
+    """Flow given by a user's function; see :func:`function`."""
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """Velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at time t, s."""
+        """Return velocities (n, 3), m/s, and gradients ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) at t, s."""
         return sample_with(self.kernels["sample"], self._parameters, points, hosts, t)
 
 
@@ -361,26 +327,26 @@ def function(
     length: float = 1e-3,
     time: float = 1e-3,
 ) -> AnalyticFlow:
-    """Flow u(x, y, z) or u(x, y, z, t) from a plain Python function, without bounds.
+    """Return the unbounded flow u(x, y, z) or u(x, y, z, t) of a plain Python function.
 
-    The function is compiled into the particle loop, which takes a while for each new function; it may use
-    numbers, ``math``, ``numpy``'s functions of numbers, and other plain functions.
+    The function is compiled into the particle loop, again for each new function. It may use numbers,
+    ``math``, ``numpy``'s functions of numbers, and other plain functions.
 
     Parameters
     ----------
     u
         Returns the three components of the velocity, m/s, at a place, m, and perhaps a time, s.
     gradient
-        Of the same arguments, returns the three rows of ∂u_i/∂x_j, 1/s, each of three numbers. Without it the
-        gradient is taken from u by central differences of the fourth order, and so is ∂u/∂t always.
+        Returns the three rows of ∂u_i/∂x_j, 1/s, for the same arguments. The default is fourth-order central
+        differences of u, which always give ∂u/∂t.
     length, time
-        Over which u changes, m and s. The differences are taken over a thousandth of it, which gives
-        derivatives to 1e-8 where u changes over a tenth of it to a thousand times as much.
+        Scales on which u changes, m and s. The differences use a thousandth of them, and are accurate to 1e-8
+        if u changes on a tenth to a thousand times these scales.
 
     Raises
     ------
     TypeError
-        If u or the gradient is not such a function.
+        u or the gradient is not such a function.
     """
     names: dict[str, Any] = {"velocity": _of_place_and_time(u, "u", (3,))}
     template = sample_differences
@@ -389,31 +355,26 @@ def function(
         template = sample_function
     names["_velocity"] = _with_names(_velocity, names)
     names["_rate"] = _with_names(_rate, names)
-    kernels: dict[str, Callable[..., Any]] = {
-        "sample": _with_names(template, names),
-        "curvature": _with_names(curvature_by_differences, names | {"sample": _with_names(template, names)}),
-        "walk": walk_free,
-        "gap": gap_free,
-        "normal": normal_free,
-        "recover": recover_free,
-    }
+    sampled = _with_names(template, names)
+    curvature = _with_names(curvature_by_differences, names | {"sample": sampled})
+    kernels = {"sample": sampled, "curvature": curvature, **_UNBOUNDED}
     return FunctionFlow(FunctionArrays(1e-3 * length, 1e-3 * time), kernels)
 
 
 def _with_names(template: Callable[..., Any], names: Mapping[str, Any]) -> Callable[..., Any]:
-    """The function with other functions in place of some of those that it calls."""
+    """Return the function with other functions bound to some of the names that it calls."""
     assert isinstance(template, FunctionType)
     return FunctionType(template.__code__, {**template.__globals__, **names}, template.__name__)
 
 
 def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callable[..., Any]:
-    """A user's function as one of x, y, z and t; TypeError if it is no plain function that gives numbers."""
+    """Return a user's function as one of x, y, z and t; TypeError if it is not plain or of another shape."""
     if not isinstance(given, FunctionType):
         raise TypeError(f"{what} is {given!r}, not a plain function (def or lambda).")
     captured = [*(cell.cell_contents for cell in given.__closure__ or ()), *(given.__defaults__ or ())]
     if not all(isinstance(value, int | float | tuple) for value in captured):
         raise TypeError(
-            f"{what} captures or has as a default something else than numbers or tuples of numbers; other "
+            f"{what} captures, or has as a default, a value other than numbers or tuples of numbers; other "
             "functions must be defined in the module."
         )
     count = given.__code__.co_argcount - len(given.__defaults__ or ())
@@ -428,51 +389,50 @@ def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callabl
 
 
 def shear(rate: float) -> AnalyticFlow:
-    """Simple shear u₁ = γ̇ x₂ (Sect. 5.3)."""
+    """Return simple shear u₁ = γ̇ x₂ (Sect. 5.3)."""
     return linear([[0.0, rate, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
 def rotation(rate: float) -> AnalyticFlow:
-    """Pure rotation l₁₂ = −l₂₁ = γ̇/2 about the negative third axis (Sect. 5.1)."""
+    """Return pure rotation l₁₂ = −l₂₁ = γ̇/2 about the negative third axis (Sect. 5.1)."""
     return linear([[0.0, rate / 2, 0.0], [-rate / 2, 0.0, 0.0], [0.0, 0.0, 0.0]])
 
 
 def extension(rate: float) -> AnalyticFlow:
-    """Uniaxial extension along the first axis, l = rate · diag(1, −½, −½)."""
+    """Return uniaxial extension along the first axis, l = rate · diag(1, −½, −½)."""
     return linear(np.diag([rate, -rate / 2, -rate / 2]))
 
 
 def shear_over_wall(rate: float) -> AnalyticFlow:
-    """Simple shear u₁ = γ̇ x₃, 1/s, over the wall x₃ = 0, the patch ``wall``."""
-    return _between(SlitArrays(math.inf, float(rate)), (Patch("wall", "wall"),))
+    """Return simple shear u₁ = γ̇ x₃, 1/s, over the wall x₃ = 0, the patch ``wall``."""
+    return _between(channels.SlitArrays(math.inf, float(rate)), (Patch("wall", "wall"),))
 
 
 def slit(height: float, mean_velocity: float) -> AnalyticFlow:
-    """Poiseuille flow along x between walls at z = 0, the patch ``lower``, and z = height, ``upper``.
+    """Return Poiseuille flow along x between walls at z = 0, the patch ``lower``, and z = height, ``upper``.
 
     Parameters
     ----------
     height, mean_velocity
         m and m/s; the shear rate at a wall is 6 U/height.
     """
-    arrays = SlitArrays(float(height), 6.0 * mean_velocity / height)
+    arrays = channels.SlitArrays(float(height), 6.0 * mean_velocity / height)
     return _between(arrays, (Patch("lower", "wall"), Patch("upper", "wall")))
 
 
-def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow:
-    def inside(points: Floats) -> NDArray[np.bool_]:
-        within: NDArray[np.bool_] = (points[:, 2] >= 0.0) & (points[:, 2] <= parameters.height)
-        return within
+def _between(parameters: channels.SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow:
+    def inside(points: Floats) -> Any:
+        return (points[:, 2] >= 0.0) & (points[:, 2] <= parameters.height)
 
     return AnalyticFlow(
         parameters,
         {
-            "sample": sample_slit,
-            "curvature": curvature_slit,
-            "walk": walk_slit,
-            "gap": gap_slit,
-            "walls": planes_of_slit,
-            "normal": normal_slit,
+            "sample": channels.sample_slit,
+            "curvature": channels.curvature_slit,
+            "walk": channels.walk_slit,
+            "gap": channels.gap_slit,
+            "walls": channels.planes_of_slit,
+            "normal": channels.normal_slit,
             "recover": recover_free,
         },
         patches,
@@ -482,17 +442,17 @@ def _between(parameters: SlitArrays, patches: tuple[Patch, ...]) -> AnalyticFlow
 
 
 def pipe(radius: float, mean_velocity: float, length: float = math.inf) -> AnalyticFlow:
-    """Poiseuille flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
+    """Return Poiseuille flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
 
     Parameters
     ----------
     radius, length
-        m; an infinite length has no outlet to reach.
+        m; a pipe of infinite length has no outlet.
     mean_velocity
         m/s; the wall shear rate is 4 U/radius.
     """
-    parameters = PipeArrays(float(radius), float(mean_velocity), float(length))
-    return _in_pipe(parameters, sample_pipe, curvature_pipe)
+    parameters = channels.PipeArrays(float(radius), float(mean_velocity), float(length))
+    return _in_pipe(parameters, channels.sample_pipe, channels.curvature_pipe)
 
 
 _MOST_WOMERSLEY = 30.0
@@ -507,30 +467,30 @@ def womersley(
     phase: float = 0.0,
     length: float = math.inf,
 ) -> AnalyticFlow:
-    """Pulsatile flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
+    """Return pulsatile flow in a pipe along x from x = 0, with patches wall, inlet and outlet.
 
-    The pressure gradient −(∂p/∂x)/ρ is 8 ν U/a² + amplitude · cos(2π t/period + phase); the flow is that long
-    after any start (Womersley, J. Physiol. 127, 553, 1955).
+    The pressure gradient −(∂p/∂x)/ρ is 8 ν U/a² + amplitude · cos(2π t/period + phase); the flow is the
+    periodic one (Womersley, J. Physiol. 127, 553, 1955).
 
     Parameters
     ----------
     radius, length
-        m; an infinite length has no outlet to reach.
+        m; a pipe of infinite length has no outlet.
     nu
         Kinematic viscosity, m²/s.
     period
         s.
     amplitude
-        Of the pressure gradient over the density, m/s².
+        Amplitude of the pressure gradient over the density, m/s².
     mean_velocity
-        Over section and time, U, m/s.
+        Mean over section and time, U, m/s.
     phase
         rad.
 
     Raises
     ------
     ValueError
-        If the Womersley number a √(ω/ν) exceeds 30, where the series of the Bessel function loses digits.
+        The Womersley number a √(ω/ν) exceeds 30, where the series of the Bessel function loses digits.
     """
     omega = 2.0 * math.pi / period
     alpha = radius * math.sqrt(omega / nu)
@@ -542,31 +502,29 @@ def womersley(
         terms.append(terms[-1] * 0.25j * alpha**2 / len(terms) ** 2)
     profile = -np.array(terms) / sum(terms)
     profile[0] += 1.0
-    parameters = WomersleyArrays(
+    parameters = channels.WomersleyArrays(
         float(radius), float(mean_velocity), float(length), amplitude / omega, omega, float(phase),
         np.ascontiguousarray(profile.real), np.ascontiguousarray(profile.imag),
     )  # fmt: skip
-    return _in_pipe(parameters, sample_womersley, curvature_womersley)
+    return _in_pipe(parameters, channels.sample_womersley, channels.curvature_womersley)
 
 
 def _in_pipe(parameters: Any, sample: Callable[..., Any], curvature: Callable[..., Any]) -> AnalyticFlow:
-    """A flow along x in a pipe whose radius and length are among the parameters."""
+    """Return a flow along x in a pipe whose radius and length are among the parameters."""
 
-    def inside(points: Floats) -> NDArray[np.bool_]:
-        r2: Floats = points[:, 1] ** 2 + points[:, 2] ** 2
-        within: NDArray[np.bool_] = r2 <= parameters.radius**2
-        within &= (points[:, 0] >= 0) & (points[:, 0] <= parameters.length)
-        return within
+    def inside(points: Floats) -> Any:
+        within = points[:, 1] ** 2 + points[:, 2] ** 2 <= parameters.radius**2
+        return within & (points[:, 0] >= 0) & (points[:, 0] <= parameters.length)
 
     return AnalyticFlow(
         parameters,
         {
             "sample": sample,
             "curvature": curvature,
-            "walk": walk_pipe,
-            "gap": gap_pipe,
-            "walls": planes_of_pipe,
-            "normal": normal_pipe,
+            "walk": channels.walk_pipe,
+            "gap": channels.gap_pipe,
+            "walls": channels.planes_of_pipe,
+            "normal": channels.normal_pipe,
             "recover": recover_free,
         },
         (Patch("wall", "wall"), Patch("inlet", "patch"), Patch("outlet", "patch")),

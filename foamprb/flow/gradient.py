@@ -1,4 +1,9 @@
-"""Least-squares gradients at cell centres."""
+"""Least-squares gradients at cell centres, and means of Taylor series at points.
+
+Sites are places with values, the cell centres first, so that the row of a cell is also its site. The sites
+around row r are ``columns[start[r]]`` to ``columns[start[r + 1] - 1]``, int32. Second derivatives stand in
+the order xx, yy, zz, xy, xz, yz.
+"""
 
 from __future__ import annotations
 
@@ -10,25 +15,25 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from foamprb.body import tensor
+from foamprb.body.tensor import Vector, inner, norm
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.lists import Index, Mask
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.stencils import group, sum_differences
 
-# The six second derivatives: pairs of directions.
+# Directions of the six second derivatives.
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 PAIR_OF = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
-# Cells handled at once: the temporary arrays then stay in the cache.
+# Number of cells per chunk: the temporary arrays then stay in the cache.
 CHUNK = 1 << 15
 
 
 class LeastSquaresGradient:
     """Least-squares gradient at cell centres, differences weighted by the inverse square of the distance.
 
-    Where the neighbours and boundary values of a cell say nothing about a direction, its neighbours'
-    neighbours count as well. If they say nothing either, as on a mesh one cell thick, the gradient in this
-    direction is zero.
+    Where the neighbours and boundary values of a cell leave a direction open, its neighbours' neighbours are
+    used as well. If the direction stays open, as on a mesh one cell thick, the gradient along it is zero.
 
     Parameters
     ----------
@@ -37,10 +42,9 @@ class LeastSquaresGradient:
     sites
         Places with values, (n_sites, 3), m; the cell centres first.
     faces, numbers
-        Boundary faces (n,), and for each the number of the site beyond it.
+        Boundary faces (n,), and the index of the site beyond each.
     least
-        A direction counts as open if its eigenvalue of the normal equations is below this share of the
-        largest.
+        A direction is open if its eigenvalue of the normal equations is below this fraction of the largest.
     """
 
     def __init__(self, mesh: Mesh, sites: Floats, faces: Index, numbers: Ints, least: float = 1e-6) -> None:
@@ -60,7 +64,6 @@ class LeastSquaresGradient:
             more = _second_neighbours(inner, neighbour, n, open_cells)
             rows = np.repeat(np.arange(n), np.diff(start))
             self._around = grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
-        # Six components of each, as it is symmetric.
         self._inverse = np.empty((n, 6))
         for low, matrix in self._matrices():
             inverse = invert(matrix, least)
@@ -68,17 +71,17 @@ class LeastSquaresGradient:
                 self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
 
     def _matrices(self) -> Iterator[tuple[int, Floats]]:
-        """Chunk by chunk, the first cell and the matrices Σ e ⊗ e (n, 3, 3) of the normal equations."""
+        """Yield the first cell of each chunk, and the matrices Σ e ⊗ e (n, 3, 3) of the normal equations."""
         for low in range(0, self._n, CHUNK):
             matrix = np.empty((min(CHUNK, self._n - low), 3, 3))
             self._sums(self._sites, matrix, low)
             yield low, matrix
 
     def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
-        """Put the gradients of m fields at n cells from ``low`` on into ``gradients`` (n, m, 3).
+        """Write the gradients of m fields at n cells from ``low`` on into ``gradients`` (n, m, 3).
 
-        They come from the values (n_sites, m) at the sites, less what the second derivatives ``bends``
-        (n_cells, m, 6) add to them.
+        ``values`` (n_sites, m) are those at the sites; the contribution of the second derivatives ``bends``
+        (n_cells, m, 6) is subtracted from their differences.
         """
         self._sums(values, gradients, low, bends)
         for first in range(0, len(gradients), CHUNK):
@@ -86,7 +89,7 @@ class LeastSquaresGradient:
             part[:] = part @ self._inverse[low + first : low + first + len(part)][:, PAIR_OF]
 
     def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
-        """The right side (n, m, 3) of the normal equations."""
+        """Write the right side (n, m, 3) of the normal equations into ``sums``."""
         if bends is None:
             bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
@@ -94,7 +97,7 @@ class LeastSquaresGradient:
 
 
 def grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
-    """Sort pairs of row and column by row: where each of n rows begins, and the columns, in their order."""
+    """Sort pairs of row and column by row; return the start of each of n rows, and the columns in order."""
     start, sorted_columns = np.zeros(n + 1, dtype=np.int32), np.empty(len(columns), dtype=np.int32)
     link(group)(
         rows.astype(np.int32, copy=False), columns.astype(np.int32, copy=False), start, sorted_columns
@@ -103,7 +106,7 @@ def grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, In
 
 
 def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: Index) -> tuple[Index, Index]:
-    """The given cells, each beside the neighbours of its neighbours (not itself, nor its neighbours)."""
+    """Return pairs of the given cells and the neighbours of their neighbours, without closer ones."""
     ones = np.ones(2 * len(owner), dtype=np.int32)
     ends = (np.concatenate([owner, neighbour]), np.concatenate([neighbour, owner]))
     adjacent = sparse.csr_array((ones, ends), shape=(n, n))
@@ -115,17 +118,17 @@ def _second_neighbours(owner: Ints, neighbour: Ints, n: int, cells: Index) -> tu
 
 
 def _nearly_singular(matrix: Floats, least: float) -> Mask:
-    """Which of the matrices (n, 3, 3) have their smallest eigenvalue below ``least`` of the largest."""
+    """Return True for matrices (n, 3, 3) whose smallest eigenvalue is below ``least`` of the largest."""
     T = _components(matrix)
     suspect: Mask = tensor.det(T) <= 27.0 * least * (tensor.trace(T) / 3.0) ** 3
-    # With eigenvalues λ₁ ≥ λ₂ ≥ λ₃, det ≤ λ₃ λ₁² and λ₁ ≤ 3·(trace/3): no λ₃ < least·λ₁ goes unsuspected.
+    # With eigenvalues λ₁ ≥ λ₂ ≥ λ₃, det ≤ λ₃ λ₁² and λ₁ ≤ 3·(trace/3): every λ₃ < least·λ₁ is suspected.
     values = np.linalg.eigvalsh(matrix[suspect])
     suspect[suspect] = values[:, 0] <= least * values[:, 2]
     return suspect
 
 
 def invert(matrix: Floats, least: float) -> Floats:
-    """Inverses of symmetric positive semidefinite (n, 3, 3), pseudo-inverses of nearly singular ones."""
+    """Invert symmetric positive semidefinite matrices (n, 3, 3); nearly singular ones are pseudo-inverted."""
     poor = _nearly_singular(matrix, least)
     safe = np.where(poor[:, None, None], np.eye(3), matrix)
     result = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
@@ -137,6 +140,106 @@ def invert(matrix: Floats, least: float) -> Floats:
 
 
 def _components(matrix: Floats) -> tensor.Tensor:
-    """The nine columns of matrices (n, 3, 3)."""
-    T = matrix.reshape(-1, 9).T
-    return T[0], T[1], T[2], T[3], T[4], T[5], T[6], T[7], T[8]
+    """Return the nine components of matrices (n, 3, 3)."""
+    a, b, c, d, e, f, g, h, i = matrix.reshape(-1, 9).T
+    return a, b, c, d, e, f, g, h, i
+
+
+def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
+    """Sort values stably by key: the values of key k go to ``start[k]`` to ``start[k + 1] - 1``.
+
+    ``start`` (n_keys + 1,) must hold zeros.
+    """
+    n = start.shape[0] - 1
+    for i in range(keys.shape[0]):
+        start[keys[i] + 1] += 1
+    for k in range(n):
+        start[k + 1] += start[k]
+    for i in range(keys.shape[0]):
+        k = keys[i]
+        grouped[start[k]] = values[i]
+        start[k] += 1
+    for k in range(n, 0, -1):
+        start[k] = start[k - 1]
+    start[0] = 0
+
+
+def sum_differences(
+    sites: Floats, start: Ints, columns: Ints, values: Floats, bends: Floats, low: int, sums: Floats
+) -> None:
+    """Sum (f_s − f_c) d/|d|² over the sites s around cells c, with d from c to s.
+
+    Parameters
+    ----------
+    values
+        (n_sites, m) values of m fields f.
+    bends
+        (n_cells, m, 6) second derivatives, whose contribution is subtracted; no rows for none.
+    low, sums
+        Results (n, m, 3) of the cells from ``low`` on; must hold zeros.
+    """
+    bent = bends.shape[0] > 0
+    for i in range(sums.shape[0]):
+        c = low + i
+        for k in range(start[c], start[c + 1]):
+            s = columns[k]
+            d = arm(sites, s, point(sites, c))
+            square = inner(d, d)
+            weight = 1.0 / square if square > 0.0 else 0.0
+            for f in range(sums.shape[1]):
+                difference = values[s, f] - values[c, f]
+                if bent:
+                    difference -= _half_bend(bends, c, f, d)
+                for j in range(3):
+                    sums[i, f, j] += weight * difference * d[j]
+
+
+def mean_series(
+    points: Floats,
+    sites: Floats,
+    start: Ints,
+    columns: Ints,
+    u: Floats,
+    l: Floats,
+    h: Floats,
+    u_points: Floats,
+    l_points: Floats,
+) -> None:
+    """Average at points the Taylor series about the sites around them, weighted by the inverse distance.
+
+    Parameters
+    ----------
+    u, l, h
+        Values (n_sites, 3), first (n_sites, 3, 3) and second derivatives (n_sites, 3, 6); l_ij = ∂u_i/∂x_j.
+    u_points, l_points
+        Results (n, 3) and (n, 3, 3); must hold zeros.
+    """
+    for p in range(points.shape[0]):
+        if start[p] == start[p + 1]:
+            continue
+        total = 0.0
+        for k in range(start[p], start[p + 1]):
+            s = columns[k]
+            d = arm(points, p, point(sites, s))
+            w = 1.0 / max(norm(d), 1e-300)
+            total += w
+            for i in range(3):
+                slope = l[s, i, 0] * d[0] + l[s, i, 1] * d[1] + l[s, i, 2] * d[2]
+                u_points[p, i] += w * (u[s, i] + slope + _half_bend(h, s, i, d))
+                x = h[s, i, 0] * d[0] + h[s, i, 3] * d[1] + h[s, i, 4] * d[2]
+                y = h[s, i, 3] * d[0] + h[s, i, 1] * d[1] + h[s, i, 5] * d[2]
+                z = h[s, i, 4] * d[0] + h[s, i, 5] * d[1] + h[s, i, 2] * d[2]
+                l_points[p, i, 0] += w * (l[s, i, 0] + x)
+                l_points[p, i, 1] += w * (l[s, i, 1] + y)
+                l_points[p, i, 2] += w * (l[s, i, 2] + z)
+        for i in range(3):
+            u_points[p, i] /= total
+            for j in range(3):
+                l_points[p, i, j] /= total
+
+
+def _half_bend(h: Floats, r: int, i: int, d: Vector) -> float:
+    """Return ½ d·H·d with the second derivatives of field i in row r."""
+    diagonal = h[r, i, 0] * d[0] * d[0] + h[r, i, 1] * d[1] * d[1] + h[r, i, 2] * d[2] * d[2]
+    mixed = h[r, i, 3] * d[0] * d[1] + h[r, i, 4] * d[0] * d[2] + h[r, i, 5] * d[1] * d[2]
+    return float(0.5 * diagonal + mixed)

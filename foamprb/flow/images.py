@@ -1,4 +1,4 @@
-"""Images of cells beyond the patches over which a field goes on: mirrors, wedges and cyclic patches."""
+"""Images of cells beyond patches over which a field continues: mirrors, wedges and cyclic patches."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.coupling import Coupling
-from foamprb.flow.mesh.lists import Index
+from foamprb.flow.mesh.lists import Index, take_lists
 from foamprb.flow.mesh.mesh import Mesh
 
 _MIRRORS = frozenset({"symmetry", "symmetryPlane", "empty", "wedge"})
@@ -20,7 +20,7 @@ def _unchanged(values: Floats) -> Floats:
 
 
 class Images:
-    """Cells beyond the patches where the field goes on; each is the image of a cell inside the mesh."""
+    """Images of cells beyond the patches over which the field continues."""
 
     def __init__(self, mesh: Mesh) -> None:
         owner = mesh.owner[mesh.n_internal :].astype(np.intp)
@@ -39,14 +39,14 @@ class Images:
             cells.append(owner[own])
             places.append(mesh.centres[owner[own]] + 2.0 * away[:, None] * n)
             mirror = np.eye(3) - 2.0 * n[:, :, None] * n[:, None, :]
-            # On a plane mesh the flow is the same at every height.
+            # On a two-dimensional mesh the flow is the same at every height.
             turns.append(np.broadcast_to(np.eye(3), mirror.shape) if patch.type == "empty" else mirror)
             if patch.type != "empty":
                 self._planes.append(_mean_normals(mesh, own, n))
         for coupling in mesh.couplings:
             faces.append(coupling.faces)
             cells.append(owner[coupling.partners])
-            # Backwards: what lies beyond the first patch is what lies before the second.
+            # Backwards: the cells before the second patch lie beyond the first.
             places.append((mesh.centres[cells[-1]] - coupling.shift) @ coupling.turn)
             turns.append(np.broadcast_to(coupling.turn.T, (len(coupling.faces), 3, 3)))
             if coupling.patch < coupling.other and len(coupling.faces):
@@ -57,11 +57,11 @@ class Images:
         self._turns: Floats = np.concatenate([np.empty((0, 3, 3)), *turns])
 
     def turned(self, values: Floats, read: Callable[[Floats], Floats] = _unchanged) -> Floats:
-        """Tensors of the images (n, 3, …, 3), from those that ``read`` makes of the cells' ``values``."""
+        """Return tensors of the images (n, 3, …, 3), which ``read`` makes of the cells' ``values``."""
         return _turned(self._turns, read(values[self.cells]))
 
     def agree(self, points: Floats) -> None:
-        """Make tensors at the mesh points (n_points, 3, …, 3) agree with their images."""
+        """Average tensors at the mesh points (n_points, 3, …, 3) in place with their images."""
         for rows, mirrors in self._planes:
             points[rows] = 0.5 * (points[rows] + _turned(mirrors, points[rows]))
         for here, there, turn in self._seams:
@@ -74,7 +74,7 @@ class Images:
 
 
 def _turned(turns: Floats, values: Floats) -> Floats:
-    """Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T (n, 3, …, 3)."""
+    """Return Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T (n, 3, …, 3)."""
     rank = values.ndim - 1
     old, new = "abc"[:rank], "ijk"[:rank]
     factors = ",".join(f"n{i}{a}" for i, a in zip(new, old, strict=True))
@@ -83,9 +83,9 @@ def _turned(turns: Floats, values: Floats) -> Floats:
 
 
 def _unturned(turn: Floats, values: Floats) -> Floats:
-    """The part of vectors (n, 3) or tensors (n, 3, 3) that no rotation about the axis of ``turn`` changes."""
+    """Return the part of vectors (n, 3) or tensors (n, 3, 3) that is invariant about the axis of ``turn``."""
     axis = np.linalg.svd(turn - np.eye(3))[2][2]
-    # Round-off must not tilt an axis that lies along a coordinate: across it there is exactly no velocity.
+    # Round-off must not tilt an axis along a coordinate, across which the velocity is exactly zero.
     axis[np.abs(axis) < 1e-12] = 0.0
     along = np.outer(axis, axis)
     part_of_values = np.zeros_like(values)
@@ -98,7 +98,7 @@ def _unturned(turn: Floats, values: Floats) -> Floats:
 
 
 def _mean_normals(mesh: Mesh, faces: Index, normals: Floats) -> tuple[Index, Floats]:
-    """Points of a patch of mirrors, and for each the mirror about the mean plane of its faces."""
+    """Return the points of a mirror patch, and for each the mirror about the mean plane of its faces."""
     rows, columns = points_of_faces(mesh, faces)
     points, place = np.unique(rows, return_inverse=True)
     total = np.stack([np.bincount(place, normals[columns, i], len(points)) for i in range(3)], axis=1)
@@ -107,7 +107,7 @@ def _mean_normals(mesh: Mesh, faces: Index, normals: Floats) -> tuple[Index, Flo
 
 
 def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
-    """Points of a coupled patch, those of the other patch that continue them, and the rotation between."""
+    """Return points of a coupled patch, their images on the other patch, and the rotation between."""
     here, there = (np.unique(points_of_faces(mesh, f)[0]) for f in (coupling.faces, coupling.partners))
     images = mesh.points[here] @ coupling.turn.T + coupling.shift
     size = np.sqrt(np.linalg.norm(mesh.boundary_areas[coupling.faces], axis=1).min())
@@ -117,9 +117,6 @@ def _seam(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Floats]:
 
 
 def points_of_faces(mesh: Mesh, faces: Index) -> tuple[Index, Index]:
-    """Points of boundary faces, and for each point the position of its face in ``faces``."""
-    begin = mesh.face_start[mesh.n_internal + faces].astype(np.intp)
-    count = np.diff(mesh.face_start)[mesh.n_internal + faces].astype(np.intp)
-    owner = np.repeat(np.arange(len(faces)), count)
-    within = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-    return mesh.face_points[begin[owner] + within].astype(np.intp), owner
+    """Return the points of boundary faces, and the position of each point's face in ``faces``."""
+    start, points = take_lists(mesh.face_start, mesh.face_points, mesh.n_internal + faces)
+    return points.astype(np.intp), np.repeat(np.arange(len(faces)), np.diff(start))

@@ -1,4 +1,4 @@
-"""A steady flow on a mesh: the arrays that the compiled functions of ``walk`` and ``walls`` read."""
+"""Steady flow on a mesh."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_there, nearby, trace
-from foamprb.flow.mesh.interfaces import overlaps
+from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
@@ -46,48 +46,17 @@ LONG: tuple[Callable[..., Any], ...] = (
     planes_among,
     seek,
 )
-"""Kernels that few steps need, and long ones: inlined wherever they are called they would swell the loop."""
-
-
-def _across(mesh: Mesh) -> tuple[Ints, Ints]:
-    """``across`` and ``partners`` of :class:`MeshArrays`."""
-    count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
-    start = np.concatenate([[0], np.cumsum(count)])
-    partner = np.full(len(mesh.boundary_centres), -1)
-    for coupling in mesh.couplings:
-        partner[coupling.faces] = coupling.partners
-    other = partner[mesh.triangle_face]
-    # The triangles of a face follow each other.
-    across = np.stack([start[other], start[other + 1]], axis=1)
-    across[other < 0] = 0
-    partners = [np.arange(len(mesh.triangle_face))]
-    first = len(partners[0])
-    for coupling in mesh.couplings:
-        if not coupling.matching:
-            own, begin, lists = overlaps(mesh, coupling)
-            across[own] = first + np.stack([begin[:-1], begin[1:]], axis=1)
-            partners.append(lists)
-            first += len(lists)
-    return across.astype(np.int32), np.concatenate(partners).astype(np.int32)
-
-
-def _motions(mesh: Mesh) -> Floats:
-    """See :class:`MeshArrays`."""
-    motions = np.zeros((len(mesh.patches), 12))
-    motions[:, [0, 4, 8]] = 1.0
-    for coupling in mesh.couplings:
-        motions[coupling.patch] = [*coupling.turn.ravel(), *coupling.shift]
-    return motions
+"""Long kernels that few steps need; they are compiled separately, as inlining them would swell the loop."""
 
 
 _NO_END = frozenset({"empty", "wedge", "symmetry", "symmetryPlane"})
-"""The types of patches beyond which a flow goes on, as do coupled ones."""
+"""Types of patches beyond which the flow continues, as it does beyond coupled ones."""
 _FACING = 0.01
-"""Share of the boundary that must face along an axis for the flow to end there."""
+"""Fraction of the boundary area that must face along an axis for the flow to end there."""
 
 
 def _width(mesh: Mesh) -> float:
-    """The shortest extent of the mesh along an axis along which it ends at walls or openings, m."""
+    """Return the shortest extent of the mesh along axes on which it ends at walls or openings, m."""
     ends = [not (patch.neighbour or patch.type in _NO_END) for patch in mesh.patches]
     rows = np.flatnonzero(np.array(ends, dtype=bool)[mesh.triangle_patch])
     if len(rows) == 0:
@@ -99,7 +68,7 @@ def _width(mesh: Mesh) -> float:
 
 
 def _folds(mesh: Mesh, nodes: Floats, boxes: Floats, tree: Tree) -> tuple[NDArray[np.uint8], Ints, Ints]:
-    """``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
+    """Return ``folds``, ``rim_start`` and ``rim`` of :class:`MeshArrays`."""
     folds = np.zeros(mesh.n_cells, dtype=np.uint8)
     folded = np.empty((mesh.inverted, 6))
     n = link(grade)(nodes, mesh.tets, mesh.n_points, folds, folded)
@@ -116,13 +85,13 @@ def _folds(mesh: Mesh, nodes: Floats, boxes: Floats, tree: Tree) -> tuple[NDArra
 
 
 _LISTS = ("near", "wall_", "seen")
-"""How the names of those arrays begin that belong to lists of walls nearby."""
+"""Prefixes of the names of arrays for lists of walls."""
 _AT_ONCE = 1 << 20
-"""Tetrahedra of which the volumes are computed at once."""
+"""Number of tetrahedra per chunk when volumes are computed."""
 
 
 class MeshFlow:
-    """A flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
+    """Flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
 
     Parameters
     ----------
@@ -131,9 +100,9 @@ class MeshFlow:
     u, l
         (n_nodes, 3) in m/s and (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j in 1/s; mesh points, then cell centres.
     notes
-        What the user should know about the flow, sentence by sentence.
+        Sentences for the user about the flow.
     zones
-        Reads the cells of each zone of cells, by name, when somebody asks for one.
+        Returns the cells of each zone by name; called when a zone is requested.
     time
         Name of the time that was read, if there are times.
     turbulence
@@ -154,7 +123,6 @@ class MeshFlow:
         "turbulence": turbulence,
         "cell_volume": cell_volume,
     }
-    """The functions that a particle loop calls, by the names under which it calls them."""
     lists_walls = True
 
     def __init__(
@@ -188,8 +156,8 @@ class MeshFlow:
         boxes = cell_boxes(mesh)
         tree = build_tree(boxes)
         folds, rim_start, rim = _folds(mesh, nodes, boxes, tree)
-        across, partners = _across(mesh)
-        self._arrays = MeshArrays(
+        across, partners = triangles_across(mesh)
+        self._arrays = no_mesh()._replace(
             nodes=nodes,
             n_points=mesh.n_points,
             tets=mesh.tets,
@@ -203,26 +171,23 @@ class MeshFlow:
             triangle_tet=mesh.triangle_tet,
             across=across,
             partners=partners,
-            motions=_motions(mesh),
+            motions=motions_of_patches(mesh),
             folds=folds,
             rim_start=rim_start,
             rim=rim,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
-            near=np.empty(0, dtype=np.int32),
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
             wall_boxes=np.empty((2, 6)),
-            wall_leaves=np.empty((0, 1), dtype=np.int32),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
-            seen=np.empty(0, dtype=np.int32),
         )
 
     @staticmethod
     def nothing() -> MeshArrays:
-        """What the kernels read where there is no flow, for which they can be compiled."""
+        """Return the arrays of an empty flow, for which the kernels can be compiled."""
         return no_mesh()
 
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
-        """Return infinity: the flow is the same at all times."""
+        """Return infinity: the flow is steady."""
         return float(np.inf)
 
     def arrays(
@@ -232,10 +197,10 @@ class MeshFlow:
         sight: float = 0.0,
         seen: Sequence[int] = (),
     ) -> MeshArrays:
-        """What the kernels read; bodies of semi-axes up to ``reach`` (m) find what they touch.
+        """Return the arrays for the kernels.
 
-        The ``touchable`` patches are given by their indices; by default they are those of type wall. Those
-        that are ``seen`` are found as planes up to a distance of ``sight`` (m).
+        Bodies of semi-axes up to ``reach`` (m) find the ``touchable`` patches, given by index; by default
+        these are the walls. Patches that are ``seen`` are found as planes up to a distance of ``sight`` (m).
         """
         if touchable is None:
             touchable = [index for index, patch in enumerate(self.patches) if patch.type in WALLS]
@@ -251,7 +216,7 @@ class MeshFlow:
     def _with_walls(
         self, reach: float, touchable: Sequence[int], sight: float, seen: Sequence[int]
     ) -> MeshArrays:
-        """The arrays with the walls that bodies touch and see, and their images beyond coupled patches."""
+        """Return the arrays with the walls that bodies touch and see, and their images at coupled patches."""
         mesh, arrays = self.mesh, self._arrays
         names = np.flatnonzero(np.isin(mesh.triangle_patch, [*touchable, *seen])).astype(np.int32)
         walls = Walls(
@@ -273,13 +238,13 @@ class MeshFlow:
                 triangle_normals=np.concatenate([arrays.triangle_normals, images.normals]),
             )
         boxes = cell_boxes(mesh)
-        for those in (touchable, seen):
-            some = np.isin(walls.patches, those)
+        for patches in (touchable, seen):
+            some = np.isin(walls.patches, patches)
             if not some.any():
                 continue
             tree = wall_tree(walls.corners[some], walls.normals[some])
             own = names[some]
-            if those is touchable:
+            if patches is touchable:
                 size = float(np.cbrt(np.median(mesh.volumes)))
                 start, near = near_walls(tree, boxes, reach, own, size)
                 leaves = np.where(tree.leaves < 0, np.int32(-1), own[tree.leaves])
@@ -292,7 +257,7 @@ class MeshFlow:
         return arrays
 
     def move(self, place: Callable[[NDArray[Any]], NDArray[Any]]) -> None:
-        """Put what the kernels read, but for the lists of walls nearby, where ``place`` copies it."""
+        """Replace the constant arrays, without the lists of walls, by the copies that ``place`` returns."""
         fixed: dict[str, Any] = {
             name: place(array)
             for name, array in self._arrays._asdict().items()
@@ -303,47 +268,41 @@ class MeshFlow:
         self.mesh = replace(self.mesh, **{name: array for name, array in fixed.items() if name in held})
 
     def at_nodes(self) -> tuple[str, Floats, Floats]:
-        """The time's name, u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
+        """Return the name of the time, and u (n, 3), m/s, and ∂u_i/∂x_j (n, 9), 1/s, at all nodes."""
         return self._time, self._arrays.nodes[:, 3:6], self._arrays.nodes[:, 6:15]
 
     def turbulence_at_nodes(self) -> Floats:
-        """k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); without rows if they were not read."""
+        """Return k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); no rows if they were not read."""
         return self._arrays.turbulence
 
     def traits(self) -> Mapping[str, ArrayLike]:
-        """Mesh and velocities, by name."""
+        """Return mesh and velocities by name."""
         return {
             name: a for name, a in self._arrays._asdict().items() if not name.startswith(("wall_", "seen"))
         }
 
     def locate(self, points: Floats) -> Ints:
-        """Hosts of the points (n, 3): (n,) tetrahedra, −1 for a point outside the mesh."""
+        """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""
         points = np.ascontiguousarray(points, dtype=np.float64)
         hosts = np.empty(len(points), dtype=np.int32)
         link(_locate_all, separate=LONG)(self._arrays, points, hosts)
         return hosts
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        """Velocity (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,) at time t, s."""
+        """Return velocities (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,)."""
         return sample_with(sample, self._arrays, points, hosts, t)
 
     def cell_of(self, hosts: Ints) -> Ints:
-        """Cells to which the tetrahedra belong, (n,)."""
+        """Return the cells (n,) of tetrahedra."""
         cells: Ints = self.mesh.tets[hosts, 0] - np.int32(self.mesh.n_points)
         return cells
 
     def cell_size(self, hosts: Ints) -> Floats:
-        """Cube root of the volume of the hosts' cells, (n,), m."""
+        """Return the cube root of the volume of the hosts' cells, (n,), m."""
         return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
-        """Triangles of the patch ``name``.
-
-        Raises
-        ------
-        InputError
-            There is no such patch.
-        """
+        """Return the triangles of a patch; InputError if there is no such patch."""
         names = [patch.name for patch in self.patches]
         if name not in names:
             raise InputError(f"patch {name} is not in the mesh. {suggestion(name, names)}")
@@ -361,7 +320,7 @@ class MeshFlow:
         )
 
     def cell_zone(self, name: str | None) -> Tetrahedra:
-        """Tetrahedra of the zone of cells ``name``, or of all cells, cell after cell.
+        """Return the tetrahedra of a zone of cells, or of all cells, cell by cell.
 
         Raises
         ------
@@ -376,12 +335,12 @@ class MeshFlow:
         return Tetrahedra(volumes, hosts, self._vertices)
 
     def _vertices(self, hosts: Ints) -> Floats:
-        """Vertices of tetrahedra, (n, 4, 3), m."""
+        """Return the vertices of tetrahedra, (n, 4, 3), m."""
         vertices: Floats = self._arrays.nodes[self.mesh.tets[hosts], :3]
         return vertices
 
     def _hosts_in(self, name: str) -> Ints:
-        """Tetrahedra of a zone, (n,); InputError as of :meth:`cell_zone`."""
+        """Return the tetrahedra of a zone, (n,); see :meth:`cell_zone`."""
         zones = self._zones()
         if name not in zones:
             raise InputError(f"cellZone {name} is not in the mesh. {suggestion(name, zones)}")

@@ -1,4 +1,4 @@
-"""The walls around a point, each as a plane: what the images of a particle behind them are made of."""
+"""Walls around a point as planes, behind which a particle has images."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ _ON_EDGE = 1e-9
 
 
 def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """The walls around x that are nearer than ``cut`` (m).
+    """Return the walls around x that are nearer than ``cut`` (m).
 
-    A wall is a boundary triangle on which the perpendicular from x ends, or, if one is nearer than all those,
-    the point of an edge or a corner that is the nearest of all. Of those whose normals are within 45° of each
-    other, facets of one curved wall, the nearest counts; of more than three the three nearest.
+    A wall is a boundary triangle on which the perpendicular from x ends, or the nearest point of all if it
+    lies on an edge or a corner. Walls whose normals are within 45° of each other are facets of one curved
+    wall, of which the nearest counts. Of more than three walls the three nearest count.
 
     Parameters
     ----------
     chosen
-        1 for each patch that counts, else 0.
+        1 for each patch that counts as a wall, else 0.
     """
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.seen_start[cell], flow.seen_start[cell + 1]
@@ -38,7 +38,7 @@ def walls(flow: MeshArrays, host: int, x: Vector, cut: float, chosen: NDArray[np
 def planes_among(
     flow: MeshArrays, begin: int, end: int, x: Vector, cut: float, chosen: NDArray[np.int8]
 ) -> Planes:
-    """Those among the triangles that are listed in ``seen`` from ``begin`` to ``end``, as :func:`walls`."""
+    """Return the walls among the entries ``begin`` to ``end`` of ``seen``; see :func:`walls`."""
     planes = NO_PLANES
     nearest, towards = cut, (0.0, 0.0, 0.0)
     nodes = flow.nodes
@@ -51,7 +51,7 @@ def planes_among(
         ra = arm(nodes, a, x)
         n = inward(flow, triangle)
         h = -inner(n, ra)
-        # What lies behind a wall, or beyond the cut.
+        # x is behind the wall, or the wall is beyond the cut.
         if h <= 0.0 or h >= cut or _known(planes, h, n):
             continue
         b, c = flow.triangles[triangle, 1], flow.triangles[triangle, 2]
@@ -69,7 +69,7 @@ def planes_among(
 
 
 def _known(planes: Planes, h: float, n: Vector) -> bool:
-    """Whether a wall at the distance h would be no nearer part of one that was found."""
+    """Return True if a wall at the distance h belongs to a wall that was found and is not nearer."""
     return bool(
         (h >= planes.h1 and inner(n, planes.n1) > _SAME_WALL)
         or (h >= planes.h2 and inner(n, planes.n2) > _SAME_WALL)
@@ -78,7 +78,7 @@ def _known(planes: Planes, h: float, n: Vector) -> bool:
 
 
 def _over(n: Vector, a: Vector, b: Vector, c: Vector) -> bool:
-    """Whether the perpendicular from the origin to the plane of a triangle, with normal n, ends in it."""
+    """Return True if the perpendicular from the origin to the plane of a triangle of normal n ends in it."""
     p = inner(n, vector_product(a, b))
     q = inner(n, vector_product(b, c))
     r = inner(n, vector_product(c, a))
@@ -87,7 +87,7 @@ def _over(n: Vector, a: Vector, b: Vector, c: Vector) -> bool:
 
 
 def _with(planes: Planes, h: float, n: Vector) -> Planes:
-    """With one wall more, unless it is another facet of one that is there."""
+    """Return the planes with one more wall; a facet of a wall replaces it if it is nearer."""
     h1, n1, h2, n2, h3, n3 = planes
     if inner(n, n1) > _SAME_WALL:
         return Planes(h, n, h2, n2, h3, n3) if h < h1 else planes
@@ -95,7 +95,7 @@ def _with(planes: Planes, h: float, n: Vector) -> Planes:
         return Planes(h1, n1, h, n, h3, n3) if h < h2 else planes
     if inner(n, n3) > _SAME_WALL:
         return Planes(h1, n1, h2, n2, h, n) if h < h3 else planes
-    # In the place of the farthest: where there is none is farther than any.
+    # Replace the farthest; an empty place is infinitely far.
     if h1 >= h2 and h1 >= h3:
         return Planes(h, n, h2, n2, h3, n3) if h < h1 else planes
     if h2 >= h3:

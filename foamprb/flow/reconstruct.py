@@ -1,12 +1,12 @@
-"""Cell values and wall values → u and ∇u at the nodes of the tetrahedra, continuous in between.
+"""Reconstruction of u and ∇u at the nodes of the tetrahedra from cell and boundary values.
 
-Gradients come from least squares over face neighbours and boundary values. The gradient of the gradients
-gives the second derivatives, whose part in the differences is then taken off again, so that quadratic fields
-are met beside a wall nearly as well as in the core. A node's value is the weighted mean of what its cells say
-about it by Taylor's formula; on a wall the wall's own values decide.
+Gradients are least-squares fits over face neighbours and boundary values. The gradient of the gradients gives
+the second derivatives, whose contribution is then subtracted from the differences, so that quadratic fields
+are reproduced beside a wall nearly as well as in the core. The value at a node is the weighted mean of the
+Taylor series about its cells; on a wall the wall's values count.
 
-Beyond a symmetry plane, an empty patch, a wedge or a cyclic patch the field goes on: each cell there has an
-image (:mod:`foamprb.flow.images`), whose values are known, and which counts as a neighbour like any other.
+The field continues beyond a symmetry plane, an empty patch, a wedge or a cyclic patch: each cell there has an
+image (:mod:`foamprb.flow.images`) with known values, which counts as a neighbour.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.flow.base import WALLS, Floats, Ints
-from foamprb.flow.gradient import CHUNK, PAIR_OF, PAIRS, LeastSquaresGradient, grouped, invert
+from foamprb.flow.gradient import CHUNK, PAIR_OF, PAIRS, LeastSquaresGradient, grouped, invert, mean_series
 from foamprb.flow.images import Images, points_of_faces
 from foamprb.flow.mesh.lists import Index, Mask
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.flow.stencils import mean_series
 
 VALUELESS = frozenset(
     {
@@ -34,18 +33,18 @@ VALUELESS = frozenset(
         "processor",
     }
 )
-"""Types of patches whose boundary values say nothing that the cells do not say."""
+"""Types of patches whose boundary values add nothing to the values of the cells."""
 
 
 class Reconstruction:
-    """The weights by which a mesh's cell and boundary values give u and ∇u at its nodes.
+    """Operator from the cell and boundary values of a mesh to u and ∇u at its nodes.
 
     Parameters
     ----------
     mesh
         The mesh.
     valued
-        (n_boundary,) boundary faces that have a value; default: all but those of :data:`VALUELESS` patches.
+        (n_boundary,) mask of boundary faces with a value; by default all except :data:`VALUELESS` patches.
     """
 
     def __init__(self, mesh: Mesh, valued: Mask | None = None) -> None:
@@ -58,7 +57,7 @@ class Reconstruction:
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
         self._images = images = Images(mesh)
         n = mesh.n_cells
-        # A boundary face with a value is a place like a cell centre, and so is an image.
+        # Boundary faces with values and images are sites like cell centres.
         self._sites = np.concatenate([mesh.centres, mesh.boundary_centres[self._valued], images.places])
         self._of_images = slice(n + len(self._valued), len(self._sites))
         self._of_faces = slice(n, self._of_images.start)
@@ -81,9 +80,9 @@ class Reconstruction:
         cells
             (n_cells, 3) velocity at cell centres, m/s.
         boundary
-            (n_boundary, 3) velocity at boundary faces; rows of faces without a value are not read.
+            (n_boundary, 3) velocity at boundary faces; rows of faces without a value are ignored.
         l
-            (n_cells, 3, 3) gradient at cell centres, l_ij = ∂u_i/∂x_j, 1/s, if it is known already.
+            (n_cells, 3, 3) gradient at cell centres, l_ij = ∂u_i/∂x_j, 1/s, if it is given.
 
         Returns
         -------
@@ -103,7 +102,7 @@ class Reconstruction:
         return u_nodes, l_nodes
 
     def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
-        """Reconstruct three scalars, none of them beyond the values around a node: so they stay positive.
+        """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
 
         Parameters
         ----------
@@ -113,7 +112,7 @@ class Reconstruction:
         Returns
         -------
         values, slopes
-            (n_nodes, 3) and their gradients (n_nodes, 3, 3), of least squares.
+            (n_nodes, 3) and their least-squares gradients (n_nodes, 3, 3).
         """
         mesh, images, m = self.mesh, self._images, cells.shape[1]
         n, owner = mesh.n_cells, self._owner[self._valued]
@@ -137,7 +136,7 @@ class Reconstruction:
         return values, slopes
 
     def _means(self, values: Floats) -> Floats:
-        """Means (n_points, 3) at the mesh points of values (n_sites, 3) around, by the inverse distance."""
+        """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance."""
         m = values.shape[1]
         means = np.zeros((self.mesh.n_points, m))
         slopes, bends = np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6))
@@ -146,10 +145,7 @@ class Reconstruction:
         return means
 
     def _derivatives(self, u: Floats, l: Floats | None) -> tuple[Floats, Floats]:
-        """First derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites.
-
-        The order of the second derivatives is xx, yy, zz, xy, xz, yz.
-        """
+        """Return first derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites."""
         n = self.mesh.n_cells
         slopes, bends = np.zeros((len(u), 3, 3)), np.zeros((len(u), 3, 6))
         if l is None:
@@ -164,8 +160,7 @@ class Reconstruction:
             for pair, (j, k) in enumerate(PAIRS):
                 bends[low : low + len(part), :, pair] = 0.5 * (second[:, :, j, k] + second[:, :, k, j])
         if l is None:
-            # One correction: beside a wall, the cell values of a finite-volume solution are themselves off by
-            # as much as a second would change.
+            # One correction suffices: beside a wall, the errors of a finite-volume solution exceed a second.
             self._gradient(u, slopes[:n], bends=bends[:n])
         images = self._images
         slopes[self._of_faces] = self._at_faces(self._valued, slopes, bends)
@@ -177,17 +172,17 @@ class Reconstruction:
         return slopes, bends
 
     def _at_faces(self, faces: Index, l: Floats, h: Floats) -> Floats:
-        """Gradients continued from the cells to their boundary faces."""
+        """Extrapolate gradients from the cells to their boundary faces."""
         owner = self._owner[faces]
         arms = self.mesh.boundary_centres[faces] - self.mesh.centres[owner]
         faces_l: Floats = l[owner] + np.einsum("nijk,nk->nij", h[owner][:, :, PAIR_OF], arms)
         return faces_l
 
     def _impose_walls(self, u_points: Floats, boundary: Floats, l: Floats, h: Floats) -> None:
-        """Give the points of walls the wall's velocity, from the gradients at the wall's faces.
+        """Set the velocity at points of walls.
 
-        Where the wall's faces about a point move alike, the point moves so too, exactly; elsewhere their
-        values are continued to the point.
+        Where the wall faces around a point have the same velocity, the point has exactly this velocity;
+        elsewhere their values are extrapolated to the point.
         """
         mesh, faces = self.mesh, self._walls
         if len(faces) == 0:
@@ -208,17 +203,17 @@ class Reconstruction:
 def _continued(
     points: Floats, sites: Floats, around: tuple[Ints, Ints], u: Floats, l: Floats
 ) -> tuple[Floats, Floats]:
-    """Means at points of the Taylor series about sites, from values and first derivatives."""
+    """Average at points the Taylor series about sites, from values and first derivatives."""
     at_points = np.zeros((len(points), 3)), np.zeros((len(points), 3, 3))
     link(mean_series)(points, sites, *around, u, l, np.zeros((len(sites), 3, 6)), *at_points)
     return at_points
 
 
 def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
-    """Nodal u and l from velocities at the mesh points alone, (n_points, 3) in m/s.
+    """Return nodal u and l from velocities at the mesh points alone, (n_points, 3), m/s.
 
-    Each cell's gradient is the least-squares fit to its points, continued to the nodes as in
-    :class:`Reconstruction` but without second derivatives.
+    Each cell's gradient is the least-squares fit to its points; the nodes average these as in
+    :class:`Reconstruction`, without second derivatives.
     """
     rows = mesh.cell_points.astype(np.intp)
     columns = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
@@ -235,7 +230,7 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
         right[:, :, j] = mean(differences * arms[:, j, None])
     l = np.einsum("nij,njk->nik", right, invert(matrix, 1e-12))
     u = average + np.einsum("nij,nj->ni", l, mesh.centres - middle)
-    # A point's gradient is the mean over its cells, which is what a Taylor series without bends gives.
+    # Without second derivatives the Taylor series average the gradients of the cells.
     around = grouped(rows, columns, mesh.n_points)
     _, l_points = _continued(mesh.points, mesh.centres, around, u, l)
     return np.concatenate([points, u]), np.concatenate([l_points, l])

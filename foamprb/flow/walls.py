@@ -1,6 +1,6 @@
-"""Walls that a body may touch, and the clearance between a body and its walls.
+"""Clearance between a body and the walls that it may touch.
 
-Walls beyond a cyclic patch or a wedge count as well: they appear as images on this side of it.
+Walls beyond a cyclic patch or a wedge are included as images on this side of it.
 """
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ from foamprb.flow.mesh.tree import next_node, square_to_box
 from foamprb.flow.walk import NO_TRIANGLE, inward, nearest_point
 
 _NEARLY = 1.0 + 1e-6
-"""So much farther a plane is still looked at, because it may stand for others that are not quite the same."""
+"""Factor of the distance of a plane, which may stand for others that differ by round-off."""
 _TIE = 1.0 + 1e-12
-"""So much farther a triangle is still looked at, because the first of two that are equally near counts."""
+"""Factor of the distance of a triangle: of two at the same distance the first counts."""
 
 
 def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
+    """Return the clearance between the ellipsoid {x + R F·ξ: ξ·ξ ≤ 1} and the nearest wall triangle.
 
-    The map y → F⁻¹(y − x) turns the ellipsoid into a ball of radius R about the origin and keeps triangles
-    triangles. The clearance is the distance of the mapped triangle from the origin (corners and edges count)
-    less R: negative exactly when body and wall overlap. Over a plane wall at distance h with normal n it is
-    h/|Fᵀn| − R.
+    The map y → F⁻¹(y − x) turns the ellipsoid into a ball of radius R about the origin, and triangles into
+    triangles. The clearance is the distance of the mapped triangle (including edges and corners) from the
+    origin minus R; it is negative exactly if body and wall overlap. Over a plane wall at distance h with
+    normal n it is h/|Fᵀn| − R.
 
     Returns
     -------
     gap, patch, triangle
-        The clearance in metres of the undeformed ball, ``inf`` with −1, −1 from :data:`NEAR` R on.
+        Clearance in metres of the undeformed ball; ``inf`` with −1, −1 beyond :data:`NEAR` R.
     """
     cell = flow.tets[host, 0] - flow.n_points
     begin, end = flow.near_start[cell], flow.near_start[cell + 1]
@@ -58,9 +58,9 @@ def gap(flow: MeshArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[fl
 def nearest_wall(
     flow: MeshArrays, begin: int, end: int, x: Vector, F: Tensor, R: float
 ) -> tuple[float, int, int]:
-    """The nearest of those wall triangles that are listed from ``begin`` to ``end``, as :func:`gap`."""
+    """Return the nearest wall triangle among the entries ``begin`` to ``end``; see :func:`gap`."""
     best, nearest = NEAR * R, NO_TRIANGLE
-    # Most bodies are far from all of them; no length is shortened more than by the norm of F.
+    # Most bodies are far from all walls; the map shortens no length by more than the norm of F.
     if not _any_within(flow, begin, end, x, _NEARLY * (best + R) * np.sqrt(ddot(F, F))):
         return np.inf, -1, NO_TRIANGLE
     inverse_F = inverse(F)
@@ -75,9 +75,9 @@ def nearest_wall(
 
 
 def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float) -> bool:
-    """Whether the plane of a listed triangle is less than ``reach``, m, from x.
+    """Return True if the plane of a listed triangle is less than ``reach`` (m) from x.
 
-    Those come first that stand for all in their planes.
+    One triangle of each plane comes first.
     """
     k = begin
     while k < end and flow.near[k] >= 0:
@@ -88,9 +88,9 @@ def _any_within(flow: MeshArrays, begin: int, end: int, x: Vector, reach: float)
 
 
 def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """The nearest of all wall triangles in the tree, as :func:`gap`; ``seed`` is one that may be near.
+    """Return the nearest wall triangle in the tree; see :func:`gap`. ``seed`` is a triangle that may be near.
 
-    Of several that are equally near it is the first, as in a list.
+    Of several at the same distance the first counts, as in a list.
     """
     inverse_F, stretch = inverse(F), longest_stretch(F)
     best, nearest = NEAR * R, NO_TRIANGLE
@@ -100,7 +100,7 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
     boxes, triangles = flow.wall_boxes, flow.wall_leaves
     node, n_leaves = 1, triangles.shape[0]
     while node > 0:
-        # What the map lengthens least is shortened by the longest stretch.
+        # The map shortens lengths at most by the longest stretch.
         limit = _TIE * (best + R) * stretch
         hit = square_to_box(boxes, node, x) <= limit * limit
         for k in range(triangles.shape[1] if hit and node >= n_leaves else 0):
@@ -118,7 +118,7 @@ def nearest_in_tree(flow: MeshArrays, seed: int, x: Vector, F: Tensor, R: float)
 def _mapped_distance(
     flow: MeshArrays, triangle: int, x: Vector, F: Tensor, inverse_F: Tensor, limit: float
 ) -> float:
-    """Distance of the mapped triangle from the origin, m; infinite if its plane is at the limit or beyond."""
+    """Return the distance of the mapped triangle from the origin, m; infinite if its plane is too far."""
     nodes = flow.nodes
     a, b, c = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
     n, ra = inward(flow, triangle), arm(nodes, a, x)
@@ -139,16 +139,16 @@ class Walls(NamedTuple):
     patches: Ints
 
     def moved(self, turn: Floats, shift: Floats) -> Walls:
-        """The triangles where x → turn·x + shift carries them."""
+        """Return the triangles moved by x → turn·x + shift."""
         return Walls(self.corners @ turn.T + shift, self.normals @ turn.T, self.patches)
 
     def take(self, rows: Any) -> Walls:
-        """Some of the triangles, by number or mask."""
+        """Return some of the triangles, by index or mask."""
         return Walls(*(array[rows] for array in self))
 
 
 def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
-    """Images of the walls that lie beyond a coupled patch, within ``reach`` (m) of it.
+    """Return images of the walls beyond coupled patches, within ``reach`` (m) of them.
 
     Where two pairs of patches meet, there are images of images.
     """
@@ -160,7 +160,7 @@ def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
             for coupling in mesh.couplings:
                 if min(coupling.patch, coupling.other) == pair or len(coupling.faces) == 0:
                     continue
-                # Beyond the patch lies what lies before its neighbour.
+                # The walls before the neighbour appear beyond the patch.
                 boxes = _face_box(mesh, coupling.partners)
                 low, high = seen.corners.min(axis=1), seen.corners.max(axis=1)
                 near = np.all((high >= boxes[0] - reach) & (low <= boxes[1] + reach), axis=1)
@@ -173,6 +173,6 @@ def images_of_walls(mesh: Mesh, walls: Walls, reach: float) -> Walls:
 
 
 def _face_box(mesh: Mesh, faces: Any) -> tuple[Floats, Floats]:
-    """Corners of the box around boundary faces."""
+    """Return the corners of the box around boundary faces."""
     points = mesh.points[mesh.triangles[np.isin(mesh.triangle_face, faces)]].reshape(-1, 3)
     return points.min(axis=0), points.max(axis=0)

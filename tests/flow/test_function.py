@@ -120,7 +120,7 @@ def capturing():
         (lambda x, y: (x, y, 0.0), r"u has 2 arguments, not \(x, y, z\) or \(x, y, z, t\)"),
         (lambda x, y, z: (x, y), r"u returns something of shape \(2,\), not \(3,\)"),
         (lambda x, y, z: x, r"u returns something of shape \(\), not \(3,\)"),
-        (capturing(), "u captures or has as a default something else than numbers"),
+        (capturing(), "u captures, or has as a default, a value other than numbers"),
     ],
 )
 def test_what_is_no_such_function_is_refused(u, message):

@@ -565,6 +565,7 @@ def test_messages_name_the_case(mesh):
         flow_of(mesh, 9.0)
 
 
-def test_zones_of_cells_go_with_the_flow(mesh):
+def test_zones_of_cells_go_with_the_flow():
+    mesh = build_mesh(block(2, 0.0))
     flow = flow_of(mesh, zones=lambda: {"some": np.array([3])})
     assert flow.cell_zone("some").volumes.sum() == pytest.approx(mesh.volumes[3])

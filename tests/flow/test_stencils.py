@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foamprb.flow.stencils import group, mean_series, sum_differences
+from foamprb.flow.gradient import group, mean_series, sum_differences
 
 # xx, yy, zz, xy, xz, yz.
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))

@@ -1,4 +1,4 @@
-"""The arrays that every compiled function of a mesh flow reads, and the geometry of one tetrahedron."""
+"""Arrays of a flow on a mesh that the kernels read, and the geometry of a tetrahedron."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from foamprb.body.tensor import Vector
 from foamprb.flow.base import Floats, Ints
 
 TOLERANCE = 1e-9
-"""How far outside a tetrahedron a point may lie and still belong to it, in units of the barycentric weights.
+"""Tolerance of barycentric weights: a point in a tetrahedron may have weights down to minus this.
 
-Coordinates have been float32 once, so that no cell is thinner than some 1e-7 of its distance from the origin;
-the round-off of a weight in double precision is then below 1e-9.
+Coordinates were read in single precision, so that no cell is thinner than about 1e-7 of its distance from the
+origin. The round-off of a weight in double precision is then below 1e-9.
 """
 
 
 class MeshArrays(NamedTuple):
-    """What the kernels read of a flow on a mesh; SI units, indices int32."""
+    """Arrays of a flow on a mesh that the kernels read; SI units, indices int32."""
 
     nodes: Floats
     """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, one spare: two cache lines a node."""
     n_points: int
-    """Number of mesh points: the centre of cell c is node ``n_points + c``."""
+    """Number of mesh points; the centre of cell c is node ``n_points + c``."""
     tets: Ints
-    """(n_tets, 4) nodes, the first the cell centre."""
+    """(n_tets, 4) nodes; the first is the cell centre."""
     neighbours: Ints
     """(n_tets, 4): the tetrahedron across the face opposite each vertex; −1 − b for boundary triangle b."""
     cell_start: Ints
@@ -34,7 +34,7 @@ class MeshArrays(NamedTuple):
     tree_boxes: Floats
     """(2 n_leaves, 6): lower and upper corners; node i has children 2i and 2i + 1, the root is 1."""
     tree_cells: Ints
-    """(n_leaves, leaf size) cells, −1 where there is none."""
+    """(n_leaves, leaf size) cells, −1 for none."""
     triangles: Ints
     """(n_triangles, 3) nodes of the boundary triangles, then of images of walls beyond coupled patches."""
     triangle_patch: Ints
@@ -44,72 +44,51 @@ class MeshArrays(NamedTuple):
     triangle_tet: Ints
     """(n_boundary_triangles,) the tetrahedron inside."""
     across: Ints
-    """(n_boundary_triangles, 2): where a patch is coupled, first and last + 1 of ``partners`` across."""
+    """(n_boundary_triangles, 2): on coupled patches, first and last + 1 of the ``partners`` across."""
     partners: Ints
     """Boundary triangles across coupled patches."""
     motions: Floats
     """(n_patches, 12): rotation row by row and shift from each coupled patch to its neighbour."""
     folds: NDArray[np.uint8]
-    """(n_cells,): which cells are ``SOUND``, ``FLAT`` or ``FOLDED``; see :mod:`foamprb.flow.mesh.folds`."""
+    """(n_cells,): ``SOUND``, ``FLAT`` or ``FOLDED``; see :mod:`foamprb.flow.mesh.folds`."""
     rim_start: Ints
     """(n_cells + 1,) into ``rim``."""
     rim: Ints
-    """The boundary triangles whose boxes meet that of a folded cell, cell by cell."""
+    """Boundary triangles whose boxes meet the box of a folded cell, cell by cell."""
     near_start: Ints
     """(n_cells + 1,) into ``near``."""
     near: Ints
-    """The wall triangles that a particle with its centre in the cell might touch: one of each plane first,
-    then −1 − those of which the plane is there already; or, if they are many, −1 − one of them alone, from
-    which the tree is searched."""
+    """Wall triangles that a particle with its centre in the cell might touch: first one of each plane, then
+    −1 − the others in these planes. If they are many, only −1 − one triangle, from which the tree is
+    searched."""
     wall_boxes: Floats
-    """As ``tree_boxes``, of a tree over all wall triangles that a particle might touch."""
+    """Boxes of a tree over all wall triangles that a particle might touch; see ``tree_boxes``."""
     wall_leaves: Ints
-    """(n_leaves, leaf size) wall triangles, −1 where there is none."""
+    """(n_leaves, leaf size) wall triangles, −1 for none."""
     seen_start: Ints
     """(n_cells + 1,) into ``seen``."""
     seen: Ints
-    """The triangles that may be walls in the sense of :mod:`foamprb.flow.planes` for places in the cell, each
-    as 2 × triangle + 1 if an edge of it may be the nearest wall, else + 0."""
+    """Triangles that may be walls of :mod:`foamprb.flow.planes` for points in the cell, each as
+    2 × triangle, + 1 if an edge of it may be the nearest wall."""
     turbulence: Floats
-    """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); without rows if nobody asked for them."""
+    """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); no rows if they were not read."""
+
+
+_WIDTHS = {
+    "nodes": 16, "turbulence": 8, "motions": 12, "tree_boxes": 6, "wall_boxes": 6, "triangle_normals": 3,
+    "tets": 4, "neighbours": 4, "triangles": 3, "across": 2, "tree_cells": 1, "wall_leaves": 1,
+}  # fmt: skip
+"""Columns of the tables; all other arrays have one dimension."""
 
 
 def no_mesh() -> MeshArrays:
-    """The arrays of a mesh without cells, for which the kernels can be compiled."""
-    none = np.empty(0, dtype=np.int32)
-
-    def floats(k: int) -> Floats:
-        return np.empty((0, k))
-
-    def ints(k: int) -> Ints:
-        return np.empty((0, k), dtype=np.int32)
-
-    return MeshArrays(
-        nodes=floats(16),
-        n_points=0,
-        tets=ints(4),
-        neighbours=ints(4),
-        cell_start=none,
-        tree_boxes=floats(6),
-        tree_cells=ints(1),
-        triangles=ints(3),
-        triangle_patch=none,
-        triangle_normals=floats(3),
-        triangle_tet=none,
-        across=ints(2),
-        partners=none,
-        motions=floats(12),
-        folds=np.empty(0, dtype=np.uint8),
-        rim_start=none,
-        rim=none,
-        near_start=none,
-        near=none,
-        turbulence=floats(8),
-        wall_boxes=floats(6),
-        wall_leaves=ints(1),
-        seen_start=none,
-        seen=none,
-    )
+    """Return the arrays of a mesh without cells, for which the kernels can be compiled."""
+    types = {"Floats": np.float64, "Ints": np.int32}
+    empty: dict[str, Any] = {
+        name: np.empty((0, _WIDTHS[name]) if name in _WIDTHS else 0, dtype=types.get(kind, np.uint8))
+        for name, kind in MeshArrays.__annotations__.items()
+    }
+    return MeshArrays(**empty | {"n_points": 0})
 
 
 def point(table: Floats, i: int) -> Vector:
@@ -123,13 +102,13 @@ def arm(table: Floats, i: int, x: Vector) -> Vector:
 
 
 def nodes_of(flow: MeshArrays, tet: int) -> tuple[Any, Any, Any, Any]:
-    """Rows of the nodes of a tetrahedron; unsigned, so that none is asked whether it counts from the end."""
+    """Return the rows of the nodes of a tetrahedron; unsigned, which avoids a check for negative indices."""
     tets, row = flow.tets, np.uint64(tet)
     return np.uint32(tets[row, 0]), np.uint32(tets[row, 1]), np.uint32(tets[row, 2]), np.uint32(tets[row, 3])
 
 
 def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, float]:
-    """Origin, the three cofactor vectors and six times the signed volume of a tetrahedron.
+    """Return origin, three cofactor vectors and six times the signed volume of a tetrahedron.
 
     With r = x − origin, the barycentric weights of vertices 1, 2, 3 at x are r·c_k over that volume.
     """
@@ -148,7 +127,7 @@ def frame(flow: MeshArrays, tet: int) -> tuple[Vector, Vector, Vector, Vector, f
 def weights(
     origin: Vector, c1: Vector, c2: Vector, c3: Vector, volume: float, x: Vector
 ) -> tuple[float, float, float, float]:
-    """Barycentric weights at x times ``volume``, from what :func:`frame` gives."""
+    """Return the barycentric weights at x times ``volume``, from the results of :func:`frame`."""
     rx, ry, rz = x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]
     w1 = rx * c1[0] + ry * c1[1] + rz * c1[2]
     w2 = rx * c2[0] + ry * c2[1] + rz * c2[2]

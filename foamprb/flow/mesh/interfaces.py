@@ -1,19 +1,48 @@
-"""Triangles of a cyclicAMI patch, and those of its neighbour on which each may go on."""
+"""Triangles of coupled patches, and the triangles of the neighbours on which particles continue."""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.spatial import KDTree
 
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.coupling import Coupling
 from foamprb.flow.mesh.lists import Index, starts
 from foamprb.flow.mesh.mesh import Mesh
 
-__all__ = ["overlaps"]
-
-# Of a triangle's radius: surfaces cut differently lie a little apart.
+# Factor of a triangle's radius: surfaces that are cut differently lie a little apart.
 _MARGIN = 1.1
+
+
+def triangles_across(mesh: Mesh) -> tuple[Ints, Ints]:
+    """Return ``across`` and ``partners`` of :class:`foamprb.flow.mesh.arrays.MeshArrays`."""
+    count = np.bincount(mesh.triangle_face, minlength=len(mesh.boundary_centres))
+    start = np.concatenate([[0], np.cumsum(count)])
+    partner = np.full(len(mesh.boundary_centres), -1)
+    for coupling in mesh.couplings:
+        partner[coupling.faces] = coupling.partners
+    other = partner[mesh.triangle_face]
+    # The triangles of a face are consecutive.
+    across = np.stack([start[other], start[other + 1]], axis=1)
+    across[other < 0] = 0
+    partners = [np.arange(len(mesh.triangle_face))]
+    first = len(partners[0])
+    for coupling in mesh.couplings:
+        if not coupling.matching:
+            own, begin, lists = overlaps(mesh, coupling)
+            across[own] = first + np.stack([begin[:-1], begin[1:]], axis=1)
+            partners.append(lists)
+            first += len(lists)
+    return across.astype(np.int32), np.concatenate(partners).astype(np.int32)
+
+
+def motions_of_patches(mesh: Mesh) -> Floats:
+    """Return ``motions`` of :class:`foamprb.flow.mesh.arrays.MeshArrays`."""
+    motions = np.zeros((len(mesh.patches), 12))
+    motions[:, [0, 4, 8]] = 1.0
+    for coupling in mesh.couplings:
+        motions[coupling.patch] = [*coupling.turn.ravel(), *coupling.shift]
+    return motions
 
 
 def overlaps(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Index]:
@@ -22,15 +51,15 @@ def overlaps(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Index]:
     Returns
     -------
     triangles, start, others
-        The triangles (n,) of the first patch; where the list of each begins in ``others``, (n + 1,). A list
-        holds all triangles whose circles about their middle reach that of the first, and the nearest one.
+        Triangles (n,) of the first patch; start (n + 1,) of the list of each in ``others``. A list holds the
+        triangles whose circles about their middles meet the circle of the first, and the nearest one.
     """
     here = np.flatnonzero(mesh.triangle_patch == coupling.patch)
     there = np.flatnonzero(mesh.triangle_patch == coupling.other)
     middle, radius = _circles(mesh.points[mesh.triangles[here]] @ coupling.turn.T + coupling.shift)
     others, reach = _circles(mesh.points[mesh.triangles[there]])
     tree = KDTree(others)
-    # Small triangles need not be asked for the sake of a large one elsewhere: by halves of the radius.
+    # Sizes are searched octave by octave, so that one large triangle does not widen the search for all.
     octave = np.floor(np.log2(np.maximum(reach, 1e-300))).astype(int)
     rows, columns = [np.arange(len(here))], [np.asarray(tree.query(middle)[1])]
     for size in np.unique(octave):
@@ -46,6 +75,6 @@ def overlaps(mesh: Mesh, coupling: Coupling) -> tuple[Index, Index, Index]:
 
 
 def _circles(corners: Floats) -> tuple[Floats, Floats]:
-    """Middles (n, 3) of triangles (n, 3, 3), and the distances of their farthest corners."""
+    """Return the middles (n, 3) of triangles (n, 3, 3), and the distances of their farthest corners."""
     middle = corners.mean(axis=1)
     return middle, np.linalg.norm(corners - middle[:, None], axis=2).max(axis=1)

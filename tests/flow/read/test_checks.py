@@ -168,7 +168,7 @@ def test_empty_patches_across_no_coordinate_are_refused(bend, lean, tmp_path):
 
 @pytest.mark.parametrize(("lift", "refused"), [(0.0, False), (1e-7, False), (1e-5, True)])
 def test_however_exact_its_coordinates_a_plane_may_turn_by_a_millionth(lift, refused, tmp_path, monkeypatch):
-    monkeypatch.setattr("foamprb.flow.read.patch_shapes._SINGLE", 0.0)
+    monkeypatch.setattr("foamprb.flow.read.checks._SINGLE", 0.0)
     mesh = plate(3, types=("symmetryPlane", "wall", "wall"))
     mesh.boundary_areas[2, 0] += lift * np.linalg.norm(mesh.boundary_areas[2])
     if refused:

@@ -97,7 +97,7 @@ def test_values_on_surface_cells_name_the_patches():
 
 @pytest.mark.parametrize("values", [[0.5, 1.0, 2.0], [[1, 2], [3, 4], [5, 6]]])
 def test_an_array_of_other_than_whole_numbers_is_refused(values):
-    with pytest.raises(InputError, match="cell array part is not one of whole numbers, one for each cell"):
+    with pytest.raises(InputError, match="cell array part is not an array of integers, one for each cell"):
         by_array(values)
 
 

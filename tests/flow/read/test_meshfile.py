@@ -281,7 +281,7 @@ def test_patches_by_an_array_on_surface_cells(tmp_path):
     assert len(flow.patch_faces("boundary", 0.0).areas) == 32
     with pytest.raises(InputError, match=r"no cell array CellEntityId\. Did you mean 'CellEntityIds'"):
         read_mesh_file(tmp_path / "flow.vtu", division=Division(array="CellEntityId"))
-    with pytest.raises(InputError, match="cell array U is not one of whole numbers"):
+    with pytest.raises(InputError, match="cell array U is not an array of integers"):
         read_mesh_file(tmp_path / "flow.vtu", division=Division(array="U"))
 
 

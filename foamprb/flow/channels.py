@@ -1,4 +1,4 @@
-"""Flow along x in a circular pipe, steady or pulsating: the functions that a particle loop calls."""
+"""Kernels of flows in closed form along x: in a circular pipe, steady or pulsating, and over plane walls."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ class PipeArrays(NamedTuple):
 
 
 _WALL, _INLET, _OUTLET, _NOWHERE = 0, 1, 2, -1
+_ZERO = (0.0, 0.0, 0.0)
 
 
 def sample_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """u = 2 U (1 − r²/a²), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
+    """Return u = 2 U (1 − r²/a²), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
     k = 2.0 * flow.mean_velocity / (flow.radius * flow.radius)
     r2 = x[1] * x[1] + x[2] * x[2]
     u = (2.0 * flow.mean_velocity - k * r2, 0.0, 0.0)
     l = (0.0, -2.0 * k * x[1], -2.0 * k * x[2], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    return u, l, (0.0, 0.0, 0.0)
+    return u, l, _ZERO
 
 
 def curvature_pipe(flow: PipeArrays, host: int, x: Vector, t: float) -> Curvature:
-    """Second derivatives, 1/(m s)."""
-    nothing = (0.0, 0.0, 0.0)
+    """Return the second derivatives, 1/(m s)."""
     across = (-4.0 * flow.mean_velocity / (flow.radius * flow.radius), 0.0, 0.0)
-    return nothing, across, across, nothing, nothing, nothing
+    return _ZERO, across, across, _ZERO, _ZERO, _ZERO
 
 
 class WomersleyArrays(NamedTuple):
@@ -48,7 +48,7 @@ class WomersleyArrays(NamedTuple):
     mean_velocity: float
     length: float
     amplitude: float
-    """Of −(∂p/∂x)/ρ over ω, m/s."""
+    """Amplitude of −(∂p/∂x)/ρ over ω, m/s."""
     omega: float
     """1/s."""
     phase: float
@@ -58,7 +58,7 @@ class WomersleyArrays(NamedTuple):
 
 
 def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
+    """Return velocity, m/s, its gradient, 1/s, and ∂u/∂t, m/s²."""
     scale = 1.0 / (flow.radius * flow.radius)
     s = scale * (x[1] * x[1] + x[2] * x[2])
     f, g, df, dg = 0.0 * s, 0.0 * s, 0.0 * s, 0.0 * s
@@ -75,7 +75,7 @@ def sample_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> t
 
 
 def curvature_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -> Curvature:
-    """Second derivatives, 1/(m s): u_yy = 2 u′/a² + 4 y² u″/a⁴ with u′, u″ by s = r²/a², and so on."""
+    """Return the second derivatives, 1/(m s): u_yy = 2 u′/a² + 4 y² u″/a⁴ with u′, u″ by s = r²/a², etc."""
     scale = 1.0 / (flow.radius * flow.radius)
     s = scale * (x[1] * x[1] + x[2] * x[2])
     a = flow.omega * t + flow.phase
@@ -86,13 +86,12 @@ def curvature_womersley(flow: WomersleyArrays, host: int, x: Vector, t: float) -
         f = f * s + flow.real[k] * sine + flow.imaginary[k] * cosine
     first = 2.0 * scale * (flow.amplitude * df - 2.0 * flow.mean_velocity)
     second = 4.0 * scale * scale * flow.amplitude * ddf
-    nothing = (0.0, 0.0, 0.0)
     yy, zz = (first + second * x[1] * x[1], 0.0, 0.0), (first + second * x[2] * x[2], 0.0, 0.0)
-    return nothing, yy, zz, nothing, (second * x[1] * x[2], 0.0, 0.0), nothing
+    return _ZERO, yy, zz, _ZERO, (second * x[1] * x[2], 0.0, 0.0), _ZERO
 
 
 def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Where the segment from x0 to x1 first leaves the pipe."""
+    """Return where the segment from x0 to x1 first leaves the pipe."""
     fraction, patch = 1.0, _NOWHERE
     dx, dy, dz = x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]
     if x1[0] < 0.0:
@@ -112,14 +111,14 @@ def walk_pipe(flow: PipeArrays, host: int, x0: Vector, x1: Vector) -> tuple[int,
 
 
 def gap_pipe(flow: PipeArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
-    """Clearance between the ellipsoid and the wall's tangent plane, m."""
+    """Return the clearance between the ellipsoid and the wall's tangent plane, m."""
     n = normal_pipe(flow, _WALL, x)
     r = math.sqrt(x[1] * x[1] + x[2] * x[2])
     return flow.radius - r - reach(R, F, n), _WALL, _WALL
 
 
 def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
-    """Unit normal into the fluid, of the wall or of an end."""
+    """Return the unit normal into the fluid, of the wall or of an end."""
     if triangle == _INLET:
         return 1.0, 0.0, 0.0
     if triangle == _OUTLET:
@@ -129,7 +128,7 @@ def normal_pipe(flow: PipeArrays, triangle: int, x: Vector) -> Vector:
 
 
 def planes_of_pipe(flow: PipeArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
-    """The wall of a pipe where it is nearest, and opposite."""
+    """Return the wall of a pipe at its nearest point and at the opposite one."""
     if chosen[0] == 0:
         return NO_PLANES
     n = normal_pipe(flow, 0, x)
@@ -138,5 +137,63 @@ def planes_of_pipe(flow: PipeArrays, host: int, x: Vector, cut: float, chosen: N
     return Planes(
         near if near < cut else math.inf, n,
         far if far < cut else math.inf, (-n[0], -n[1], -n[2]),
-        math.inf, (0.0, 0.0, 0.0),
+        math.inf, _ZERO,
+    )  # fmt: skip
+
+
+class SlitArrays(NamedTuple):
+    """Flow along x over the wall z = 0, below another at z = height."""
+
+    height: float
+    """m; infinite for shear over one wall."""
+    shear_rate: float
+    """Shear rate at the lower wall, 1/s."""
+
+
+_LOWER, _UPPER = 0, 1
+_UP, _DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
+
+
+def sample_slit(flow: SlitArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+    """Return u = γ̇ z (1 − z/H), m/s, its gradient, 1/s, and ∂u/∂t = 0, m/s²."""
+    s = x[2] / flow.height
+    u = (flow.shear_rate * x[2] * (1.0 - s), 0.0, 0.0)
+    l = (0.0, 0.0, flow.shear_rate * (1.0 - 2.0 * s), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    return u, l, _ZERO
+
+
+def curvature_slit(flow: SlitArrays, host: int, x: Vector, t: float) -> Curvature:
+    """Return the second derivatives, 1/(m s)."""
+    zz = (-2.0 * flow.shear_rate / flow.height, 0.0, 0.0)
+    return _ZERO, _ZERO, zz, _ZERO, _ZERO, _ZERO
+
+
+def walk_slit(flow: SlitArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+    """Return where the segment from x0 to x1 meets a wall."""
+    if x1[2] < 0.0:
+        return host, max(x0[2] / (x0[2] - x1[2]), 0.0), _LOWER, _LOWER
+    if x1[2] > flow.height:
+        return host, max((flow.height - x0[2]) / (x1[2] - x0[2]), 0.0), _UPPER, _UPPER
+    return host, 1.0, _NOWHERE, _NOWHERE
+
+
+def gap_slit(flow: SlitArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
+    """Return the clearance between the ellipsoid and the nearer wall, m."""
+    upper = flow.height - x[2] < x[2]
+    patch = _UPPER if upper else _LOWER
+    return min(x[2], flow.height - x[2]) - reach(R, F, _UP), patch, patch
+
+
+def normal_slit(flow: SlitArrays, triangle: int, x: Vector) -> Vector:
+    """Return the unit normal of a wall into the fluid."""
+    return _DOWN if triangle == _UPPER else _UP
+
+
+def planes_of_slit(flow: SlitArrays, host: int, x: Vector, cut: float, chosen: NDArray[np.int8]) -> Planes:
+    """Return the walls that are chosen and nearer than ``cut`` (m)."""
+    low, high = x[2], flow.height - x[2]
+    return Planes(
+        low if low < cut and chosen[_LOWER] > 0 else math.inf, _UP,
+        high if high < cut and chosen[_UPPER] > 0 else math.inf, _DOWN,
+        math.inf, _ZERO,
     )  # fmt: skip
