@@ -13,7 +13,7 @@ from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
-from foamprb.flow.mesh.folds import FOLDED, grade, is_there, nearby, trace
+from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
@@ -39,7 +39,7 @@ from foamprb.flow.walls import Walls, gap, images_of_walls, nearest_in_tree, nea
 LONG: tuple[Callable[..., Any], ...] = (
     follow,
     trace,
-    is_there,
+    is_in_mesh,
     nearby,
     nearest_wall,
     nearest_in_tree,

@@ -1,7 +1,7 @@
-"""Compiled functions that move a particle through a mesh and give it u and ∇u.
+"""Kernels that move a particle through a mesh and interpolate u and ∇u.
 
-A particle knows its host, the tetrahedron that holds its centre. A step follows the straight segment from the
-old place to the new one through the faces that it crosses, so that location costs a few operations and a wall
+The host of a particle is the tetrahedron that holds its centre. A step follows the straight segment from the
+old point to the new one through the faces that it crosses, so that location costs a few operations and a wall
 is met exactly where it is crossed.
 """
 
@@ -23,12 +23,12 @@ FAILED = -2
 NO_TRIANGLE = _NO_TET = -1
 
 _MOST_CROSSINGS = 20_000
-# Crossings without progress, as around an edge or a vertex, after which the start is nudged.
+# Crossings without progress (around an edge or a vertex) after which the start is moved.
 _MOST_STALLS = 200
 _ATTEMPTS = 4
-# Smaller weights than this, negative, are no round-off.
+# More negative weights are not round-off.
 _APART = 1e-6
-# A point off the middle of a tetrahedron and of its faces.
+# Weights of a point inside a tetrahedron, off its middle and the middles of its faces.
 _INSIDE = (0.1, 0.2, 0.3, 0.4)
 STEADY: Vector = (0.0, 0.0, 0.0)
 """∂u/∂t of a steady flow, m/s²."""
@@ -38,7 +38,7 @@ Weights: TypeAlias = tuple[float, float, float, float]
 
 
 def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
-    """Velocity u (m/s) and its gradient l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
+    """Return u (m/s) and l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
 
     The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
     """
@@ -53,10 +53,10 @@ def sample_ahead(
     x1: Vector,
     t: float,  # noqa: ARG001
 ) -> tuple[int, float, Vector, Tensor, Vector]:
-    """The last tetrahedron on a way from x0 in ``host`` to x1, and :func:`sample` at x1 as that has it.
+    """Return the last tetrahedron on the path from x0 in ``host`` to x1, and :func:`sample` at x1 in it.
 
-    Mostly it is ``host``, and what says so are the shares of its nodes. The second result says how far from
-    x1, m, a place may be along each axis that it certainly holds too, if that is more than 0.
+    Usually it is ``host``, as the weights of its nodes show. The second result is the distance from x1, m,
+    along each axis within which a point certainly lies in the tetrahedron, if more than 0.
     """
     last, sound = host, is_sound(flow, host)
     origin, c1, c2, c3, volume = frame(flow, host)
@@ -71,7 +71,7 @@ def sample_ahead(
         least = min(w0, w1, w2, w3)
     s = 1.0 / volume
     u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), (s * w0, s * w1, s * w2, s * w3))
-    # A weight changes by its cofactors, that of the origin by the three others'.
+    # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
     return last, room, u, l, STEADY
 
@@ -81,14 +81,14 @@ def _components(v: Vector) -> Any:
 
 
 def turbulence(flow: MeshArrays, host: int, x: Vector, t: float) -> Turbulence:  # noqa: ARG001
-    """k, ε, ∇k and ∇(k²/3ε) at x, linear in the tetrahedron ``host``; zeros if they were not read."""
+    """Return k, ε, ∇k and ∇(k²/3ε) at x, linear in the tetrahedron ``host``; zeros if they were not read."""
     if flow.turbulence.shape[0] == 0:
         return 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     return blend_turbulence(flow.turbulence, 0, corners(flow, host, 0), shape(flow, host, x))
 
 
 def blend_turbulence(f: Floats, k: int, nodes: Corners, w: Weights) -> Turbulence:
-    """k, ε, ∇k and ∇(k²/3ε) from a table with a row for each node, in which they begin at column k."""
+    """Return k, ε, ∇k and ∇(k²/3ε) from a table with a row for each node, from column k on."""
     return (
         blend(f, k, nodes, w),
         blend(f, k + 1, nodes, w),
@@ -98,13 +98,13 @@ def blend_turbulence(f: Floats, k: int, nodes: Corners, w: Weights) -> Turbulenc
 
 
 def corners(flow: MeshArrays, host: int, first: int) -> Corners:
-    """Rows of the nodes of a tetrahedron in a table where node 0 has the row ``first``."""
+    """Return the rows of the nodes of a tetrahedron in a table where node 0 has the row ``first``."""
     a, b, c, d = nodes_of(flow, host)
     return first + a, first + b, first + c, first + d
 
 
 def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
-    """Shares of the four nodes of a tetrahedron in the value at x."""
+    """Return the barycentric weights of a tetrahedron at x."""
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     s = 1.0 / volume
@@ -112,7 +112,7 @@ def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
 
 
 def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, Tensor]:
-    """Velocity and gradient from a table with a row for each node, in which they begin at column k."""
+    """Return velocity and gradient from a table with a row for each node, from column k on."""
     u = blend(f, k, nodes, w), blend(f, k + 1, nodes, w), blend(f, k + 2, nodes, w)
     l = (
         blend(f, k + 3, nodes, w), blend(f, k + 4, nodes, w), blend(f, k + 5, nodes, w),
@@ -123,14 +123,14 @@ def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, 
 
 
 def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
-    """Second derivatives of the velocity, 1/(m s): how its gradient changes in the tetrahedron ``host``."""
+    """Return the second derivatives of the velocity in the tetrahedron ``host``, 1/(m s)."""
     return curvature_in(flow, host, flow.nodes, 6, 0)
 
 
 def curvature_in(flow: MeshArrays, host: int, f: Floats, k: int, first: int) -> Curvature:
-    """Second derivatives from a table with a row for each node, from row ``first`` on.
+    """Return second derivatives from a table with a row for each node, from row ``first`` on.
 
-    The gradient, which begins at column k, is linear in a tetrahedron; its derivatives are constant there.
+    The gradient, from column k on, is linear in a tetrahedron; its derivatives are constant there.
     """
     _, c1, c2, c3, volume = frame(flow, host)
     nodes = corners(flow, host, first)
@@ -143,7 +143,7 @@ def curvature_in(flow: MeshArrays, host: int, f: Floats, k: int, first: int) -> 
 
 
 def _slopes(f: Floats, k: int, nodes: Corners, w: Vector) -> Tensor:
-    """Derivative along an axis of nine columns from k on, by the derivatives of the weights 1, 2 and 3."""
+    """Return the derivative of nine columns from k on along an axis; ``w`` derives the weights 1, 2 and 3."""
     return (
         _slope(f, k, nodes, w), _slope(f, k + 1, nodes, w), _slope(f, k + 2, nodes, w),
         _slope(f, k + 3, nodes, w), _slope(f, k + 4, nodes, w), _slope(f, k + 5, nodes, w),
@@ -158,7 +158,7 @@ def _slope(f: Floats, k: int, nodes: Corners, w: Vector) -> float:
 
 
 def blend(f: Floats, k: int, nodes: Corners, w: Weights) -> float:
-    """Column k of a table, interpolated between four of its rows."""
+    """Interpolate column k of a table between four of its rows."""
     a, b, c, d = nodes
     return w[0] * f[a, k] + w[1] * f[b, k] + w[2] * f[c, k] + w[3] * f[d, k]  # type: ignore[no-any-return]
 
@@ -176,9 +176,9 @@ def walk(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, floa
 
 
 def walk_on(flow: MeshArrays, host: int, ahead: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """:func:`walk`, where a way from x0 to a place near x1 led to the tetrahedron ``ahead``.
+    """Walk with a hint: an earlier path from x0 to a point near x1 ended in the tetrahedron ``ahead``.
 
-    If that one holds x1 the way to it is not followed again.
+    If that holds x1, the path is not followed again; see :func:`walk`.
     """
     return _look_and_follow(flow, host, ahead, x0, x1)
 
@@ -192,28 +192,28 @@ def _look_and_follow(
 
 
 def holds(flow: MeshArrays, tet: int, x: Vector) -> bool:
-    """Whether a sound tetrahedron holds x, to round-off."""
+    """Return True if a sound tetrahedron holds x, to round-off."""
     origin, c1, c2, c3, volume = frame(flow, tet)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x)
     return min(w0, w1, w2, w3) >= -TOLERANCE * volume
 
 
 def is_sound(flow: MeshArrays, tet: int) -> bool:
-    """Whether the cell of a tetrahedron is one that paths may take as it is."""
+    """Return True if the cell of a tetrahedron is neither flat nor folded."""
     return flow.folds[flow.tets[tet, 0] - flow.n_points] == SOUND  # type: ignore[no-any-return]
 
 
 def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
     """Follow the segment from x0, in the tetrahedron ``host``, to x1, through the faces on its way.
 
-    A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which
-    does not drift however many faces are crossed. A path that circles about an edge or a vertex is begun anew
-    from a start moved towards the middle of the host by 1e-8 of its size, then by more. One that comes into a
-    cell that is flat or folded is left to :func:`foamprb.flow.mesh.folds.trace`.
+    A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which does
+    not drift with the number of crossings. A path that circles about an edge or a vertex starts again from a
+    point moved towards the middle of the host by 1e-8 of its size, then by more. A path that enters a flat or
+    folded cell is computed by :func:`foamprb.flow.mesh.folds.trace`.
 
     Returns
     -------
-    As :func:`walk`.
+    See :func:`walk`.
     """
     neighbours = flow.neighbours
     if not is_sound(flow, host):
@@ -240,7 +240,7 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
                 if other >= 0 and other == came_from:
                     continue
                 s = w0 / (w0 - w1)
-                # Where a path touches the rim of a wall, the way inside is preferred.
+                # At the rim of a wall the path inside is preferred.
                 rank = s + (0.0 if other >= 0 else TOLERANCE)
                 if rank < first:
                     face, fraction, first = k, s, rank
@@ -262,7 +262,7 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
 
 
 def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """:func:`foamprb.flow.mesh.folds.trace`, from another tetrahedron that holds x0 if it fails."""
+    """Run :func:`foamprb.flow.mesh.folds.trace`, and again from another tetrahedron at x0 if it fails."""
     found, fraction, patch, triangle = trace(flow, host, x0, x1)
     if patch == FAILED:
         other = seek(flow, x0, minus(x1, x0))
@@ -272,12 +272,12 @@ def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[in
 
 
 def recover(flow: MeshArrays, x: Vector) -> int:
-    """Ask the tree for the tetrahedron that holds x; −1 when x lies outside the mesh."""
+    """Return the tetrahedron that holds x, found by the tree; −1 if x lies outside the mesh."""
     return locate(flow, x)
 
 
 def cell_volume(flow: MeshArrays, host: int) -> float:
-    """Volume of the cell to which a tetrahedron belongs, of which the faces are made of triangles, m³."""
+    """Return the volume of the cell of a tetrahedron, bounded by triangles, m³."""
     cell = flow.tets[host, 0] - flow.n_points
     volume = 0.0
     for tet in range(flow.cell_start[cell], flow.cell_start[cell + 1]):
@@ -286,12 +286,12 @@ def cell_volume(flow: MeshArrays, host: int) -> float:
 
 
 def normal(flow: MeshArrays, triangle: int, x: Vector) -> Vector:  # noqa: ARG001
-    """Unit normal of a boundary triangle, pointing into the mesh; it is flat, so x does not matter."""
+    """Return the unit normal of a boundary triangle, pointing into the mesh, the same at every x."""
     return inward(flow, triangle)
 
 
 def inward(flow: MeshArrays, triangle: int) -> Vector:
-    """Unit normal of a boundary triangle, pointing into the mesh."""
+    """Return the unit normal of a boundary triangle, pointing into the mesh."""
     return point(flow.triangle_normals, triangle)
 
 
@@ -301,8 +301,8 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
     Returns
     -------
     host, x, turn
-        The tetrahedron behind the neighbouring face, −1 if the patch is coupled to none; the place, which
-        lies in it to round-off however well the two sides fit; the rotation from this side to that.
+        The tetrahedron behind the neighbouring face, −1 if the patch is not coupled; the point, which lies in
+        it to round-off even if the two sides do not match; the rotation from this side to the other.
     """
     first, end = flow.across[triangle, 0], flow.across[triangle, 1]
     m, k = flow.motions, flow.triangle_patch[triangle]
@@ -318,7 +318,7 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
             if smallest > depth:
                 host, depth = tet, smallest
     if depth < -_APART:
-        # Surfaces that are cut differently lie apart by what is between their chords.
+        # Surfaces that are cut into different faces lie apart by the difference of their chords.
         host, y = _landed(flow, first, end, y)
     elif host >= 0 and depth < 0.0:
         origin, c1, c2, c3, volume = frame(flow, host)
@@ -331,13 +331,13 @@ def cross(flow: MeshArrays, triangle: int, x: Vector) -> tuple[int, Vector, Tens
 
 
 def _blend3(flow: MeshArrays, tet: int, w: Weights) -> Vector:
-    """The point of a tetrahedron that has these weights."""
+    """Return the point of a tetrahedron with these weights."""
     nodes, at = flow.nodes, corners(flow, tet, 0)
     return blend(nodes, 0, at, w), blend(nodes, 1, at, w), blend(nodes, 2, at, w)
 
 
 def _landed(flow: MeshArrays, first: int, end: int, y: Vector) -> tuple[int, Vector]:
-    """The nearest point to y of triangles across, and the tetrahedron behind it."""
+    """Return the nearest point to y on triangles across, and the tetrahedron behind it."""
     host, best, least, nodes = _NO_TET, y, np.inf, flow.nodes
     for place in range(first, end):
         triangle = int(flow.partners[place])
@@ -350,7 +350,7 @@ def _landed(flow: MeshArrays, first: int, end: int, y: Vector) -> tuple[int, Vec
 
 
 def nearest_point(a: Vector, b: Vector, c: Vector) -> Vector:
-    """Point of the triangle a, b, c nearest to the origin (Ericson, Real-Time Collision Detection, 5.1.5)."""
+    """Return the point of a triangle nearest to the origin (Ericson, Real-Time Collision Detection, 2005)."""
     ab, ac = minus(b, a), minus(c, a)
     d1, d2 = -inner(ab, a), -inner(ac, a)
     d3, d4 = -inner(ab, b), -inner(ac, b)

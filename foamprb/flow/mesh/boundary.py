@@ -1,4 +1,7 @@
-"""Which patch each face of the boundary belongs to."""
+"""Patches of the boundary faces, and baffles: walls without thickness inside the mesh.
+
+A baffle is a face between two cells that belongs to a patch on either side.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +10,23 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Patch
+from foamprb.flow.base import Floats, Ints, Patch
+from foamprb.flow.mesh.cells import HalfFaces
 from foamprb.flow.mesh.geometry import Faces
-from foamprb.flow.mesh.lists import Index, cell_array, points_of, starts, take_lists
+from foamprb.flow.mesh.lists import Index, Mask, cell_array, points_of, starts, take_lists
 
 _Hash: TypeAlias = NDArray[np.uint64]
 
 
 class Transform(NamedTuple):
-    """What ``polyMesh/boundary`` says of the way from a cyclicAMI patch to its neighbour."""
+    """Motion from a cyclicAMI patch to its neighbour, as ``polyMesh/boundary`` states it."""
 
     kind: str = ""
-    """``translational`` or ``rotational``; else the two patches lie in the same place."""
+    """``translational`` or ``rotational``; otherwise the two patches coincide."""
     separation: tuple[float, float, float] | None = None
     """m."""
     axis: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -31,18 +37,18 @@ class Transform(NamedTuple):
 
 
 class PatchSurface(NamedTuple):
-    """A patch with its faces, ``surface`` a ``vtkPolyData`` with points of its own."""
+    """Patch with its faces; ``surface`` is a ``vtkPolyData`` with its own points."""
 
     name: str
     type: str
     surface: Any
     neighbour: str = ""
-    """The patch that a cyclic patch leads to."""
+    """Neighbour of a cyclic patch."""
     transform: Transform = Transform()
 
 
 def sort_boundary(faces: Faces, order: Index) -> None:
-    """Put the boundary faces in the given order."""
+    """Sort the boundary faces into the given order."""
     n_internal = len(faces.neighbour)
     ends, moved = take_lists(faces.start, faces.points, n_internal + order)
     faces.start[n_internal:] = faces.start[n_internal] + ends
@@ -61,7 +67,7 @@ def assign_patches(
     surfaces: Sequence[PatchSurface] | None,
     source: str,
 ) -> tuple[Index, tuple[Patch, ...], Index]:
-    """Order of the boundary faces by patch; the patches; where each begins."""
+    """Return the order of the boundary faces by patch, the patches, and the first face of each."""
     boundary = np.arange(len(faces.neighbour), len(faces.owner))
     if surfaces is None:
         return np.arange(len(boundary)), (Patch("boundary", "wall"),), np.array([0, len(boundary)])
@@ -69,7 +75,7 @@ def assign_patches(
     polygons = [cell_array(surface.surface.GetPolys()) for surface in surfaces]
     clouds = [points_of(surface.surface).astype(dtype, copy=False) for surface in surfaces]
     used, local = np.unique(lists, return_inverse=True)
-    # A point is known by its coordinates; adding zero makes −0 equal to 0.
+    # Points are identified by their coordinates; adding zero makes −0 equal to 0.
     coordinates = np.concatenate([points[used].astype(dtype), *clouds]) + 0
     place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
     codes = _turning_codes(start, place[local])
@@ -81,7 +87,7 @@ def assign_patches(
         ids = place[first_point + poly_points]
         first_point += len(cloud)
         found = _find(codes, order, _turning_codes(poly_start, ids))
-        # Two patches may lie on the same points (baffles): then only the sense of rotation tells them apart.
+        # Two patches may lie on the same points (baffles) and differ only in the sense of rotation.
         astray = found < 0
         found[astray] = _find(codes, order, _turning_codes(poly_start, ids, reverse=True))[astray]
         if np.any(found < 0):
@@ -116,7 +122,7 @@ def mix(ids: Index) -> _Hash:
 
 
 def _turning_codes(start: Index, lists: Index, reverse: bool = False) -> _Hash:
-    """Hash of each list that does not depend on where it begins, but on which way it turns."""
+    """Return a hash of each list that depends on its sense of rotation, not on its first entry."""
     if len(start) < 2:
         return np.empty(0, dtype=np.uint64)
     following = np.roll(lists, -1)
@@ -126,8 +132,73 @@ def _turning_codes(start: Index, lists: Index, reverse: bool = False) -> _Hash:
 
 
 def _find(codes: _Hash, order: Index, wanted: _Hash) -> Index:
-    """Position of each wanted code, −1 when absent."""
+    """Return the position of each wanted code, −1 if absent."""
     if len(codes) == 0:
         return np.full(len(wanted), -1, dtype=np.intp)
     at = order[np.minimum(np.searchsorted(codes, wanted, sorter=order), len(codes) - 1)]
     return np.where(codes[at] == wanted, at, -1)
+
+
+def find_baffles(
+    points: Floats, dtype: Any, half: HalfFaces, mate: Ints, surfaces: Sequence[PatchSurface] | None
+) -> Mask:
+    """Return True for matched half faces that belong to patches."""
+    inside = mate != np.arange(len(mate), dtype=np.int32)
+    faces = sum(surface.surface.GetNumberOfCells() for surface in surfaces or ())
+    if surfaces is None or faces <= np.count_nonzero(~inside):
+        return np.zeros(len(mate), dtype=bool)
+    polygons = [cell_array(surface.surface.GetPolys()) for surface in surfaces]
+    clouds = [points_of(surface.surface).astype(dtype, copy=False) for surface in surfaces]
+    coordinates = np.concatenate([points.astype(dtype), *clouds]) + 0
+    place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
+    begin, wanted = len(points), []
+    for (start, lists), cloud in zip(polygons, clouds, strict=True):
+        if len(start) > 1:
+            wanted.append(np.add.reduceat(mix(place[begin + lists]), start[:-1]))
+        begin += len(cloud)
+    codes = np.add.reduceat(mix(place[half.points]), half.start[:-1])
+    found: Mask = inside & np.isin(codes, np.concatenate(wanted))
+    return found
+
+
+def part_points(
+    points: Floats, half: HalfFaces, mate: Ints, start: Ints, cell_points: Ints
+) -> tuple[Floats, HalfFaces, Ints]:
+    """Duplicate points of baffles, so that each side has its own unless cells join the sides around a point.
+
+    Cells around a point are joined by the faces between them that hold the point. A point whose cells form
+    several groups is copied for each group except the first.
+    """
+    on_wall = np.zeros(len(points), dtype=bool)
+    sizes, cell_of = np.diff(half.start), half.cells().astype(np.intp)
+    first = np.arange(len(mate))
+    on_wall[take_lists(half.start, half.points, first[mate == first])[1]] = True
+    # A corner is a cell and one of its points on a wall.
+    cells = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    at = np.flatnonzero(on_wall[cell_points])
+    keys = cells[at] * len(points) + cell_points[at]
+    order = np.argsort(keys)
+    keys = keys[order]
+    inside = first[mate > first]
+    owners = np.repeat(cell_of[inside], sizes[inside])
+    others = np.repeat(cell_of[mate[inside]], sizes[inside])
+    shared = take_lists(half.start, half.points, inside)[1]
+    held = on_wall[shared]
+    joined = [
+        np.searchsorted(keys, side[held] * len(points) + shared[held]).astype(np.intp)
+        for side in (owners, others)
+    ]
+    graph = sparse.coo_array((np.ones(len(joined[0]), dtype=np.int8), joined), shape=(len(keys), len(keys)))
+    groups = csgraph.connected_components(graph, directed=False)[1]
+    point = cell_points[at[order]].astype(np.intp)
+    pairs, place = np.unique(np.stack([point, groups]), axis=1, return_inverse=True)
+    copy = np.concatenate([[False], pairs[0, 1:] == pairs[0, :-1]])
+    names = np.where(copy, len(points) + np.cumsum(copy) - 1, pairs[0])
+    named = names[place.reshape(-1)]
+    moved = cell_points.copy()
+    moved[at[order]] = named
+    lists = half.points.copy()
+    on_lists = np.flatnonzero(on_wall[lists])
+    of_half = np.repeat(cell_of, sizes)[on_lists]
+    lists[on_lists] = named[np.searchsorted(keys, of_half * len(points) + lists[on_lists])]
+    return np.concatenate([points, points[pairs[0, copy]]]), half._replace(points=lists), moved

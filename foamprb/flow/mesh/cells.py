@@ -1,4 +1,4 @@
-"""VTK's cells → the faces of each cell, and the pairs of them that are one face between two cells."""
+"""Half faces: the faces of VTK's cells, and the pairs of them that are one face between two cells."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from foamprb.flow.mesh.faces import list_faces, pair_faces
 from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, cell_types, int32
 
 _POLYHEDRON = 42
-# Faces of VTK's cell types by local vertex.
+# Local vertices of the faces of VTK's cell types.
 _CELL_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     10: ((0, 1, 3), (1, 2, 3), (2, 0, 3), (0, 2, 1)),
     12: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
@@ -27,30 +27,30 @@ CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _
 
 
 class HalfFaces(NamedTuple):
-    """The faces of each cell, cell after cell: an interior face appears twice."""
+    """Faces of each cell, cell by cell; an interior face appears twice."""
 
     first: Ints
-    """(n_cells + 1,): the first face of each cell."""
+    """(n_cells + 1,) first face of each cell."""
     start: Ints
     points: Ints
 
     def cells(self) -> Ints:
-        """The cell of each face."""
+        """Return the cell of each face."""
         return np.repeat(np.arange(len(self.first) - 1, dtype=np.int32), np.diff(self.first))
 
 
 def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
-    """List the faces of the cells of a ``vtkUnstructuredGrid``, cell after cell.
+    """List the faces of the cells of a ``vtkUnstructuredGrid``, cell by cell.
 
     Returns
     -------
     half, cell_point_start, cell_points
-        The faces; where each cell's points begin, (n_cells + 1,), and the points.
+        The faces; the start of each cell's points, (n_cells + 1,), and the points.
 
     Raises
     ------
     InputError
-        Cells of a type that cannot be read, lists that name what is not there, or too many of them.
+        Cells of an unknown type, indices out of range, or more cells than 32-bit indices allow.
     """
     types, n_points = cell_types(grid), grid.GetNumberOfPoints()
     unknown = sorted(set(np.flatnonzero(np.bincount(types)).tolist()) - set(CELL_KINDS))
@@ -101,7 +101,7 @@ def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
 
 
 def _shapes() -> Ints:
-    """The faces of VTK's types of cells as :func:`list_faces` reads them."""
+    """Return the faces of VTK's cell types for :func:`list_faces`."""
     shapes = np.zeros((256, 6, 5), dtype=np.int32)
     for number, faces in _CELL_FACES.items():
         for k, face in enumerate(faces):
@@ -110,7 +110,7 @@ def _shapes() -> Ints:
 
 
 def match_half_faces(half: HalfFaces, source: str) -> Ints:
-    """The other half of each interior face; a half without a mate has itself."""
+    """Return the other half of each interior face; boundary faces are their own mates."""
     n = len(half.start) - 1
     head, following, mate = np.full(n, -1, dtype=np.int32), *np.empty((2, n), dtype=np.int32)
     third = link(pair_faces)(half.start, half.points, head, following, mate)

@@ -1,7 +1,7 @@
-"""Coupled patches and wedges: which face continues which, and the motion that carries one onto the other.
+"""Coupled patches and wedges: pairs of faces, and the motion that carries one patch onto the other.
 
-The faces of cyclic patches and of wedges fit one to one. Those of cyclicAMI patches do not: the two surfaces
-lie on each other but are cut differently, and each face goes on in all those of the other that it overlaps.
+The faces of cyclic patches and of wedges match one to one. The surfaces of cyclicAMI patches coincide but are
+cut into different faces: each face continues in all faces of the other patch that it overlaps.
 """
 
 from __future__ import annotations
@@ -22,34 +22,34 @@ from foamprb.flow.mesh.lists import Index
 
 __all__ = ["Coupling", "couple"]
 
-# Of a face's size: how far the image of a face may lie from its partner.
+# Tolerance of the distance of the image of a face from its partner, as a fraction of the face's size.
 _MATCH = 1e-2
-# Below this a rotation is none: coordinates have been single precision.
+# Smaller rotations are round-off of single precision.
 _NO_TURN = 1e-5
-# Of a face's size: how far surfaces cut differently may lie apart, as chords of a circle do.
+# Tolerance of the distance between surfaces cut differently, as a fraction of a face's size.
 _APART = 0.25
-# Share of the area of a cyclicAMI patch that must lie on its neighbour.
+# Fraction of the area of a cyclicAMI patch that must lie on its neighbour.
 _COVERED = 0.95
 
 
 class Coupling(NamedTuple):
-    """Two patches of which the second continues the first: x → turn·x + shift."""
+    """Pair of patches of which the second continues the first: x → turn·x + shift."""
 
     patch: int
     other: int
     faces: Index
     """(n,) boundary faces of the first patch."""
     partners: Index
-    """(n,) the boundary faces of the second that continue them."""
+    """(n,) boundary faces of the second that continue them."""
     turn: Floats
     """(3, 3), a rotation."""
     shift: Floats
     """(3,), m."""
     matching: bool = True
-    """Whether the faces fit one to one; if not, a partner is the face nearest to the middle."""
+    """True if the faces match one to one; otherwise a partner is the face nearest to the middle."""
 
     def reverse(self) -> Coupling:
-        """The way back of faces that fit."""
+        """Return the coupling from the second patch to the first, of matching faces."""
         return Coupling(
             self.other, self.patch, self.partners, self.faces, self.turn.T, -self.turn.T @ self.shift
         )
@@ -65,31 +65,31 @@ def couple(
 ) -> tuple[tuple[Patch, ...], tuple[Coupling, ...]]:
     """Match the faces of coupled patches with those of their neighbours, and of wedges with each other.
 
-    The motion is found from the faces themselves, so that it does not matter how the case describes it; that
-    of cyclicAMI patches is the one stated, of which the sense is found in that way. Cyclic patches match face
-    by face in their order, as OpenFOAM's do; of wedges each face looks for its partner. Wedges and cyclicAMI
-    patches that do not fit each other are left as they are.
+    The motion is computed from the faces, whatever the case states, except for cyclicAMI patches: their
+    motion is stated, and its sense is computed. Cyclic patches match face by face in their order, as in
+    OpenFOAM; faces of wedges match the nearest ones. Wedges and cyclicAMI patches that do not match are left
+    uncoupled.
 
     Parameters
     ----------
     patches, patch_start
-        The patches, and the boundary face at which each begins.
+        The patches, and the first boundary face of each.
     centres, areas
         Centres (n_boundary, 3) and outward area vectors (n_boundary, 3) of the boundary faces, m and m².
     surfaces
-        The patches' faces in the same order, of meshes whose patches have any.
+        The patches' faces in the same order, if the mesh has named patches.
     source
-        What the messages call the mesh.
+        Name of the mesh for messages.
 
     Returns
     -------
     patches, couplings
-        The patches, with the neighbours on which particles go on; the couplings, each with its reverse.
+        The patches with their coupled neighbours; the couplings, each with its reverse.
 
     Raises
     ------
     InputError
-        If a cyclic patch names no neighbour, or the two do not fit.
+        A cyclic patch names no neighbour, or the two do not match.
     """
     named = list(patches)
     names = [patch.name for patch in patches]
@@ -137,7 +137,7 @@ def couple(
 
 
 def _cyclic(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:
-    """The rigid motion of best fit (Kabsch, Acta Cryst. A32, 1976, 922) of centres and normals."""
+    """Return the rigid motion of best fit (Kabsch, Acta Cryst. A32, 1976, 922) of centres and normals."""
     if len(a) != len(b):
         return None
     if len(a) == 0:
@@ -149,7 +149,7 @@ def _cyclic(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) 
     matrix = q.T @ p / spread + n.T @ m
     strength = np.linalg.svd(matrix, compute_uv=False)
     if strength[1] < 1e-9 * strength[0]:
-        # One face, or a row of them seen from the end, leaves a rotation open: the smallest one is meant.
+        # A single face, or a row of them, leaves a rotation undetermined: take the smallest one.
         matrix += 1e-9 * strength[0] * np.eye(3)
     left, _, right = np.linalg.svd(matrix)
     sign = np.sign(np.linalg.det(left @ right))
@@ -168,7 +168,7 @@ def _interface(
     areas: Floats,
     surfaces: Sequence[PatchSurface],
 ) -> list[Coupling]:
-    """Both ways between two cyclicAMI patches; none if one does not lie on the other."""
+    """Return both couplings of two cyclicAMI patches; none if one does not lie on the other."""
     if min(len(f) for f in faces) == 0:
         return []
     turn, shift = _stated_motion(surfaces[pair[0]], *_summed(faces[0], centres, areas),
@@ -205,7 +205,7 @@ def _closest(surface: Any, points: Floats) -> tuple[Index, Floats]:
 
 
 def _summed(faces: Index, centres: Floats, areas: Floats) -> tuple[Floats, Floats]:
-    """Centroid, m, and summed area vector, m², of boundary faces."""
+    """Return the centroid, m, and the summed area vector, m², of boundary faces."""
     area = np.linalg.norm(areas[faces], axis=1)
     centroid: Floats = np.average(centres[faces], axis=0, weights=area)
     total: Floats = areas[faces].sum(axis=0)
@@ -215,7 +215,7 @@ def _summed(faces: Index, centres: Floats, areas: Floats) -> tuple[Floats, Float
 def _stated_motion(
     surface: PatchSurface, x: Floats, m: Floats, y: Floats, n: Floats
 ) -> tuple[Floats, Floats]:
-    """Rotation and shift that the patch states, such that centroid x and area m go to y and −n."""
+    """Return the stated rotation and shift, in the sense that carries centroid x and area m to y and −n."""
     stated = surface.transform
     turn, shift = np.eye(3), np.zeros(3)
     if stated.kind == "translational":
@@ -223,7 +223,7 @@ def _stated_motion(
         shift = min((given, -given), key=lambda s: float(np.linalg.norm(x + s - y)))
     elif stated.kind == "rotational" and np.linalg.norm(stated.axis) > 0.0:
         axis, centre = np.array(stated.axis) / np.linalg.norm(stated.axis), np.array(stated.centre)
-        # Of a sector the sides face apart; a side that winds about the axis is known by where it lies.
+        # The sides of a sector face apart; a side that winds about the axis is located by its centroid.
         flat = min(_arm(m, axis), _arm(n, axis)) > _MATCH * float(np.linalg.norm(m))
         p, q = (m, -n) if flat else (x - centre, y - centre)
         p, q = p - (p @ axis) * axis, q - (q @ axis) * axis
@@ -236,12 +236,12 @@ def _stated_motion(
 
 
 def _arm(v: Floats, axis: Floats) -> float:
-    """Length of what of v is across an axis."""
+    """Return the length of the part of v across an axis."""
     return float(np.linalg.norm(v - (v @ axis) * axis))
 
 
 def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -> Coupling | None:
-    """The rotation about the line in which the planes of two wedge patches meet."""
+    """Return the rotation about the line in which the planes of two wedge patches meet."""
     if len(a) != len(b):
         return None
     m, n = (_units(areas[faces].sum(axis=0)) for faces in (a, b))
@@ -251,7 +251,7 @@ def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -
         return None
     axis /= sine
     cosine = float(-m @ n)
-    # Rodrigues' formula; the rows e_k × a are the matrix of a × ….
+    # Rodrigues' formula; the rows e_k × a form the matrix of a × ….
     turn = cosine * np.eye(3) + sine * np.cross(np.eye(3), axis) + (1.0 - cosine) * np.outer(axis, axis)
     x, y = centres[a].mean(axis=0), centres[b].mean(axis=0)
     line = np.linalg.solve(np.stack([m, n, axis]), [m @ x, n @ y, 0.0])
@@ -264,7 +264,7 @@ def _wedge(i: int, j: int, a: Index, b: Index, centres: Floats, areas: Floats) -
 
 
 def _fits(coupling: Coupling, centres: Floats, areas: Floats) -> bool:
-    """Whether every face lands on its partner, with the same area and facing it."""
+    """Return True if the image of every face lies on its partner, with the same area and facing it."""
     size = np.sqrt(np.linalg.norm(areas[coupling.faces], axis=1))
     off = centres[coupling.faces] @ coupling.turn.T + coupling.shift - centres[coupling.partners]
     turned = areas[coupling.faces] @ coupling.turn.T + areas[coupling.partners]

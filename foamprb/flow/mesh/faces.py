@@ -1,7 +1,8 @@
 """Compiled loops over the faces and cells of a mesh: lists of points, pairs of faces, geometry, tetrahedra.
 
 A list of faces is given by ``start`` (n + 1,) and ``lists``: the points of face f are ``lists[start[f]]`` to
-``lists[start[f + 1] - 1]``. All indices are int32, lengths in metres. Results go into arrays of the caller's.
+``lists[start[f + 1] - 1]``. All indices are int32, lengths in metres. Results are written to arrays of the
+caller.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ __all__ = [
 ]
 
 OPEN = 1
-"""A cell with an edge that does not belong to exactly two of its faces."""
+"""State of a cell with an edge that does not belong to exactly two of its faces."""
 TWISTED = 2
-"""A cell of which two faces run along a common edge in the same direction."""
+"""State of a cell with two faces that run along a common edge in the same direction."""
 
 
 def list_faces(
@@ -46,18 +47,18 @@ def list_faces(
     start: Ints,
     lists: Ints,
 ) -> None:
-    """List the faces of each cell, cell after cell.
+    """List the faces of each cell, cell by cell.
 
     Parameters
     ----------
     types, corner_start, corners
         VTK's type of each cell (n,), and its points.
     shapes
-        (256, 6, 5) by type and face: its number of vertices, then the local vertices; 0 where there is none.
+        (256, 6, 5) by type and face: number of vertices, 0 for no face, then the local vertices.
     poly_start, poly_faces, face_start, face_points
-        The faces (n + 1,) of cells that are polyhedra, and the points of these faces.
+        The faces of polyhedra, (n + 1,) and indices, and the points of these faces.
     first, start, lists
-        For the results: the first face of each cell (n + 1,), and the faces.
+        Results: the first face of each cell (n + 1,), and the faces.
     """
     face, at = 0, 0
     for c in range(types.shape[0]):
@@ -86,18 +87,18 @@ def list_faces(
 
 
 def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints) -> int:
-    """Find for each face the other one with the same points, itself where there is none.
+    """Find for each face the other one with the same points, or itself.
 
     Parameters
     ----------
     head, following
-        (n,) for chains of faces with the same sum of point numbers; ``head`` holds −1.
+        (n,) chains of faces with the same sum of point indices; ``head`` must hold −1.
     mate
-        (n,) for the result.
+        (n,) result.
 
     Returns
     -------
-    The first face whose points two others have, −1 if all is well.
+    The first face with the same points as two others, −1 for none.
     """
     n = mate.shape[0]
     for h in range(n):
@@ -120,7 +121,7 @@ def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints
 
 
 def _alike(start: Ints, lists: Ints, a: int, b: int) -> bool:
-    """Whether two faces have the same points, each as often as the other."""
+    """Return True if two faces have the same points, each equally often."""
     size = start[a + 1] - start[a]
     if size != start[b + 1] - start[b]:
         return False
@@ -145,16 +146,16 @@ def gather_faces(
     neighbour: Ints,
     of_cell: Ints,
 ) -> None:
-    """List each face once, those between two cells first, in the order of the cells.
+    """List each face once, interior faces first, in the order of the cells.
 
     Parameters
     ----------
     first, half_start, half_lists, mate
-        What :func:`list_faces` and :func:`pair_faces` give.
+        Results of :func:`list_faces` and :func:`pair_faces`.
     start, lists, owner, neighbour
-        For the faces, their owners, and their neighbours (n_internal,).
+        Results: the faces, their owners, and their neighbours (n_internal,).
     of_cell
-        For the faces of each cell, in the order in which the cell names them.
+        Result: the faces of each cell, in the order of the cell.
     """
     face = at = 0
     for outside in range(2):
@@ -174,7 +175,7 @@ def gather_faces(
 
 
 def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:
-    """Face centres and area vectors (n, 3), by triangles about the mean of the vertices."""
+    """Compute face centres and area vectors (n, 3), by triangles about the mean of the vertices."""
     for f in range(centres.shape[0]):
         begin, size = start[f], start[f + 1] - start[f]
         for i in range(3):
@@ -197,8 +198,7 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
             )
             w = inner(n, point(areas, f))
             weight, x, y, z = weight + w, x + w * d[0], y + w * d[1], z + w * d[2]
-        # A face folded onto itself has no area to weigh with but round-off, which leads anywhere; its mean is
-        # as good a centre as any.
+        # The area of a face folded onto itself is round-off; such a face keeps its mean as the centre.
         if weight != 0.0:
             x, y, z = x / (3.0 * weight), y / (3.0 * weight), z / (3.0 * weight)
             reach = 0.0
@@ -212,14 +212,14 @@ def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, are
 
 
 def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vector, Vector]:
-    """Sum and cross product of the vectors from an origin to two points."""
+    """Return the sum and the cross product of the vectors from an origin to two points."""
     origin = point(origins, o)
     a, b = arm(points, p, origin), arm(points, q, origin)
     return plus(a, b), vector_product(a, b)
 
 
 def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
-    """Add the rows of ``values`` (n, m) to those of ``sums`` (n_cells, m) that ``cells`` names."""
+    """Add the rows of ``values`` (n, m) to rows ``cells`` of ``sums`` (n_cells, m)."""
     for i in range(cells.shape[0]):
         for k in range(sums.shape[1]):
             sums[cells[i], k] += values[i, k]
@@ -249,7 +249,7 @@ def add_pyramids(
 
 
 def bound(cells: Ints, values: Floats, low: Floats, high: Floats) -> None:
-    """Let the boxes of the cells, ``low`` and ``high`` (n_cells, 3), hold the rows of ``values`` (n, 3)."""
+    """Extend the boxes of the cells, ``low`` and ``high`` (n_cells, 3), to the rows of ``values`` (n, 3)."""
     for f in range(cells.shape[0]):
         c = cells[f]
         for i in range(3):
@@ -259,7 +259,7 @@ def bound(cells: Ints, values: Floats, low: Floats, high: Floats) -> None:
 def choose_bases(
     points: Floats, centres: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints
 ) -> int:
-    """Rotate every face so that its fan has the best worst tetrahedron seen from both cells.
+    """Rotate every face so that the worst tetrahedron of its fan, in both cells, is as good as possible.
 
     The quality of a tetrahedron is its volume over the cube of its root-mean-square edge.
 
@@ -282,7 +282,7 @@ def choose_bases(
                     q = q if side == 0 else -q
                     worst = min(worst, q)
                     wrong += q <= 0.0
-            # Round-off must not decide between equal fans.
+            # Round-off must not choose between equal fans.
             worst += 1e-9 if base == 0 else 0.0
             if base == 0 or worst > best:
                 best, chosen, negative = worst, base, wrong
@@ -296,7 +296,7 @@ def choose_bases(
 
 
 def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int) -> float:
-    """Six times the volume of a tetrahedron over the cube of the root of the sum of its squared edges."""
+    """Return six times the volume of a tetrahedron over the 3/2 power of the sum of its squared edges."""
     o = point(centres, cell)
     u, v, w = arm(points, a, o), arm(points, b, o), arm(points, c, o)
     volume = inner(u, vector_product(v, w))
@@ -322,26 +322,26 @@ def split_cells(
     triangle_tet: Ints,
     state: NDArray[np.uint8],
 ) -> None:
-    """Cut cells into tetrahedra, a fan on each face, and join these.
+    """Cut cells into tetrahedra, a fan on each face, and connect these.
 
     Parameters
     ----------
     n_points
-        Number of mesh points: the centre of cell c is node ``n_points + c``.
+        Number of mesh points; the centre of cell c is node ``n_points + c``.
     first, face_of
         The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``. A face turns outwards
-        from the cell that comes first.
+        from its first cell.
     start, lists, n_internal
-        The faces, those between two cells first.
+        The faces, interior ones first.
     face_tet
-        (n_faces,), holds −1; for the first tetrahedron of each face on its owner's side.
+        (n_faces,) work array for the first tetrahedron of each face in its owner; must hold −1.
     edges
-        (5, m), holds −1, with m a power of two not below the length of all faces of any cell; see
-        :func:`_join`.
+        (5, m) work array of :func:`_join`; must hold −1. m is a power of two, at least the number of points
+        of all faces of any cell.
     cell_start, tets, neighbours, triangle_tet
-        For the results, as :class:`foamprb.flow.mesh.mesh.Mesh` has them.
+        Results; see :class:`foamprb.flow.mesh.mesh.Mesh`.
     state
-        (n_cells,), holds zeros; for cells that are :data:`OPEN` or :data:`TWISTED`.
+        (n_cells,) result, :data:`OPEN` or :data:`TWISTED`; must hold zeros.
     """
     boundary = start[n_internal] - 2 * n_internal
     tet = 0
@@ -355,7 +355,7 @@ def split_cells(
             if owned:
                 face_tet[f] = tet
             for k in range(size - 2):
-                # From the other side the fan turns the other way about the same base.
+                # In the neighbour the fan turns the other way about the same base.
                 i, j = (k + 1, k + 2) if owned else (size - 1 - k, size - 2 - k)
                 tets[tet + k, 0], tets[tet + k, 1] = n_points + c, lists[begin]
                 tets[tet + k, 2], tets[tet + k, 3] = lists[begin + i], lists[begin + j]
@@ -390,21 +390,21 @@ def split_cells(
 
 
 def _join(a: int, b: int, place: int, edges: Ints, found: int, neighbours: Ints) -> tuple[int, int]:
-    """Join the tetrahedra at an edge of a cell, if it has been met before; else remember it.
+    """Connect the tetrahedra at an edge of a cell if the edge is known; otherwise store it.
 
     Parameters
     ----------
     a, b, place
-        The edge, and 4 t + k for the face opposite vertex k of tetrahedron t.
+        Points of the edge, and 4 t + k for the face opposite vertex k of tetrahedron t.
     edges
-        Edges by sum of their points: first of each chain; next in the chain, a, b and place by edge, place −1
-        after both sides have been met.
+        Edges by the sum of their points. Rows: first of each chain; next in the chain, a, b and place by
+        edge, with place −1 after both sides were found.
     found
         Number of edges so far.
 
     Returns
     -------
-    1 for a new edge, −1 for one that is now complete; what is wrong with the cell.
+    1 for a new edge, −1 for a completed one; the state of the cell.
     """
     slot = (a + b) & (edges.shape[1] - 1)
     e = edges[0, slot]

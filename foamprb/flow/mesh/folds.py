@@ -1,18 +1,17 @@
-"""Cells that their centre does not see whole, or that are flat: paths through them that cannot be lost.
+"""Robust paths through cells that are flat, or folded: not star-shaped about their centre.
 
-Every tetrahedron has a sense of its own, that in which its nodes are numbered. A straight line that meets no
-edge of any tetrahedron enters each that it meets through one face and leaves it through another, by this
-sense: forwards in tetrahedra of positive volume, backwards in those that are turned inside out. So its way
-through the mesh is one thread, along which the distance t is continuous, and which ends only at the
-boundary. The tetrahedra cover every place of the mesh once more forwards than backwards, every place outside
-equally often: a thread that passes t = 1 for the last time forwards has reached the point there; one that
-ends before has left the mesh. A thread could leave the mesh in a fold and come in again on the other side of
-a gap; so in folded cells the line is cut with the triangles of the boundary as well.
+Every tetrahedron has an orientation by the order of its nodes. A straight line that meets no edge of any
+tetrahedron enters each tetrahedron through one face and leaves it through another: forwards in tetrahedra of
+positive volume, backwards in inverted ones. So its path through the mesh is one thread, along which the
+distance t is continuous, and which ends only at the boundary. The tetrahedra cover every point of the mesh
+once more forwards than backwards, and every point outside equally often: a thread that passes t = 1 forwards
+for the last time has reached the point there; a thread that ends before has left the mesh. A thread could
+leave the mesh in a fold and enter it again across a gap; so in folded cells the line is also intersected with
+the triangles of the boundary.
 
-Whether a line passes an edge on its left or on its right is decided for the line's picture of the points,
-and in the same way wherever the edge comes up; ties are decided as if the line and the points were moved by
-infinitesimal amounts [1, 2]. No tetrahedron can then be too flat to be passed, not even one of coincident
-points.
+The side on which a line passes an edge is computed from the projected points, in the same way for all
+tetrahedra at the edge; ties are broken as if the line and the points were moved by infinitesimal amounts
+[1, 2]. So the line passes every tetrahedron, even one of coincident points.
 
 References
 ----------
@@ -30,43 +29,43 @@ from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, point, weights
 from foamprb.flow.mesh.tree import holds_point, next_node
 
-__all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_there", "nearby", "settle", "trace"]
+__all__ = ["FLAT", "FOLDED", "SOUND", "grade", "is_in_mesh", "nearby", "settle", "trace"]
 
 SOUND, FLAT, FOLDED = 0, 1, 2
-"""A cell where :func:`foamprb.flow.walk.follow` is exact; one with a flat tetrahedron; one whose box meets
-that of a tetrahedron turned inside out: places in it may be covered more than once, or lie outside."""
+"""Cells where :func:`foamprb.flow.walk.follow` is exact; cells with a flat tetrahedron; cells whose box meets
+the box of an inverted tetrahedron, where points may be covered more than once, or lie outside."""
 
-# Volumes, in units of the product of the three edges from the first node. In flatter tetrahedra the round-off
-# of the weights is beyond TOLERANCE; in still flatter ones nothing can be interpolated, and no fold matters.
+# Volumes over the product of the three edges from the first node. Below _THIN the round-off of the weights
+# exceeds TOLERANCE; below _FLAT interpolation is impossible.
 _THIN = 1e-7
 _FLAT = 1e-11
 
 _PULLS = 5
-# How far a line may have been shifted, in units of what counts as round-off.
+# Largest shift of a line, in units of the round-off.
 _HEALED = 1e3
-# How near to a plane a place is in it, in the same units.
+# Tolerance for points in a plane, in the same units.
 _FLUSH = 1e-4
-# Smaller weights than this, negative, are no round-off.
+# More negative weights are not round-off.
 _ASTRAY = 1e-6
 _MOST_CROSSINGS = 1_000_000
 _REACHED, _FAILED, _NONE = -1, -2, -1
 
 
 def grade(nodes: Floats, tets: Ints, n_points: int, folds: NDArray[np.uint8], boxes: Floats) -> int:
-    """Mark cells with flat tetrahedra as ``FLAT``, and find the boxes of the tetrahedra turned inside out.
+    """Mark cells with flat tetrahedra as ``FLAT``, and find the boxes of the inverted tetrahedra.
 
     Parameters
     ----------
     nodes, tets, n_points
-        As in :class:`foamprb.flow.mesh.arrays.MeshArrays`.
+        See :class:`foamprb.flow.mesh.arrays.MeshArrays`.
     folds
-        (n_cells,), for the marks.
+        (n_cells,) marks.
     boxes
-        (n, 6), for the first n boxes, lower and upper corner, m.
+        (n, 6) result: the first n boxes, lower and upper corner, m.
 
     Returns
     -------
-    The number of tetrahedra turned inside out.
+    The number of inverted tetrahedra.
     """
     found = 0
     for tet in range(tets.shape[0]):
@@ -88,41 +87,38 @@ def grade(nodes: Floats, tets: Ints, n_points: int, folds: NDArray[np.uint8], bo
 
 
 def _volume(nodes: Floats, tets: Ints, tet: int) -> tuple[float, float]:
-    """Six times a tetrahedron's volume, and the product of the lengths of its edges from the first node."""
+    """Return six times the volume of a tetrahedron, and the product of its edges from the first node."""
     o = point(nodes, tets[tet, 0])
     p, q, r = arm(nodes, tets[tet, 1], o), arm(nodes, tets[tet, 2], o), arm(nodes, tets[tet, 3], o)
     return inner(p, vector_product(q, r)), norm(p) * norm(q) * norm(r)
 
 
 def is_flat(flow: MeshArrays, tet: int) -> bool:
-    """Whether nothing can be interpolated in a tetrahedron."""
+    """Return True if a tetrahedron is too flat for interpolation."""
     volume, size = _volume(flow.nodes, flow.tets, tet)
     return not abs(volume) > _FLAT * size
 
 
 def settle(flow: MeshArrays, tet: int, x: Vector) -> int:
-    """The tetrahedron itself or, if it is flat, the one nearby that comes nearest to holding x.
-
-    A place in a flat tetrahedron is as near to one beside it as that is thin.
-    """
+    """Return the tetrahedron or, if it is flat, the one nearby with the largest smallest weight at x."""
     return nearby(flow, tet, x) if is_flat(flow, tet) else tet
 
 
 def _arrived(flow: MeshArrays, tet: int, x: Vector) -> int:
-    """As :func:`settle`, of where a thread passes x.
+    """Return the host of x where a thread passes it; see :func:`settle`.
 
-    A line in the plane of a face meets it somewhere in it, so that the thread may seem to pass x a face too
-    early; then the tetrahedron does not hold it.
+    A line in the plane of a face meets it at an arbitrary point, so that a thread may pass x one face too
+    early, in a tetrahedron that does not hold x.
     """
     host = settle(flow, tet, x)
     return host if _depth(flow, host, x) >= -_ASTRAY else nearby(flow, host, x)
 
 
 def nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
-    """The tetrahedron that comes nearest to holding x, flat ones excepted.
+    """Return the tetrahedron with the largest smallest weight at x, without flat ones.
 
-    It is sought in the cell, in those that share faces with it, and in those that share faces with these;
-    behind a pile of flat cells, by the tree.
+    The search covers the cell, its neighbours and their neighbours, and then, behind a stack of flat cells,
+    the tree.
     """
     cell, start, neighbours = _cell(flow, tet), flow.cell_start, flow.neighbours
     best, depth = _deepest(flow, cell, x, tet, -np.inf)
@@ -141,7 +137,7 @@ def nearby(flow: MeshArrays, tet: int, x: Vector) -> int:
 
 
 def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int:
-    """As :func:`_deepest`, of all cells that may hold x; only the tetrahedron."""
+    """Return the tetrahedron of :func:`_deepest` of all cells that may hold x."""
     cells = flow.tree_cells
     node, n_leaves = 1, cells.shape[0]
     while node > 0:
@@ -155,12 +151,12 @@ def _deepest_of_all(flow: MeshArrays, x: Vector, best: int, depth: float) -> int
 
 
 def _cell(flow: MeshArrays, tet: int) -> int:
-    """The cell of a tetrahedron."""
+    """Return the cell of a tetrahedron."""
     return flow.tets[tet, 0] - flow.n_points  # type: ignore[no-any-return]
 
 
 def _deepest(flow: MeshArrays, cell: int, x: Vector, best: int, depth: float) -> tuple[int, float]:
-    """The tetrahedron of a cell with the largest smallest weight at x, if that is above ``depth``; and it."""
+    """Return the tetrahedron of a cell with the largest smallest weight at x, if above ``depth``, and it."""
     for tet in range(flow.cell_start[cell], flow.cell_start[cell + 1]):
         smallest = _depth(flow, tet, x)
         if smallest > depth:
@@ -169,7 +165,7 @@ def _deepest(flow: MeshArrays, cell: int, x: Vector, best: int, depth: float) ->
 
 
 def _depth(flow: MeshArrays, tet: int, x: Vector) -> float:
-    """The smallest weight of a tetrahedron at x, −∞ if it is flat or turned inside out."""
+    """Return the smallest weight of a tetrahedron at x, −∞ if it is flat or inverted."""
     volume, size = _volume(flow.nodes, flow.tets, tet)
     if not volume > _FLAT * size:
         return -np.inf
@@ -178,8 +174,8 @@ def _depth(flow: MeshArrays, tet: int, x: Vector) -> float:
     return min(w0, w1, w2, w3) / volume
 
 
-def is_there(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
-    """Whether a tetrahedron holds x as a place of the mesh, from which a walk can go that way."""
+def is_in_mesh(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
+    """Return True if x in a tetrahedron is a point of the mesh from which a walk can go that way."""
     if is_flat(flow, tet):
         return False
     _, _, patch, _ = trace(flow, tet, x, plus(x, way))
@@ -187,14 +183,14 @@ def is_there(flow: MeshArrays, tet: int, x: Vector, way: Vector) -> bool:
 
 
 def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
-    """Follow the thread of the line from x0, in the tetrahedron ``host``, to x1, in whatever mesh.
+    """Follow the thread of the line from x0, in the tetrahedron ``host``, to x1, in any mesh.
 
-    Where the thread is lost, as from a place on a face, the line is shifted into the host by 1e-12 of its
-    size, then by more.
+    If the thread is lost, as from a point on a face, the line is shifted into the host by 1e-12 of its size,
+    then by more.
 
     Returns
     -------
-    As :func:`foamprb.flow.walk.walk`; the hosts are not flat. The walk fails if the thread shows that x0 is
+    See :func:`foamprb.flow.walk.walk`; the hosts are not flat. The walk fails if the thread shows that x0 is
     outside the mesh, or does not lead away from x0.
     """
     d = minus(x1, x0)
@@ -203,9 +199,9 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
     if not longest > 0.0:
         return first, 1.0, _REACHED, _NONE
     k = 0 if abs(d[0]) == longest else 1 if abs(d[1]) == longest else 2
-    # What lies nearer to x0 than this, in units of t, lies there but for round-off.
+    # Round-off of a distance from x0, in units of t.
     room = TOLERANCE * np.sqrt(_squared_edge(flow, first)) / longest
-    # So does what lies in a plane that x0 is nearer to than this.
+    # Round-off of the distance from a plane, m.
     flush = _FLUSH * room * longest
     for attempt in range(_PULLS):
         origin = _pulled(flow, first, x0, 0.0 if attempt == 0 else 1e-14 * 100.0**attempt)
@@ -232,7 +228,7 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
                 candidate = _NONE
             elif candidate < 0:
                 candidate = tet
-            # Nothing comes back from a place that is covered once; and before the boundary all is inside.
+            # A point that is covered once is final, and so is every point before the boundary.
             if candidate >= 0 and (not folded or t >= leaving):
                 return _arrived(flow, candidate, x1), 1.0, _REACHED, _NONE
             other = flow.neighbours[tet, face]
@@ -251,8 +247,8 @@ def trace(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, flo
 def _left_by(
     flow: MeshArrays, triangle: int, x0: Vector, d: Vector, t: float, room: float
 ) -> tuple[int, float, int, int]:
-    """What a walk returns that leaves the mesh about t through a triangle of the boundary."""
-    # Where the line itself meets the triangle's plane, which may have been shifted to find t.
+    """Return the result of a walk that leaves the mesh near t through a triangle of the boundary."""
+    # The line may have been shifted to find t: intersect the original with the triangle's plane.
     n = point(flow.triangle_normals, triangle)
     slope = inner(n, d)
     exact = inner(n, arm(flow.nodes, flow.triangles[triangle, 0], x0)) / slope if slope != 0.0 else t
@@ -264,7 +260,7 @@ def _left_by(
 
 
 def height(flow: MeshArrays, triangle: int, x: Vector) -> float:
-    """Distance of a place from the plane of a triangle of the boundary, m."""
+    """Return the distance of a point from the plane of a triangle of the boundary, m."""
     d = arm(flow.nodes, flow.triangles[triangle, 0], x)
     return float(abs(inner(point(flow.triangle_normals, triangle), d)))
 
@@ -272,7 +268,7 @@ def height(flow: MeshArrays, triangle: int, x: Vector) -> float:
 def _crossing(
     flow: MeshArrays, triangle: int, origin: Vector, d: Vector, k: int, x0: Vector
 ) -> tuple[int, float]:
-    """1 if the line leaves the mesh through a triangle of the boundary, −1 if it enters, else 0; and t."""
+    """Return 1 if the line leaves the mesh through a boundary triangle, −1 if it enters, else 0; and t."""
     na, nb, nc = flow.triangles[triangle, 0], flow.triangles[triangle, 1], flow.triangles[triangle, 2]
     a, ta = _picture(flow.nodes, na, origin, d, k, x0)
     b, tb = _picture(flow.nodes, nb, origin, d, k, x0)
@@ -286,7 +282,7 @@ def _crossing(
 
 
 def _squared_edge(flow: MeshArrays, tet: int) -> float:
-    """The longest edge from the first node of a tetrahedron, squared, m²."""
+    """Return the longest edge from the first node of a tetrahedron, squared, m²."""
     nodes, tets = flow.nodes, flow.tets
     o, longest = point(nodes, tets[tet, 0]), 0.0
     for k in range(1, 4):
@@ -296,9 +292,10 @@ def _squared_edge(flow: MeshArrays, tet: int) -> float:
 
 
 def _pulled(flow: MeshArrays, tet: int, x: Vector, least: float) -> Vector:
-    """The place in a tetrahedron where no weight is below ``least``, near x; at none, x itself if it holds x.
+    """Return the point near x where no weight of a tetrahedron is below ``least``.
 
-    Products that round to a tie can lose a thread anywhere: so places inside are shifted, too.
+    Products that round to a tie can lose a thread anywhere; so points inside are shifted too, unless
+    ``least`` is 0.
     """
     origin, c1, c2, c3, volume = frame(flow, tet)
     if volume == 0.0:
@@ -321,7 +318,7 @@ def _pulled(flow: MeshArrays, tet: int, x: Vector, least: float) -> Vector:
 
 
 def _way_out(flow: MeshArrays, tet: int, origin: Vector, d: Vector, k: int, x0: Vector) -> tuple[int, float]:
-    """The face where the line through ``origin`` along d leaves a tetrahedron, −1 for none; and t there.
+    """Return the face where the line through ``origin`` along d leaves a tetrahedron, or −1, and t there.
 
     ``k`` is the longest component of d; t is 0 at x0 and 1 at x0 + d.
     """
@@ -347,9 +344,9 @@ def _way_out(flow: MeshArrays, tet: int, origin: Vector, d: Vector, k: int, x0: 
 def _picture(
     nodes: Floats, node: int, origin: Vector, d: Vector, k: int, x0: Vector
 ) -> tuple[tuple[float, float], float]:
-    """Where a node appears to one who looks along d from the origin, and its t.
+    """Return the projection of a node along d about the origin, and its t.
 
-    Space is sheared so that d becomes axis k. A face that the line leaves through turns anticlockwise.
+    Space is sheared so that d becomes axis k. A face through which the line leaves turns anticlockwise.
     """
     i, j = (k + 1) % 3, (k + 2) % 3
     along = (nodes[node, k] - origin[k]) / d[k]
@@ -362,10 +359,10 @@ def _picture(
 
 
 def _left(p: tuple[float, float], q: tuple[float, float], rising: bool) -> bool:
-    """Whether the origin lies to the left of the way from p to q, of which ``rising`` says which comes first.
+    """Return True if the origin lies to the left of the edge from p to q, whose indices rise if ``rising``.
 
-    Products are compared, not subtracted: rounding never reverses an order. The origin counts as moved by
-    (ε, ε²), points in the same place as moved apart by less, in the order of their numbers.
+    Products are compared, not subtracted, because rounding never reverses an order. Ties: the origin is moved
+    by (ε, ε²), and coincident points by less, in the order of their indices.
     """
     here, there = p[0] * q[1], q[0] * p[1]
     if here != there:
@@ -385,11 +382,11 @@ def _meeting(
     tq: float,
     tr: float,
 ) -> float:
-    """The t at which the line meets a triangle that it is known to meet."""
+    """Return the t at which the line meets a triangle that it is known to meet."""
     wp, wq, wr = q[0] * r[1] - r[0] * q[1], r[0] * p[1] - p[0] * r[1], p[0] * q[1] - q[0] * p[1]
     wp, wq, wr = max(wp, 0.0), max(wq, 0.0), max(wr, 0.0)
     total = wp + wq + wr
     low, high = min(tp, tq, tr), max(tp, tq, tr)
-    # A triangle seen from its edge is met somewhere in it.
+    # A triangle parallel to the line is met at its middle.
     t = (wp * tp + wq * tq + wr * tr) / total if total > 0.0 else 0.5 * (low + high)
     return min(max(t, low), high)

@@ -1,4 +1,4 @@
-"""The faces of a mesh in order, which way they turn, and centres, areas and volumes."""
+"""Order and orientation of the faces of a mesh, and centres, areas and volumes."""
 
 from __future__ import annotations
 
@@ -7,18 +7,19 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.body.tensor import vector_product
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.cells import HalfFaces
 from foamprb.flow.mesh.faces import add_at, add_pyramids, bound, gather_faces, measure_faces
 from foamprb.flow.mesh.lists import ragged
 
-# Faces handled at once: the temporary arrays then stay in the cache.
+# Number of faces per chunk: the temporary arrays then stay in the cache.
 _CHUNK = 1 << 15
 
 
 class Faces(NamedTuple):
-    """The faces of a mesh, those between two cells first; they turn outwards from their owner."""
+    """Faces of a mesh, interior ones first; they turn outwards from their owner."""
 
     start: Ints
     points: Ints
@@ -27,13 +28,13 @@ class Faces(NamedTuple):
     first: Ints
     """(n_cells + 1,) into ``of_cell``."""
     of_cell: Ints
-    """The faces of each cell; a face's owner comes before its neighbour."""
+    """Faces of each cell; a face's owner comes before its neighbour."""
 
 
 def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> tuple[Faces, Floats]:
-    """Put interior faces first and let every list turn outwards from its owner, as far as can be told.
+    """Put interior faces first, and turn every face outwards from its owner, judged by the cells' middles.
 
-    Returns the middles of the cells as well.
+    Returns the faces, and the middles of the cells.
     """
     single = np.flatnonzero(mate == np.arange(len(mate), dtype=np.int32))
     n_internal = (len(mate) - len(single)) // 2
@@ -58,7 +59,7 @@ def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> tuple[Faces, Flo
 
 
 def _measured(points: Floats, faces: Faces, first: int = 0) -> Iterator[tuple[slice, Floats, Floats]]:
-    """Centres and area vectors of the faces from the first on, part by part."""
+    """Yield centres and area vectors of the faces from ``first`` on, chunk by chunk."""
     n, measure = len(faces.owner), link(measure_faces)
     for low in range(first, n, _CHUNK):
         part = slice(low, min(low + _CHUNK, n))
@@ -68,7 +69,7 @@ def _measured(points: Floats, faces: Faces, first: int = 0) -> Iterator[tuple[sl
 
 
 def boundary_geometry(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
-    """Centres and area vectors of the boundary faces."""
+    """Return centres and area vectors of the boundary faces."""
     n_internal = len(faces.neighbour)
     centres, areas = np.empty((2, len(faces.owner) - n_internal, 3))
     for part, *measured in _measured(points, faces, n_internal):
@@ -78,7 +79,7 @@ def boundary_geometry(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
 
 
 def _cell_middles(points: Floats, faces: Faces) -> Floats:
-    """Means of the centres of each cell's faces."""
+    """Return the mean of the face centres of each cell."""
     middles, add = np.zeros((len(faces.first) - 1, 3)), link(add_at)
     for part, centres, _ in _measured(points, faces):
         for cells in (faces.owner[part], faces.neighbour[part]):
@@ -88,9 +89,9 @@ def _cell_middles(points: Floats, faces: Faces) -> Floats:
 
 
 def cell_geometry(points: Floats, faces: Faces, middles: Floats) -> tuple[Floats, Floats]:
-    """Cell centres and volumes, by pyramids about the means of the face centres.
+    """Return cell centres and volumes, by pyramids about the means of the face centres.
 
-    A centre that is not among the face centres, as where the volume is round-off, is their mean instead.
+    A centre outside the box of the face centres, as where the volume is round-off, is replaced by their mean.
     """
     add, widen = link(add_pyramids), link(bound)
     moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
@@ -101,7 +102,7 @@ def cell_geometry(points: Floats, faces: Faces, middles: Floats) -> tuple[Floats
             widen(cells, centres, low, high)
     moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
     moments += middles
-    # By round-off it may be beside them.
+    # Tolerance for round-off.
     room = 1e-9 * (high - low).max(axis=1)[:, None]
     astray = ~((low - room <= moments) & (moments <= high + room)).all(axis=1)
     moments[astray] = middles[astray]
@@ -109,20 +110,13 @@ def cell_geometry(points: Floats, faces: Faces, middles: Floats) -> tuple[Floats
 
 
 def inward_normals(points: Floats, triangles: Ints, areas: Floats) -> Floats:
-    """Unit normals (n, 3) of triangles that turn outwards; ``areas`` (n, 3) are those of their faces, m²."""
+    """Return inward unit normals (n, 3) of outward triangles; ``areas`` (n, 3) are of their faces, m²."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
-    normals = -_cross(b - a, c - a)
+    p, q = (b - a).T, (c - a).T
+    normals = -np.stack(vector_product((p[0], p[1], p[2]), (q[0], q[1], q[2])), axis=1)
     length = np.linalg.norm(normals, axis=1)
     # A triangle without area borrows the normal of its face.
     empty = length <= 1e-14 * np.maximum(np.linalg.norm(areas, axis=1), 1e-300)
     normals[empty] = -areas[empty]
     length[empty] = np.linalg.norm(areas[empty], axis=1)
     return normals / np.where(length > 0.0, length, 1.0)[:, None]
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    product = np.empty_like(a)
-    product[:, 0] = a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1]
-    product[:, 1] = a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2]
-    product[:, 2] = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return product

@@ -1,4 +1,4 @@
-"""Lists of lists as two arrays: where each list begins, and the entries of all, one list after the other."""
+"""Lists of lists as two arrays: the start of each list, and the entries of all lists."""
 
 from __future__ import annotations
 
@@ -14,30 +14,30 @@ Labels: TypeAlias = NDArray[np.integer[Any]]
 Mask: TypeAlias = NDArray[np.bool_]
 
 MOST_INDICES = int(np.iinfo(np.int32).max)
-"""As many entries as 32-bit numbers can count."""
+"""Largest number of entries with 32-bit indices."""
 
 
 def starts(counts: Labels) -> Index:
-    """Where each of n lists begins, and where the last ends, (n + 1,), from their lengths."""
+    """Return the start of each of n lists and the end of the last, (n + 1,), from their lengths."""
     start = np.zeros(len(counts) + 1, dtype=np.intp)
     np.cumsum(counts, out=start[1:])
     return start
 
 
 def ragged(start: Labels, counts: Labels) -> Index:
-    """Concatenation of start[i], start[i] + 1, …, start[i] + counts[i] − 1."""
+    """Concatenate start[i], start[i] + 1, …, start[i] + counts[i] − 1."""
     begin = starts(counts)
     return np.arange(begin[-1]) + np.repeat(start - begin[:-1], counts)
 
 
 def take_lists(start: Labels, lists: Labels, at: Index) -> tuple[Index, Labels]:
-    """Some of the lists, by number: where they begin, and their entries."""
+    """Return the starts and the entries of the lists ``at``."""
     counts = np.diff(start)[at]
     return starts(counts), lists[ragged(start[at], counts)]
 
 
 def cell_array(cells: Any) -> tuple[Index, Index]:
-    """Offsets and connectivity of a vtkCellArray."""
+    """Return offsets and connectivity of a vtkCellArray."""
     if cells is None or cells.GetNumberOfCells() == 0:
         return np.zeros(1, dtype=np.intp), np.empty(0, dtype=np.intp)
     from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -66,5 +66,5 @@ def cell_types(grid: Any) -> NDArray[np.uint8]:
 
 
 def int32(values: NDArray[Any]) -> Ints:
-    """The values as 32-bit integers, one after the other in memory."""
+    """Return the values as a contiguous array of 32-bit integers."""
     return np.ascontiguousarray(values, dtype=np.int32)

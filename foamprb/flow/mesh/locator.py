@@ -1,4 +1,4 @@
-"""The tree that finds the cell, and in it the tetrahedron, that holds a point."""
+"""Point location: the tetrahedron that holds a point, by a tree of cells."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
-from foamprb.flow.mesh.folds import SOUND, is_there
+from foamprb.flow.mesh.folds import SOUND, is_in_mesh
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import holds_point, next_node
 
 
 def cell_boxes(mesh: Mesh) -> Floats:
-    """Bounding boxes of the cells, (n_cells, 6): lower corner, upper corner.
+    """Return the bounding boxes of the cells, (n_cells, 6): lower corner, upper corner.
 
-    A box holds the cell's tetrahedra and is larger by the tolerance of :func:`locate`.
+    They hold the cells' tetrahedra and are larger by the tolerance of :func:`locate`.
     """
     boxes = np.empty((mesh.n_cells, 6))
     link(_bound)(mesh.points, mesh.centres, mesh.cell_point_start, mesh.cell_points, boxes)
@@ -40,17 +40,17 @@ def _bound(points: Floats, centres: Floats, start: Ints, lists: Ints, boxes: Flo
 
 
 def locate(flow: MeshArrays, x: Vector) -> int:
-    """Find the tetrahedron that holds x, or −1 when x lies outside the mesh; as :func:`seek`."""
+    """Return the tetrahedron that holds x, or −1 if x lies outside the mesh; see :func:`seek`."""
     box = flow.tree_boxes
     dx, dy, dz = box[1, 3] - box[1, 0], box[1, 4] - box[1, 1], box[1, 5] - box[1, 2]
     return seek(flow, x, (dx, 0.1 * dy, 0.01 * dz))
 
 
 def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
-    """Find the tetrahedron that holds x, and from which a walk can go that way, or −1 when there is none.
+    """Return the tetrahedron that holds x and from which a walk in direction ``way`` can start, −1 for none.
 
-    Of several (x on a shared face) it is the one whose smallest barycentric weight is largest, then the first
-    in the order of the tree. A tetrahedron in a fold counts only if x is a place of the mesh in it.
+    Of several (x on a shared face) it is the one with the largest smallest barycentric weight, then the first
+    in the order of the tree. A tetrahedron in a fold counts only if x is a point of the mesh in it.
     """
     cells, first_tet = flow.tree_cells, flow.cell_start
     best, depth = -1, -TOLERANCE
@@ -67,7 +67,7 @@ def seek(flow: MeshArrays, x: Vector, way: Vector) -> int:
                 if volume == 0.0:
                     continue
                 smallest = min(w0 / volume, w1 / volume, w2 / volume, w3 / volume)
-                if smallest > depth and (flow.folds[cell] == SOUND or is_there(flow, tet, x, way)):
+                if smallest > depth and (flow.folds[cell] == SOUND or is_in_mesh(flow, tet, x, way)):
                     best, depth = tet, smallest
         node = next_node(node, n_leaves, hit)
     return best

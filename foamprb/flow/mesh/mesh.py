@@ -1,9 +1,9 @@
-"""Polyhedral cells → faces, neighbours, tetrahedra and patches.
+"""Mesh of polyhedral cells: faces, neighbours, tetrahedra and patches.
 
-A cell is bounded by faces of any number of vertices. Every face is cut into triangles as a fan, in the same
-way for the two cells that share it, and each triangle with the centre of a cell makes one tetrahedron. The
-tetrahedra fill the mesh without a gap, and a field given at mesh points and cell centres is continuous and
-piecewise linear on them.
+A cell is bounded by faces with any number of vertices. Every face is cut into a fan of triangles, the same
+for the two cells that share it. Each triangle forms one tetrahedron with the centre of a cell. The tetrahedra
+fill the mesh without gaps, and a field given at mesh points and cell centres is continuous and piecewise
+linear on them.
 """
 
 from __future__ import annotations
@@ -17,24 +17,22 @@ import numpy as np
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
-from foamprb.flow.mesh.baffles import find_baffles, part_points
-from foamprb.flow.mesh.boundary import PatchSurface, assign_patches, sort_boundary
+from foamprb.flow.mesh.boundary import PatchSurface, assign_patches, find_baffles, part_points, sort_boundary
 from foamprb.flow.mesh.cells import list_half_faces, match_half_faces
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.faces import choose_bases
+from foamprb.flow.mesh.faces import OPEN, TWISTED, choose_bases, split_cells
 from foamprb.flow.mesh.geometry import Faces, boundary_geometry, cell_geometry, inward_normals, order_faces
-from foamprb.flow.mesh.lists import Index, int32, points_of
-from foamprb.flow.mesh.tetrahedra import cut_into_tetrahedra, turn_alike
+from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, points_of
 from foamprb.memory import wants
 
 _MOST_TURNS = 5
 CELL_BYTES = 3000.0
-"""Memory for each cell while a flow is read, about; a third of it is kept."""
+"""Approximate memory per cell while a flow is read; a third of it is kept."""
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Cells, faces and tetrahedra of a mesh; lengths in metres.
+    """Cells, faces and tetrahedra; lengths in metres.
 
     Nodes are the mesh points followed by the cell centres: the centre of cell c is node ``n_points + c``.
     Interior faces come first; boundary faces follow, patch by patch and in each patch's own order.
@@ -88,22 +86,22 @@ class Mesh:
 
     @property
     def n_points(self) -> int:
-        """Number of mesh points."""
+        """Return the number of mesh points."""
         return len(self.points)
 
     @property
     def n_cells(self) -> int:
-        """Number of cells."""
+        """Return the number of cells."""
         return len(self.centres)
 
     @property
     def n_internal(self) -> int:
-        """Number of faces between two cells."""
+        """Return the number of faces between two cells."""
         return len(self.neighbour)
 
     @property
     def nodes(self) -> Floats:
-        """(n_points + n_cells, 3), mesh points followed by cell centres."""
+        """Return mesh points followed by cell centres, (n_points + n_cells, 3)."""
         return np.concatenate([self.points, self.centres])
 
 
@@ -115,16 +113,16 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     grid
         ``vtkUnstructuredGrid`` of tetrahedra, hexahedra, prisms, pyramids and polyhedra.
     surfaces
-        The patches. A face is known by the coordinates of its vertices, equal to the last bit. None: the
-        source knows no patches, and the whole boundary is one patch ``boundary`` of type ``wall``.
+        The patches. Faces are identified by the coordinates of their vertices, equal to the last bit. None:
+        the whole boundary is one patch ``boundary`` of type ``wall``.
     source
-        What the messages call the grid, e.g. its file.
+        Name of the grid for messages, e.g. its file.
 
     Raises
     ------
     InputError
-        Cells of another type; a face of three cells; an open cell; boundary faces that no patch has or two
-        patches have; patch faces that are not on the boundary.
+        Cells of another type; a face of three cells; an open cell; boundary faces in no patch or in two
+        patches; patch faces that are not on the boundary.
     """
     wants("cells", grid.GetNumberOfCells(), CELL_BYTES)
     given = points_of(grid)
@@ -161,10 +159,10 @@ def _assemble(
     surfaces: Sequence[PatchSurface] | None,
     source: str,
 ) -> tuple[Mesh, Index]:
-    """The mesh, and cells of which two neighbouring faces turn against each other."""
+    """Return the mesh, and the cells with neighbouring faces that turn against each other."""
     order, patches, patch_start = assign_patches(points, dtype, faces, surfaces, source)
     sort_boundary(faces, order)
-    # The bases of the fans must not depend on how often the faces were turned.
+    # The bases of the fans must not depend on the number of turns of a face.
     faces = faces._replace(points=faces.points.copy())
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
@@ -207,3 +205,68 @@ def _assemble(
         couplings=couplings,
     )
     return mesh, astray
+
+
+def cut_into_tetrahedra(faces: Faces, n_points: int, source: str) -> tuple[Ints, Ints, Ints, Ints, Index]:
+    """Return the tetrahedra by cell, their neighbours, those of the boundary triangles, and twisted cells."""
+    n_cells, n_internal = len(faces.first) - 1, len(faces.neighbour)
+    sizes = np.diff(faces.start)
+    n_tets = int(sizes.sum() + sizes[:n_internal].sum()) - 2 * len(faces.of_cell)
+    if 4 * n_tets > MOST_INDICES:
+        raise InputError(f"{source}: {n_tets} tetrahedra are too many for 32-bit indices.")
+    n_triangles = int(sizes[n_internal:].sum() - 2 * (len(sizes) - n_internal))
+    cell_start, triangle_tet = np.empty(n_cells + 1, dtype=np.int32), np.empty(n_triangles, dtype=np.int32)
+    tets, neighbours = np.empty((n_tets, 4), dtype=np.int32), np.empty((n_tets, 4), dtype=np.int32)
+    state = np.zeros(n_cells, dtype=np.uint8)
+    link(split_cells)(
+        n_points,
+        *(faces.first, faces.of_cell, faces.start, faces.points, n_internal),
+        np.full(len(sizes), -1, dtype=np.int32),
+        np.full((5, 1 << int(np.diff(faces.first).max() * sizes.max()).bit_length()), -1, dtype=np.int32),
+        *(cell_start, tets, neighbours, triangle_tet, state),
+    )
+    gaping = np.flatnonzero(state & OPEN)
+    if len(gaping):
+        raise InputError(
+            f"{source}: {len(gaping)} cells are not closed (the first is cell {gaping[0]}): each edge of "
+            "a cell must belong to exactly two of its faces."
+        )
+    return cell_start, tets, neighbours, triangle_tet, np.flatnonzero(state & TWISTED)
+
+
+def turn_alike(faces: Faces, cells: Index) -> None:
+    """Turn the faces of cells that run along an edge in the same direction as their neighbours there.
+
+    The orientation of a face was judged by the middle of the cell, which fails in cells far from convex.
+    """
+    for c in cells.tolist():
+        own = faces.of_cell[faces.first[c] : faces.first[c + 1]].tolist()
+        lists = [faces.points[faces.start[f] : faces.start[f + 1]] for f in own]
+        outward = [
+            (points if faces.owner[f] == c else points[::-1]).tolist()
+            for f, points in zip(own, lists, strict=True)
+        ]
+        for k in np.flatnonzero(_against(outward)).tolist():
+            lists[k][:] = lists[k][::-1].copy()
+
+
+def _against(faces: list[list[int]]) -> Mask:
+    """Return True for the faces of a closed cell that turn against the majority."""
+    edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for k, face in enumerate(faces):
+        for a, b in zip(face, face[1:] + face[:1], strict=True):
+            edges.setdefault((min(a, b), max(a, b)), []).append((k, 1 if a < b else -1))
+    beside: list[list[tuple[int, int]]] = [[] for _ in faces]
+    for (k, way), (j, other) in (pair for pair in edges.values() if len(pair) == 2):
+        beside[k].append((j, -way * other))
+        beside[j].append((k, -way * other))
+    senses = np.zeros(len(faces))
+    senses[0], waiting = 1, [0]
+    while waiting:
+        k = waiting.pop()
+        for j, relation in beside[k]:
+            if senses[j] == 0:
+                senses[j] = senses[k] * relation
+                waiting.append(j)
+    against: Mask = senses < 0 if senses.sum() >= 0 else senses > 0
+    return against

@@ -1,7 +1,7 @@
-"""Velocities on the faces of patches: those of the file, or those that OpenFOAM's boundary conditions make.
+"""Velocities on the faces of patches: from the file, or by OpenFOAM's boundary conditions.
 
-A condition without ``value`` in the file gets the value that OpenFOAM computes for it. Where OpenFOAM insists
-on a ``value``, or the condition is not known, there is an error.
+A condition without ``value`` in the file gets the value that OpenFOAM computes for it. A condition that
+requires a ``value``, or is unknown, is an error.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from foamprb.flow.reconstruct import VALUELESS
 
 
 class Faces(NamedTuple):
-    """The faces of a patch."""
+    """Faces of a patch."""
 
     cells: Floats
     """(n, 3) velocities of the cells behind them, m/s."""
@@ -34,11 +34,11 @@ class Faces(NamedTuple):
 
 
 Rule = Callable[[PatchField, Faces], Floats | None]
-"""Gives the values (n, 3), m/s, of a boundary condition; None if an entry is missing that it needs."""
+"""Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
 
 
 def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, cells: Floats) -> Floats:
-    """Velocity at the boundary faces, (n_boundary, 3), m/s; zero on patches that say nothing about it.
+    """Return the velocity at the boundary faces, (n_boundary, 3), m/s; zero on patches without values.
 
     Parameters
     ----------
@@ -52,8 +52,8 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
     Raises
     ------
     InputError
-        The field has no entry for a patch, an entry of a type that does not go with the patch, or one without
-        the values that it needs; or as many values as the patch has no faces.
+        The field has no entry for a patch, an entry of a type that the patch cannot have, or one without the
+        values that it needs; or the counts of values and faces differ.
     """
     owner = mesh.owner[mesh.n_internal :]
     sizes = np.linalg.norm(mesh.boundary_areas, axis=1)
@@ -71,7 +71,7 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
 
 
 def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) -> None:
-    """Raise InputError if a patch has no entry, or one that OpenFOAM would refuse on a patch of its type."""
+    """Raise InputError if a patch has no entry, or one that OpenFOAM does not allow for its type."""
     if entry is None:
         if patch.type in CONSTRAINTS:
             return
@@ -131,7 +131,7 @@ def _along(vectors: Floats, normals: Floats) -> Floats:
 
 
 def _fixed_normal_slip(entry: PatchField, faces: Faces) -> Floats | None:
-    """n (n·fixedValue) and the tangential part of the cells' velocity."""
+    """Return n (n·fixedValue) plus the tangential part of the cells' velocity."""
     fixed = entry.fields.get("fixedValue")
     if fixed is None:
         return None
@@ -139,19 +139,19 @@ def _fixed_normal_slip(entry: PatchField, faces: Faces) -> Floats | None:
 
 
 def _partial_slip(entry: PatchField, faces: Faces) -> Floats | None:
-    """f times ``refValue``, and 1 − f times the tangential velocity of the cells; f is ``valueFraction``."""
+    """Return f refValue + (1 − f) u_t with f = valueFraction and u_t the tangential velocity of the cells."""
     f, fixed = entry.fields.get("valueFraction"), entry.fields.get("refValue", np.zeros((1, 3)))
     return None if f is None else f * fixed + (1.0 - f) * _tangential(entry, faces)
 
 
 def _surface_normal(entry: PatchField, faces: Faces) -> Floats | None:
-    """``refValue`` times the outward normal."""
+    """Return ``refValue`` times the outward normal."""
     speed = entry.fields.get("refValue")
     return None if speed is None else speed * faces.normals
 
 
 def _entry(name: str) -> Rule:
-    """The field of an entry, or the constant that it holds."""
+    """Make the rule that returns the field, or the constant, of an entry."""
 
     def rule(entry: PatchField, faces: Faces) -> Floats | None:  # noqa: ARG001
         return entry.fields[name] if name in entry.fields else _constant(entry.words.get(name, ""), 3)
@@ -160,13 +160,13 @@ def _entry(name: str) -> Rule:
 
 
 def _flow_rate(entry: PatchField, faces: Faces) -> Floats | None:
-    """The uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
+    """Return the uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
     rate = _constant(entry.words.get("volumetricFlowRate", ""), 1)
     return None if rate is None else -rate / faces.areas.sum() * faces.normals
 
 
 def _rotating_wall(entry: PatchField, faces: Faces) -> Floats | None:
-    """ω a × (x − origin), a the direction of the axis."""
+    """Return ω a × (x − origin) with a the direction of the axis."""
     origin, axis = (_constant(entry.words.get(key, ""), 3) for key in ("origin", "axis"))
     omega = _constant(entry.words.get("omega", ""), 1)
     if origin is None or axis is None or omega is None or not axis.any():
@@ -178,7 +178,7 @@ _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 
 
 def _constant(text: str, components: int) -> Floats | None:
-    """A number or a vector (1, components), ``constant`` before it or not; None for anything else."""
+    """Return a number or a vector (1, components), after ``constant`` or not; None for other text."""
     numbers = " ".join([_NUMBER] * components)
     match = re.fullmatch("(?:constant )?" + (numbers if components == 1 else rf"\( {numbers} \)"), text)
     return None if match is None else np.array([match.groups()], dtype=np.float64)
@@ -200,7 +200,7 @@ RULES: dict[str, tuple[bool, Rule]] = {
     "uniformInletOutlet": (False, _entry("uniformInletValue")),
     "zeroGradient": (True, _of_cells),
 }
-"""By type of condition: whether OpenFOAM computes the values even where there is a ``value``, and how."""
+"""By type of condition: True if OpenFOAM computes the values even if there is a ``value``; and the rule."""
 
 CONDITIONS = frozenset(
     """
@@ -221,4 +221,4 @@ CONDITIONS = frozenset(
     variableHeightFlowRateInletVelocity waveTransmissive waveVelocity
     """.split()  # noqa: SIM905
 )
-"""The other conditions of OpenFOAM for velocities; they need a ``value``."""
+"""Other conditions of OpenFOAM for velocities, which need a ``value``."""

@@ -1,4 +1,4 @@
-"""The folders of a case: its times, its regions, the mesh and the fields that hold at a time."""
+"""Folders and files of a case: times, regions, dictionaries, meshes and fields."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from foamprb.flow.read.times import choose_times, listed, pick_time
 
 
 class MissingFieldError(InputError):
-    """A time has no field of a name."""
+    """Error: a field is missing at a time."""
 
 
 _TIME_NAME = re.compile(r"\d+(\.\d*)?([eE][-+]?\d+)?")
@@ -60,22 +60,22 @@ def word_of(dictionary: Dictionary, key: str, default: str = "") -> str:
 
 
 def available_times(case: Path) -> tuple[str, ...]:
-    """Names of the time directories, as OpenFOAM wrote them, in the order of time."""
+    """Return the names of the time directories, as OpenFOAM wrote them, in the order of time."""
     names = [path.name for path in case.iterdir() if path.is_dir() and _TIME_NAME.fullmatch(path.name)]
     return tuple(sorted(names, key=float))
 
 
 def regions(case: Path) -> tuple[str, ...]:
-    """Names of the regions of a case whose mesh is divided into regions; none for a case of one mesh.
+    """Return the names of the regions of a case; none for a case with one mesh.
 
-    Before there is any mesh, they are those of ``constant/regionProperties``.
+    Without any mesh, they are read from ``constant/regionProperties``.
     """
     with_mesh = {path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")}
     return tuple(sorted(with_mesh or _listed_regions(case)))
 
 
 def _listed_regions(case: Path) -> set[str]:
-    """The words in the inner parentheses of ``regions ( fluid (air water) solid (heater) )``."""
+    """Return the words in the inner parentheses of ``regions ( fluid (air water) solid (heater) )``."""
     try:
         root = find_dictionary(case, "", "regionProperties")
     except InputError:
@@ -85,12 +85,12 @@ def _listed_regions(case: Path) -> set[str]:
 
 
 def select_time(case: Path, time: float | str = "latestTime", region: str = "") -> str:
-    """Name of the time directory that ``time`` means: ``latestTime``, or a value.
+    """Return the name of the time directory of a time: ``latestTime``, or a value.
 
     Raises
     ------
     InputError
-        The case has no such time; the message lists those that it has.
+        The case has no such time; the message lists its times.
     """
     names = _require_times(case, region)
     name = names[pick_time(case, names, time)]
@@ -102,7 +102,7 @@ def select_time(case: Path, time: float | str = "latestTime", region: str = "") 
 
 
 def _require_times(case: Path, region: str) -> tuple[str, ...]:
-    """The times; InputError if there is no case, or it has none."""
+    """Return the times; InputError if there is no case, or it has no times."""
     require_case(case, region)
     names = available_times(case)
     if not names:
@@ -112,17 +112,17 @@ def _require_times(case: Path, region: str) -> tuple[str, ...]:
 
 
 def _require_latest(case: Path, name: str) -> None:
-    """Raise InputError if a later time is there, but no folder: a file, or a link to nothing."""
+    """Raise InputError if a later time exists that is not a folder: a file, or a broken link."""
     for path in case.iterdir():
         if _TIME_NAME.fullmatch(path.name) and not path.is_dir() and float(path.name) > float(name):
             raise InputError(
-                f"{path}: named like a time, but no folder that can be read. The latest that can is {name}: "
+                f"{path}: named like a time, but not a readable folder. The latest readable time is {name}: "
                 f"-time {name}."
             )
 
 
 def require_case(case: Path, region: str) -> None:
-    """Raise InputError if there is no case with a mesh, or the region is not one of its regions."""
+    """Raise InputError if there is no case with a mesh, or it does not have the region."""
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     names = regions(case)
@@ -140,7 +140,7 @@ def require_case(case: Path, region: str) -> None:
 
 
 def require_region(case: Path, region: str, names: Sequence[str]) -> None:
-    """Raise InputError if a region is named that a case of these regions does not have."""
+    """Raise InputError if a case of these regions does not have a named region."""
     if region and region not in names:
         raise InputError(
             f"{case}: no region {region}. {suggestion(region, names)}"
@@ -150,7 +150,7 @@ def require_region(case: Path, region: str, names: Sequence[str]) -> None:
 
 
 def require_choice(case: Path, names: Sequence[str]) -> None:
-    """Raise InputError if a case without a mesh of its own has regions, of which one must be chosen."""
+    """Raise InputError if a case without its own mesh has regions, of which one must be chosen."""
     if names:
         raise InputError(
             f"{case}: the mesh is divided into regions; choose one with -region. Allowed: {', '.join(names)}."
@@ -158,12 +158,12 @@ def require_choice(case: Path, names: Sequence[str]) -> None:
 
 
 def is_decomposed(case: Path) -> bool:
-    """Whether there are processor folders."""
+    """Return True if there are processor folders."""
     return any(case.glob("processor*/constant")) or any(case.glob("processors*/constant"))
 
 
 def mesh_folder(case: Path, time: str | None, region: str, part: str = "faces") -> Path:
-    """The ``polyMesh`` folder whose faces, or another ``part`` of the mesh, hold at the time."""
+    """Return the ``polyMesh`` folder whose faces, or another ``part`` of the mesh, are valid at a time."""
     folder = case / "constant" / region / "polyMesh"
     for name in available_times(case):
         changed = case / name / region / "polyMesh"
@@ -173,14 +173,14 @@ def mesh_folder(case: Path, time: str | None, region: str, part: str = "faces") 
 
 
 def mesh_files(case: Path, time: str | None, region: str) -> tuple[Path, ...]:
-    """The files of the mesh at the time, without ``.gz``: faces and what belongs to them, and points."""
+    """Return the files of the mesh at a time, without ``.gz``: points first, then faces and the rest."""
     folder = mesh_folder(case, time, region)
     points = mesh_folder(case, time, region, "points")
     return (points / "points", *(folder / name for name in ("faces", "owner", "neighbour", "boundary")))
 
 
 def notes_of_forms(paths: Iterable[Path]) -> list[str]:
-    """A note for each of the files that is there plain and compressed."""
+    """Return a note for each file that exists plain and compressed."""
     return [
         f"{path} and {path.name}.gz are both there: the plain file is read, as by OpenFOAM."
         for path in paths
@@ -189,7 +189,7 @@ def notes_of_forms(paths: Iterable[Path]) -> list[str]:
 
 
 def field_path(folder: Path, field: str, kind: Kind) -> Path:
-    """The file of a field in a time directory; InputError if it is missing or of another class."""
+    """Return the file of a field in a time directory; InputError if it is missing or of another class."""
     path = existing(folder / field)
     if path is None:
         raise MissingFieldError(f"{folder}: no field {field}; the fields are {listed(fields_of(folder))}.")
@@ -200,7 +200,7 @@ def field_path(folder: Path, field: str, kind: Kind) -> Path:
 
 
 def fields_of(folder: Path) -> dict[str, str]:
-    """Fields of a time directory, name → class."""
+    """Return the classes of the fields of a time directory by name."""
     found = {}
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.is_file():
@@ -211,22 +211,22 @@ def fields_of(folder: Path) -> dict[str, str]:
 
 
 def cell_zones(folder: Path) -> Mapping[str, NDArray[np.int64]]:
-    """The cells of each zone by name, of the mesh in a folder ``polyMesh``; InputError if they are broken."""
+    """Read the cells of each zone by name from a folder ``polyMesh``; InputError if the file is broken."""
     path = existing(folder / "cellZones")
     return {} if path is None else read_cell_zones(path)
 
 
 def shown(path: Path) -> Path:
-    """The file's name as it is on disk, for a message."""
+    """Return the name of a file as it is on disk, for messages."""
     return existing(path) or path
 
 
 def select_times(case: Path, selection: str | None = None, region: str = "") -> tuple[str, ...]:
-    """Names of the time directories of a case that ``selection`` means; see :func:`choose_times`.
+    """Return the names of the selected time directories of a case; see :func:`choose_times`.
 
     Raises
     ------
     InputError
-        The case cannot be read; or as :func:`choose_times`.
+        The case cannot be read, or see :func:`choose_times`.
     """
     return choose_times(case, _require_times(case, region), selection)

@@ -1,4 +1,7 @@
-"""Checks of what VTK's readers pass over in silence or crash on: numbers, volumes, labels, faces."""
+"""Checks of numbers, volumes, labels, faces and shapes of patches.
+
+VTK's readers ignore such faults, or crash on them.
+"""
 
 from __future__ import annotations
 
@@ -23,23 +26,23 @@ _PLANAR = {"symmetryPlane": "; the type of a curved one is symmetry", "wedge": "
 _SINGLE = 6e-8
 """Relative error of coordinates in single precision."""
 _LEAST_TURN = 1e-6
-"""Least angle, rad, by which a face is held to be turned, however exact its coordinates."""
+"""Tolerance of the angle between faces, rad, with exact coordinates."""
 
 
 def require_numbers(values: Floats, source: Path, what: str, where: str = "number") -> None:
-    """Refuse rows that are not finite, or larger than any length or velocity.
+    """Check that all rows are finite, and not larger than any length or velocity.
 
     Parameters
     ----------
     values, source
-        (n, components), and the file that they are from.
+        (n, components) values, and their file.
     what, where
-        What a row is called, and where it is, before its number.
+        Name of a row, and of its position, before the index.
 
     Raises
     ------
     InputError
-        How many of them, and the first.
+        The message has the count of wrong rows, and the first one.
     """
     bad = np.flatnonzero(~(np.abs(values) <= LARGEST).all(axis=1))
     if len(bad):
@@ -51,13 +54,7 @@ def require_numbers(values: Floats, source: Path, what: str, where: str = "numbe
 
 
 def require_volumes(mesh: Mesh, source: Path) -> None:
-    """Refuse a mesh that cannot be one.
-
-    Raises
-    ------
-    InputError
-        Cells have no volume or are inside out.
-    """
+    """Raise InputError if cells have no positive volume."""
     flat = np.flatnonzero(~(mesh.volumes > 0.0))
     if len(flat):
         x = "({:g} {:g} {:g})".format(*mesh.centres[flat[0]])
@@ -68,7 +65,7 @@ def require_volumes(mesh: Mesh, source: Path) -> None:
 
 
 def noted_counts(folder: Path) -> dict[str, int]:
-    """Counts that OpenFOAM notes in the header of ``owner``: nPoints, nCells, nFaces, nInternalFaces."""
+    """Return the counts in the header of ``owner``: nPoints, nCells, nFaces, nInternalFaces."""
     for name in ("faces", "owner", "neighbour"):
         if existing(folder / name) is None:
             raise InputError(f"{folder / name}: no such file.")
@@ -77,9 +74,9 @@ def noted_counts(folder: Path) -> dict[str, int]:
 
 
 def require_labels(folder: Path, noted: dict[str, int]) -> None:
-    """Raise InputError for broken faces, and for owners and neighbours that are not the numbers of cells.
+    """Raise InputError for broken faces, and for owners and neighbours that are not indices of cells.
 
-    VTK would allocate memory for as many cells.
+    VTK would allocate memory for that many cells.
     """
     for name in ("points", "faces"):
         if existing(folder / name) is not None:
@@ -100,7 +97,7 @@ def require_labels(folder: Path, noted: dict[str, int]) -> None:
 
 
 def _require_faces(path: Path, limit: int) -> None:
-    """Refuse lists of faces that VTK does not survive: lengths that do not fit, or beyond all memory."""
+    """Raise InputError for lists of faces on which VTK crashes: inconsistent or huge lengths."""
     if header(path).get("class") == "faceCompactList":
         read_faces(path)
         return
@@ -109,7 +106,7 @@ def _require_faces(path: Path, limit: int) -> None:
     if long is not None:
         line = data.count(b"\n", 0, long.start()) + 1
         raise InputError(
-            f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a number of them."
+            f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a count of points."
         )
 
 
@@ -133,7 +130,7 @@ def require_patch_shapes(mesh: Mesh, source: Path) -> None:
 
 
 def _require_flat(mesh: Mesh, rows: Floats, normals: Floats, doubt: Floats, source: Path) -> None:
-    """Each empty face must look along a coordinate, and each cell have two in each such direction."""
+    """Check that each empty face is normal to a coordinate axis, and that each cell has two on each axis."""
     names = " and ".join(patch.name for patch in mesh.patches if patch.type == "empty")
     axis = np.argmax(np.abs(normals), axis=1)
     aside = np.sqrt(np.maximum(1.0 - normals[np.arange(len(rows)), axis] ** 2, 0.0))
@@ -155,7 +152,7 @@ def _require_flat(mesh: Mesh, rows: Floats, normals: Floats, doubt: Floats, sour
 
 
 def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:
-    """A note for each patch of a type that OpenFOAM itself does not have."""
+    """Return a note for each patch of a type that OpenFOAM does not have."""
     return [
         f"Patch {patch.name} is of type {patch.type}, which is taken for a plain patch, as by OpenFOAM."
         for patch in patches
@@ -164,13 +161,13 @@ def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:
 
 
 def _normals(mesh: Mesh) -> tuple[Floats, Floats]:
-    """Unit normals of the boundary faces (n, 3), and the angles (n,), rad, by which they may be off."""
+    """Return unit normals of the boundary faces (n, 3), and their errors as angles (n,), rad."""
     start = mesh.face_start[mesh.n_internal :].astype(np.intp)
     corners = mesh.points[mesh.face_points[start[0] :]]
     spread = np.linalg.norm(corners - np.repeat(mesh.boundary_centres, np.diff(start), axis=0), axis=1)
     extent = np.maximum.reduceat(spread, start[:-1] - start[0]) if len(spread) else spread
     areas = np.maximum(np.linalg.norm(mesh.boundary_areas, axis=1), 1e-300)
-    # A face of length 2·extent is about as wide as its area over that.
+    # The width of a face of length 2·extent is about its area over that length.
     doubt = 8.0 * _SINGLE * np.abs(mesh.points).max() * 2.0 * extent / areas + _LEAST_TURN
     return mesh.boundary_areas / areas[:, None], doubt
 

@@ -1,7 +1,7 @@
 """OpenFOAM's fields: values at the cells, and an entry for each patch; in double precision.
 
-The long lists are read by :mod:`~foamprb.flow.read.foamfile`; what remains of the text is a dictionary, with
-macros and includes.
+The long lists are read by :mod:`~foamprb.flow.read.foamfile`; the remaining text is a dictionary, with macros
+and includes.
 """
 
 from __future__ import annotations
@@ -31,16 +31,16 @@ from foamprb.flow.read.foamfile import COMPONENTS, FoamFile, ListAt
 
 
 class Kind(NamedTuple):
-    """A class of fields."""
+    """Class of fields."""
 
     name: str
-    """OpenFOAM's."""
+    """OpenFOAM's name."""
     inner: str
-    """The type of a value."""
+    """Type of a value."""
     dimensions: tuple[Dimensions, ...]
-    """Those allowed; any if there is none."""
+    """Allowed dimensions; empty for any."""
     meaning: str
-    """What it is to foamprb, for a message."""
+    """Meaning of the field, for messages."""
 
 
 VELOCITY_FIELD = Kind("volVectorField", "vector", (VELOCITY,), "a velocity")
@@ -49,11 +49,11 @@ DENSITY_FIELD = Kind("volScalarField", "scalar", (DENSITY,), "a density")
 
 
 class PatchField(NamedTuple):
-    """The entry of a field for a patch, or for all patches whose names match a pattern."""
+    """Entry of a field for a patch, or for all patches whose names match a pattern."""
 
     type: str
     pattern: bool = False
-    """Whether the name is a regular expression."""
+    """True if the name is a regular expression."""
     fields: Mapping[str, Floats] = {}
     """Values by key, ``value`` among them: (n_faces, components), or one row if they are all alike."""
     words: Mapping[str, str] = {}
@@ -72,10 +72,10 @@ class FoamField(NamedTuple):
     dimensions: Dimensions
 
     def of(self, patch: PatchInfo) -> PatchField | None:
-        """The entry that counts for a patch, found as OpenFOAM does.
+        """Return the entry that applies to a patch, by OpenFOAM's rules.
 
-        That is the one of its name; else the last one named like one of its groups; else the last one whose
-        pattern fits the name.
+        It is the entry with its name; else the last one with the name of one of its groups; else the last one
+        whose pattern matches the name.
         """
         if patch.name in self.patches and not self.patches[patch.name].pattern:
             return self.patches[patch.name]
@@ -90,14 +90,14 @@ class FoamField(NamedTuple):
 
 
 _MARK = "List@"
-"""Stands for a list in the text of a field, with the list's number after it."""
+"""Placeholder for a list in the text of a field, followed by the list's number."""
 _COMPONENT_TYPES = b"|".join(COMPONENTS)
 _LIST = re.compile(
     rb"//[^\n]*|/\*.*?\*/|\"(?:[^\"\\]|\\.)*\"|\bnonuniform\s+(?:List<(?P<inner>%b)>\s*)?(?P<size>\d)"
     % _COMPONENT_TYPES,
     re.DOTALL,
 )
-# A patch of a constraint type has this type of field whether the file includes these entries or not.
+# A patch of a constraint type has this type of field even without these entries.
 _CONSTRAINT_TYPES = re.compile(rb'#includeEtc\s+"caseDicts/setConstraintTypes"')
 
 
@@ -109,9 +109,9 @@ def read_field(path: Path, kind: Kind, case: Path) -> FoamField:
     path
         The file, plain or compressed.
     kind
-        Which class and dimensions it must have.
+        Required class and dimensions.
     case
-        The case, as :func:`~foamprb.dictionary.grammar.read_dictionary` takes it.
+        The case; see :func:`~foamprb.dictionary.grammar.read_dictionary`.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def read_field(path: Path, kind: Kind, case: Path) -> FoamField:
 
 
 def _without_lists(file: FoamFile, kind: Kind) -> tuple[str, list[ListAt]]:
-    """The text of a field, a mark in the place of each list of numbers; and the lists."""
+    """Return the text of a field with a mark for each list of numbers, and the lists."""
     parts: list[bytes] = []
     lists: list[ListAt] = []
     begin = file.at = 0
@@ -178,7 +178,7 @@ def _allowed(kind: Kind) -> str:
 
 
 class _Reader:
-    """Reads the entries of a field."""
+    """Reader of the entries of a field."""
 
     def __init__(self, file: FoamFile, kind: Kind, lists: Sequence[ListAt]) -> None:
         self._file, self._lists = file, lists
@@ -186,7 +186,7 @@ class _Reader:
         self._inner = kind.inner
 
     def field(self, entry: Entry) -> Floats:
-        """Values of the field's own type after ``uniform`` or ``nonuniform``."""
+        """Return values of the field's type after ``uniform`` or ``nonuniform``."""
         found = self._values(entry)
         if found is None or found.shape[1] != self._components:
             raise entry.mistake(
@@ -195,7 +195,7 @@ class _Reader:
         return found
 
     def patch(self, key: str, dictionary: Dictionary) -> PatchField:
-        """The entry of a patch."""
+        """Return the entry of a patch."""
         fields: dict[str, Floats] = {}
         words: dict[str, str] = {}
         for name, entry in dictionary.entries.items():
@@ -212,7 +212,7 @@ class _Reader:
         return PatchField(words["type"], key.startswith('"'), fields, words)
 
     def _values(self, entry: Entry) -> Floats | None:
-        """Values after ``uniform`` or ``nonuniform``, (n, components); None for anything else."""
+        """Return values after ``uniform`` or ``nonuniform``, (n, components); None for other entries."""
         match entry.tokens if isinstance(entry, Stream) else ():
             case ("nonuniform", mark) if mark.startswith(_MARK):
                 numbers: Floats = self._file.numbers(self._lists[int(mark.removeprefix(_MARK))])

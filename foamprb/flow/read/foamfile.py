@@ -1,4 +1,4 @@
-"""OpenFOAM's own files of lists, ascii or binary, compressed or not, in double precision."""
+"""OpenFOAM's files of lists, ascii or binary, compressed or not, in double precision."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ _MOST_ENTRIES = 1 << 31
 
 
 class ListAt(NamedTuple):
-    """Where a list of numbers stands in a file."""
+    """Position of a list of numbers in a file."""
 
     n: int
     components: int
     dtype: np.dtype[Any]
-    """As it is written in binary; also tells whole numbers from others in ascii."""
+    """Type in binary; in ascii it distinguishes integers from other numbers."""
     begin: int
     end: int
     binary: bool
     uniform: bool
-    """Whether one entry stands for all, ``4{7}``."""
+    """True if one entry stands for all, ``4{7}``."""
 
 
 class FoamFile:
-    """A file's bytes, and how far they have been read."""
+    """Bytes of a file, and the position up to which they have been read."""
 
     def __init__(self, path: Path) -> None:
         found = existing(path)
@@ -58,17 +58,17 @@ class FoamFile:
         self.skip()
 
     def broken(self, what: str, at: int | None = None) -> InputError:
-        """The error that something else was expected here, or at another place; with the line."""
+        """Return the error that something else is expected here, or at another position, with the line."""
         line = self.data.count(b"\n", 0, self.at if at is None else at) + 1
         return InputError(f"{self.path}: line {line}: {what} expected; the file is broken or cut short.")
 
     def skip(self) -> None:
-        """Pass blanks and comments."""
+        """Skip blanks and comments."""
         match = _BLANK.match(self.data, self.at)
         self.at = match.end() if match else self.at
 
     def take(self, text: bytes) -> bool:
-        """Whether the text comes next; it is then passed."""
+        """Skip the text if it comes next; return True if it does."""
         found = self.data.startswith(text, self.at)
         if found:
             self.at += len(text)
@@ -76,12 +76,12 @@ class FoamFile:
         return found
 
     def need(self, text: bytes) -> None:
-        """Pass the text; InputError if it does not come next."""
+        """Skip the text; InputError if it does not come next."""
         if not self.take(text):
             raise self.broken(f"'{text.decode()}'")
 
     def word(self) -> bytes:
-        """The word that comes next; it is then passed."""
+        """Return the next word."""
         match = _WORD.match(self.data, self.at)
         if match is None:
             raise self.broken("a word")
@@ -90,7 +90,7 @@ class FoamFile:
         return match[0]
 
     def count(self) -> int:
-        """A number of entries; what follows it is not touched, as it may be binary."""
+        """Return a number of entries; blanks after it are not skipped, as binary data may follow."""
         match = _COUNT.match(self.data, self.at)
         if match is None:
             raise self.broken("a number of entries")
@@ -100,16 +100,16 @@ class FoamFile:
         return int(match[0])
 
     def labels(self) -> Labels:
-        """A list of labels (n,), its number of entries first."""
+        """Return a list of labels (n,), whose number of entries comes first."""
         values: Labels = self.list(1, self.label)[:, 0]
         return values
 
     def list(self, components: int, binary: np.dtype[Any] | None = None) -> NDArray[Any]:
-        """A list (n, components), its number of entries first; in binary of a type, by default a scalar."""
+        """Return a list (n, components), whose number of entries comes first; binary scalars by default."""
         return self.numbers(self.locate(components, binary))
 
     def locate(self, components: int, binary: np.dtype[Any] | None = None) -> ListAt:
-        """As :meth:`list`, but only pass the list, and return where it is."""
+        """Skip a list, and return its position; see :meth:`list`."""
         n = self.count()
         dtype = self._scalar if binary is None else binary
         if n == 0:
@@ -141,7 +141,7 @@ class FoamFile:
         return ListAt(n, components, dtype, begin, end, False, uniform)
 
     def numbers(self, at: ListAt) -> NDArray[Any]:
-        """The numbers (n, components) of a list."""
+        """Return the numbers (n, components) of a list."""
         wide = np.float64 if at.dtype.kind == "f" else np.int64
         if at.n == 0:
             return np.zeros((0, at.components), dtype=wide)
@@ -164,7 +164,7 @@ class FoamFile:
         return match is not None and self.data[match.end() : match.end() + 1] == b"{"
 
     def skip_entry(self) -> None:
-        """Pass what follows a key, up to and with the semicolon."""
+        """Skip the value of a key and the semicolon."""
         while not self.take(b";"):
             if self.data[self.at : self.at + 1] in (b"(", b")", b"{", b"}"):
                 self.take(self.data[self.at : self.at + 1])
@@ -173,7 +173,7 @@ class FoamFile:
 
 
 def require_room(path: Path) -> None:
-    """Raise InputError if a file is too short for the entries that its list is said to have."""
+    """Raise InputError if a file is too short for the stated number of entries."""
     file = FoamFile(path)
     n = file.count()
     if n > len(file.data):
@@ -198,7 +198,7 @@ def read_vectors(path: Path) -> Floats:
 
 
 def read_faces(path: Path) -> tuple[Labels, Labels]:
-    """Read a ``faceList`` or a ``faceCompactList``: where each face's points begin, (n + 1,), and the points.
+    """Read a ``faceList`` or ``faceCompactList``: the start of each face's points, (n + 1,), and the points.
 
     Raises
     ------
@@ -251,7 +251,7 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
         cells: Labels | None = None
         while not file.take(b"}"):
             if file.word() == b"cellLabels":
-                # An empty zone in binary is a mere 0.
+                # An empty zone in binary is just 0.
                 file.take(b"List<label>")
                 cells = file.labels()
                 file.need(b";")
@@ -266,7 +266,7 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
 
 
 def header(path: Path) -> dict[str, str]:
-    """Entries of the FoamFile header; empty when there is none."""
+    """Return the entries of the FoamFile header; empty without a header."""
     text = read_bytes(path, _HEADER_BYTES).decode("latin-1")
     match = re.search(r"FoamFile\s*\{(.*?)\}", _COMMENT.sub(" ", text), re.DOTALL)
     if match is None:

@@ -1,4 +1,4 @@
-"""Which of the times that there are a value, or OpenFOAM's option ``-time``, means."""
+"""Selection of times by a value or by OpenFOAM's option ``-time``."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ _RANGE = re.compile(r"([^:]*):([^:]*)")
 
 
 def choose_times(source: Path, names: Sequence[str], selection: str | None = None) -> tuple[str, ...]:
-    """The names of times that OpenFOAM's option ``-time`` would select, in the order of time.
+    """Return the names of the times that OpenFOAM's option ``-time`` selects, in the order of time.
 
     Parameters
     ----------
     source
-        What has these times, for the messages.
+        Owner of the times, for messages.
     names
         The names of all times, in their order; at least one.
     selection
-        Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), with commas or blanks between them;
+        Values and ranges ``a:b``, ``a:`` or ``:b`` (ends included), separated by commas or blanks;
         ``latestTime``; None for all.
 
     Raises
@@ -63,18 +63,18 @@ def _bound(source: Path, word: str, text: str, default: float) -> float:
         value = math.nan
     if math.isnan(value):
         raise InputError(f"{source}: '{word}' is no range of times, such as 0.1:0.5, 0.1: or :0.5.")
-    # Names of times are rounded.
+    # The names of times are rounded.
     return value + math.copysign(1e-9 * abs(value), default) if text else value
 
 
 def pick_time(source: Path, names: Sequence[str], time: float | str) -> int:
-    """Position of a time among the names of times, in their order.
+    """Return the position of a time among the names of times.
 
     Raises
     ------
     InputError
-        There is no such time, and the message lists those that there are; or two names mean it, none of
-        which is ``time`` to the letter.
+        There is no such time, and the message lists the times; or two names mean it, and neither equals
+        ``time``.
     """
     if time in names:
         return names.index(str(time))
@@ -101,7 +101,7 @@ def _is_same(a: float, b: float) -> bool:
 
 
 def listed(names: Any) -> str:
-    """Names with commas between them, the middle left out where they are many."""
+    """Join names by commas, without the middle of many names."""
     names = list(names)
     if len(names) > 12:
         names = [*names[:5], "…", *names[-5:]]

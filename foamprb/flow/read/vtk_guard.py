@@ -1,7 +1,7 @@
-"""Guards against files on which VTK crashes: some damaged ones end the process, with no error to catch.
+"""Guard against damaged files on which VTK crashes, so that no error can be caught.
 
-A second process, started when it is first needed, reads each file first, in a copy of itself, and reports how
-the copy ended.
+A second process, started on demand, first reads each file in a fork of itself, and reports how the fork
+ended.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ __all__ = ["load_pyvista", "read_vtk", "require_survival", "times_of"]
 _LEAST_TIME = 20
 _MOST_FILES = 10_000
 _LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
-"""Files that name others, which are read with them."""
+"""Suffixes of files that include other files."""
 _lock = threading.Lock()
 _server: Any = None
 
@@ -43,12 +43,12 @@ def load_pyvista() -> Any:
 
 
 def times_of(path: Path) -> list[float]:
-    """The times of a file of VTK's, rising; none if it has no time."""
+    """Return the times of a VTK file, rising; empty if it has no times."""
     return _times(load_pyvista().get_reader(path))
 
 
 def read_vtk(path: Path, step: int | None = None) -> Any:
-    """Read a file of VTK's, at the ``step``-th of its times if it has any."""
+    """Read a VTK file, at the ``step``-th of its times if it has any."""
     pyvista = load_pyvista()
     reader = pyvista.get_reader(path)
     if step is not None and isinstance(reader, pyvista.HDFReader):
@@ -63,41 +63,40 @@ def _times(reader: Any) -> list[float]:
 
     if not isinstance(reader, load_pyvista().HDFReader):
         return list(getattr(reader, "time_values", None) or [])
-    # Pyvista passes over the times of these.
+    # Pyvista ignores the times of these files.
     reader.reader.UpdateInformation()
     about, key = reader.reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     return list(about.Get(key)) if about.Has(key) else []
 
 
 def require_survival(path: Path, step: int | None = None) -> None:
-    """Raise InputError for a file that VTK does not survive, at the ``step``-th of its times if it has any.
+    """Check that VTK can read a file, at the ``step``-th of its times if it has any, without crashing.
 
     Raises
     ------
     InputError
-        Reading the file ended the process that tried, by which signal; or it did not come to an end.
+        A signal ended the process that read the file, or it exceeded its processor time.
     """
     with _lock:
         number = _ask(path, step)
     if number == signal.SIGXCPU:
         raise InputError(
-            f"{path}: VTK has not come to an end within {_limit(path)} s of processor time; the file is "
-            "damaged."
+            f"{path}: VTK has not finished within {_limit(path)} s of processor time; the file is damaged."
         )
     if number:
         name = signal.Signals(number).name
-        raise InputError(f"{path}: VTK cannot read it and does not survive it ({name}); the file is damaged.")
+        raise InputError(f"{path}: VTK cannot read it and crashes ({name}); the file is damaged.")
 
 
 def _limit(path: Path) -> int:
-    """Processor time after which reading a file is given up, s: 20 s, and a second more per megabyte."""
-    # The folder may be one in which much else lies.
+    """Return the limit of processor time for reading a file, s: 20 s plus one second per megabyte."""
+    # The folder may hold many other files.
     files = islice(path.parent.rglob("*"), _MOST_FILES) if path.suffix in _LISTS else [path]
     return _LEAST_TIME + sum(file.stat().st_size for file in files if file.is_file()) // 1_000_000
 
 
 def _ask(path: Path, step: int | None) -> int:
-    """The signal that ended the copy that read the file, 0 if none did."""
+    """Return the signal that ended the fork that read the file, or 0."""
     global _server
     if _server is None or _server.poll() is not None:
         command = [sys.executable, "-W", "ignore", "-m", "foamprb.flow.read.vtk_guard"]
@@ -111,21 +110,21 @@ def _ask(path: Path, step: int | None) -> int:
         return int(_server.stdout.readline())
     except (OSError, ValueError) as error:
         raise InputError(
-            f"{path}: the process that tries whether VTK can read it has ended: {error}."
+            f"{path}: the process that tests whether VTK can read the file has ended: {error}."
         ) from None
 
 
 def _end(server: Any) -> None:
-    """End the second process, whatever it is at."""
+    """End the second process."""
     with server:
         server.kill()
 
 
 def _serve() -> None:
-    """Answer lines of path, time and limit on the standard input with numbers of signals."""
+    """Read lines of path, time and limit from the standard input; print numbers of signals."""
     import contextlib
 
-    # Once for all the copies.
+    # Imported once for all forks.
     load_pyvista()
     answers = os.fdopen(os.dup(1), "w")
     with open(os.devnull, "wb") as nothing:  # noqa: PTH123
@@ -144,7 +143,7 @@ def _serve() -> None:
 
 
 def _touch(data: Any) -> None:
-    """Read every number of what was read."""
+    """Access every number of the data."""
     for part in data.recursive_iterator() if isinstance(data, load_pyvista().MultiBlock) else [data]:
         for values in (part.points, *part.cell_data.values(), *part.point_data.values()):
             values.sum()

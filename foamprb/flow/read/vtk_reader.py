@@ -24,14 +24,14 @@ _MOST_MESSAGES = 100
 
 
 class Messages(NamedTuple):
-    """The messages of VTK, each once."""
+    """Messages of VTK, each once."""
 
     errors: list[str]
     warnings: list[str]
 
 
 class _LogHandler(logging.Handler):
-    """Collects the errors that are logged."""
+    """Collector of logged errors."""
 
     def __init__(self, errors: list[str]) -> None:
         super().__init__(logging.ERROR)
@@ -43,7 +43,7 @@ class _LogHandler(logging.Handler):
 
 @contextmanager
 def vtk_messages() -> Iterator[Messages]:
-    """Collect what VTK would print, in lists that are filled when the block ends."""
+    """Collect VTK's output in lists that are filled when the block ends."""
     messages = Messages([], [])
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     vtkOutputWindow.SetInstance(window)
@@ -59,11 +59,11 @@ def vtk_messages() -> Iterator[Messages]:
         vtkOutputWindow.SetInstance(before)
         text: Any = window.GetOutput()
         if isinstance(text, bytes):
-            # VTK quotes the contents of a broken file.
+            # VTK quotes the contents of broken files.
             text = text.decode("utf-8", "replace")
         for kind, message in _MESSAGE.findall(text):
             message = " ".join(message.split())
-            # VTK's old reader only warns of a file that is cut short.
+            # VTK's legacy reader only warns of truncated files.
             fatal = kind == "ERROR" or (kind == "Generic Warning" and message.startswith("Error"))
             similar = messages.errors if fatal else messages.warnings
             if message not in similar and len(similar) < _MOST_MESSAGES:
@@ -76,11 +76,10 @@ def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any]
     Parameters
     ----------
     files
-        ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed. VTK is shown
-        links to them in a folder of their own: in that of the case it would look for other times, and prefer
-        a compressed file to a plain one.
+        ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed. VTK reads links
+        to them in a separate folder; in the case it would look for other times, and prefer compressed files.
     patches
-        Whether to read the patches.
+        Read the patches as well.
 
     Returns
     -------
@@ -89,7 +88,7 @@ def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any]
     Raises
     ------
     InputError
-        There is no mesh to be read.
+        There is no mesh, or it cannot be read.
     """
     with TemporaryDirectory(prefix="foamprb-mesh-") as name:
         folder = Path(name) / "constant/polyMesh"
@@ -118,9 +117,9 @@ def _replaced(text: str, names: Mapping[str, str]) -> str:
 
 
 def _open(case: Path, *, patches: bool) -> Any:
-    """VTK's reader of the mesh and the patches."""
+    """Return VTK's reader of the mesh and the patches."""
     reader = vtkOpenFOAMReader()
-    # The name only tells the folder; the file need not be there.
+    # Only the folder of this name is used; the file need not exist.
     reader.SetFileName(str(case / "case.foam"))
     reader.SetCreateCellToPoint(False)
     reader.SetSkipZeroTime(False)
@@ -137,13 +136,13 @@ def _open(case: Path, *, patches: bool) -> Any:
 
 
 def _update(reader: Any) -> dict[str, Any]:
-    """The reader's blocks by name."""
+    """Return the reader's blocks by name."""
     reader.Update()
     return dict(_leaves(reader.GetOutput()))
 
 
 def raise_first_error(source: Path, messages: Messages) -> None:
-    """Raise VTK's first error, which names the cause; those after it follow from it."""
+    """Raise VTK's first error, which names the cause of the others."""
     if messages.errors:
         raise InputError(f"{source}: VTK's OpenFOAM reader says: {messages.errors[0]}")
 

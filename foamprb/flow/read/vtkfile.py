@@ -1,4 +1,4 @@
-"""Files that VTK or meshio reads: what they hold at a time."""
+"""Files that VTK or meshio reads, and their contents at a time."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ from foamprb.optional import load
 
 VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
 _SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5}
-"""Points of the kinds of cells that have always as many."""
+"""Number of points of the kinds of cells with a fixed number."""
 _HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
 _DATA = ("CELL_DATA", "POINT_DATA")
 
 
 def read_file(path: Path, time: float | str) -> Any:
-    """All that a file holds at a time."""
+    """Read the contents of a file at a time."""
     if not path.is_file():
         raise InputError(f"{path}: no such file.")
     return _read_by_vtk(path, time) if path.suffix in VTK_SUFFIXES else _read_meshio(path)
 
 
 def times_of_file(path: Path) -> list[str]:
-    """Names of the times of a file, rising; none if it has none."""
+    """Return the names of the times of a file, rising; empty if it has no times."""
     if not path.is_file():
         raise InputError(f"{path}: no such file.")
     if path.suffix == ".series":
@@ -50,12 +50,12 @@ def times_of_file(path: Path) -> list[str]:
     times = _by_vtk(path, times_of, path)
     for time in times:
         if not math.isfinite(time):
-            raise InputError(f"{path}: the time {time:g} is none; the file is damaged.")
+            raise InputError(f"{path}: the time {time:g} is not a number; the file is damaged.")
     return [f"{time:.12g}" for time in times]
 
 
 def _by_vtk(path: Path, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function that lets VTK read a file; an error of VTK's is raised."""
+    """Call a function that reads a file by VTK; raise VTK's errors."""
     with vtk_messages() as messages, _quiet(path):
         try:
             found = function(*arguments)
@@ -77,7 +77,7 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
     if path.suffix == ".vtk":
         _require_whole(path)
     if path.suffix == ".pvtu":
-        # Cells that a piece has for its neighbours' sake come first; then points where the pieces meet.
+        # Remove the ghost cells of the pieces, then the duplicate points where the pieces meet.
         ghosts = found.cell_data.get("vtkGhostType")
         found = found if ghosts is None else found.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
         found = found.clean(tolerance=0.0)
@@ -85,7 +85,7 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
 
 
 def _require_whole(path: Path) -> None:
-    """Refuse a legacy file in text form that ends within its last array, which VTK reads without a word."""
+    """Raise InputError for a truncated legacy text file, which VTK reads without an error."""
     data = path.read_bytes()
     if data.split(b"\n", 3)[2:3] != [b"ASCII"]:
         return
@@ -128,7 +128,7 @@ def _require_whole(path: Path) -> None:
 
 @contextlib.contextmanager
 def _quiet(path: Path) -> Iterator[None]:
-    """Keep the HDF5 library from printing what goes wrong, which it does beneath Python."""
+    """Suppress messages that the HDF5 library prints beneath Python."""
     if path.suffix != ".vtkhdf":
         yield
         return
@@ -144,7 +144,7 @@ def _quiet(path: Path) -> Iterator[None]:
 
 
 def _series(path: Path) -> dict[str, str]:
-    """The files of a series by the names of their times, rising."""
+    """Return the files of a series by the names of their times, rising."""
     try:
         files = json.loads(path.read_text(encoding="utf-8"))["files"]
         times = {f"{float(entry['time']):.12g}": str(entry["name"]) for entry in files}
@@ -156,19 +156,19 @@ def _series(path: Path) -> dict[str, str]:
 
 
 def _of_series(path: Path, time: float | str) -> Path:
-    """The file of a series at a time."""
+    """Return the file of a series at a time."""
     times = _series(path)
     names = list(times)
     file = path.parent / times[names[pick_time(path, names, time)]]
     if file.suffix == ".series" or not file.is_file():
-        raise InputError(f"{path}: the file {file} is not there.")
+        raise InputError(f"{path}: the file {file} does not exist.")
     return file
 
 
 def _read_meshio(path: Path) -> Any:
     meshio = load("meshio", "meshes", "mesh files need")
     pyvista = load_pyvista()
-    # Where a format is beyond it, meshio prints and ends the program.
+    # For unknown formats meshio prints a message and ends the program.
     words = io.StringIO()
     try:
         with contextlib.redirect_stdout(words), contextlib.redirect_stderr(words), np.errstate(all="ignore"):
@@ -185,7 +185,7 @@ def _read_meshio(path: Path) -> Any:
 
 
 def grid_and_surfaces(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]]:
-    """The one unstructured grid in what was read, and the surfaces beside it by name."""
+    """Return the one unstructured grid in the data, and the surfaces by name."""
     pyvista = load_pyvista()
     leaves = list(_leaves("", data))
     grids = [part for _, part in leaves if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
@@ -205,7 +205,7 @@ def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
 
 
 def solid_cells(grid: Any, path: Path) -> Any:
-    """The grid without its points, lines and surfaces."""
+    """Return the grid without its points, lines and surfaces."""
     kinds = np.unique(grid.celltypes).tolist()
     _require_lists(grid, path)
     if not set(kinds) & set(CELL_KINDS):
@@ -217,19 +217,19 @@ def solid_cells(grid: Any, path: Path) -> Any:
 
 
 def _require_lists(grid: Any, path: Path) -> None:
-    """Refuse cells whose lists of points or faces end outside of what there is, or are too long or short."""
+    """Raise InputError for cells whose lists of points or faces are out of range or of a wrong length."""
     cells = _lists(grid.GetCells(), path, grid.n_points)
     for kind, size in _SIZES.items():
         if np.any(cells[np.asarray(grid.celltypes) == kind] != size):
             name = CELL_KINDS.get(kind, f"cell of VTK type {kind}")
-            raise InputError(f"{path}: a {name} has not {size} points; the file is broken.")
+            raise InputError(f"{path}: a {name} does not have {size} points; the file is broken.")
     faces, of_cells = grid.GetPolyhedronFaces(), grid.GetPolyhedronFaceLocations()
     if faces is not None and of_cells is not None:
         _lists(of_cells, path, len(_lists(faces, path, grid.n_points)))
 
 
 def _lists(cells: Any, path: Path, limit: int) -> NDArray[Any]:
-    """The lengths of VTK's lists of numbers, which are all below a limit."""
+    """Return the lengths of VTK's lists of numbers, which must be below a limit."""
     start = vtk_to_numpy(cells.GetOffsetsArray()).astype(np.int64)
     numbers = vtk_to_numpy(cells.GetConnectivityArray())
     lengths: NDArray[Any] = np.diff(start)

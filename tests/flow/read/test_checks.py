@@ -101,7 +101,7 @@ def test_faces_name_no_number_beyond_all_points(tmp_path):
         (folder / "faces").write_text(text.replace("\n4(", f"\n4({number} ", 1))
         if wrong:
             with pytest.raises(
-                InputError, match=rf"line \d+: {number} is neither a point nor a number of them"
+                InputError, match=rf"line \d+: {number} is neither a point nor a count of points"
             ):
                 require_labels(folder, noted)
         else:

@@ -427,7 +427,7 @@ def test_a_file_that_vtk_never_ends_with_is_refused(tmp_path, monkeypatch):
     path.write_text(
         text.replace('Name="U" NumberOfComponents="3"', f'Name="U" NumberOfComponents="{20 * "9"}"')
     )
-    with pytest.raises(InputError, match="VTK has not come to an end within 1 s of processor time"):
+    with pytest.raises(InputError, match="VTK has not finished within 1 s of processor time"):
         read_mesh_file(path)
 
 

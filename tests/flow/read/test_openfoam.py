@@ -154,7 +154,7 @@ def test_two_names_of_one_time(case):
 def test_a_latest_time_that_is_no_folder_is_not_passed_over(kind, case):
     later = case / "20"
     later.symlink_to(case / "elsewhere") if kind == "link" else later.write_text("lost")
-    with pytest.raises(InputError, match=r"case/20: named like a time, but no folder .* that can is 1e1"):
+    with pytest.raises(InputError, match=r"case/20: named like a time, but not a readable folder.* time is 1e1"):
         read_case(case)
     assert select_time(case, 10) == "1e1"
 
@@ -365,7 +365,7 @@ BREAKAGES = {
     ),
     "a face of some billion points": (
         rewrite(POLY + "faces", r"\n4\(", "\n2147483647("),
-        "faces: line 7: 2147483647 is neither a point nor a number of them",
+        "faces: line 7: 2147483647 is neither a point nor a count of points",
     ),
     "some billion points": (
         rewrite(POLY + "points", r"\n27\n", "\n2147483646\n"),

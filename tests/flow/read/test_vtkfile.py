@@ -168,7 +168,7 @@ def test_each_kind_of_cell_has_its_number_of_points(kind, size, tmp_path):
         if sound:
             vtkfile._require_lists(grid, tmp_path)
         else:
-            with pytest.raises(InputError, match=f"has not {size} points; the file is broken"):
+            with pytest.raises(InputError, match=f"does not have {size} points; the file is broken"):
                 vtkfile._require_lists(grid, tmp_path)
 
 
