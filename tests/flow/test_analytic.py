@@ -22,47 +22,6 @@ def test_a_linear_flow_is_its_gradient_times_the_place():
     np.testing.assert_array_equal(gradient, np.broadcast_to(l, (3, 3, 3)))
 
 
-def test_a_flow_without_a_mesh_has_nothing_at_nodes():
-    flow = analytic.pipe(0.5, 1.0, 2.0)
-    time, u, l = flow.at_nodes()
-    assert (time, u.shape, l.shape, flow.turbulence_at_nodes().shape) == ("", (0, 3), (0, 9), (0, 8))
-
-
-def test_between_walls_flows_a_parabola_and_above_one_a_shear():
-    z, h, U = np.array([0.0, 0.01, 0.15, 0.2]), 0.2, 3.0
-    x = np.stack([1.0 + z, 2.0 - z, z], axis=1)
-    slit, shear = analytic.slit(h, U), analytic.shear_over_wall(7.0)
-    for flow, speed, rate in (
-        (slit, 6.0 * U * z / h * (1.0 - z / h), 6.0 * U / h * (1.0 - 2.0 * z / h)),
-        (shear, 7.0 * z, 7.0 + 0.0 * z),
-    ):
-        u, l = flow.sample(x, flow.locate(x), 0.0)
-        np.testing.assert_allclose(u, np.outer(speed, (1.0, 0.0, 0.0)), rtol=1e-14, atol=1e-14)
-        only = np.zeros((len(z), 3, 3))
-        only[:, 0, 2] = rate
-        np.testing.assert_allclose(l, only, rtol=1e-14, atol=1e-12)
-    assert [tuple(patch)[:2] for patch in slit.patches] == [("lower", "wall"), ("upper", "wall")]
-    assert [tuple(patch)[:2] for patch in shear.patches] == [("wall", "wall")]
-
-
-def test_a_straight_way_leaves_a_pipe_where_it_meets_its_end_or_its_wall():
-    flow = analytic.pipe(0.5, 1.0, 2.0)
-    arrays, walk = flow.arrays(0.0, ()), flow.kernels["walk"]
-    names = [patch.name for patch in flow.patches]
-    for x0, x1, fraction, name in (
-        ((1.5, 0.1, 0.0), (2.5, 0.2, 0.1), 0.5, "outlet"),
-        ((0.5, 0.1, 0.0), (-1.5, 0.2, 0.1), 0.25, "inlet"),
-        ((1.0, 0.3, 0.0), (1.8, 0.7, 0.0), 0.5, "wall"),
-        # The wall before the outlet, and the outlet before the wall.
-        ((1.0, 0.4, 0.0), (3.0, 0.8, 0.0), 0.25, "wall"),
-        ((1.5, 0.1, 0.0), (3.5, 0.6, 0.0), 0.25, "outlet"),
-    ):
-        found = walk(arrays, 0, x0, x1)
-        assert found[1] == pytest.approx(fraction, rel=1e-14)
-        assert names[found[2]] == name
-    assert walk(arrays, 0, (1.0, 0.1, 0.0), (1.5, 0.3, 0.2)) == (0, 1.0, -1, -1)
-
-
 def test_named_flows_have_the_gradients_of_their_names():
     for flow, rows in (
         (analytic.shear(3.0), [[0, 3, 0], [0, 0, 0], [0, 0, 0]]),
@@ -113,45 +72,6 @@ def test_a_flow_in_closed_form_has_neither_faces_nor_cells():
         flow.cell_zone(None)
     with pytest.raises(InputError, match="cellZone rotor: a flow in closed form"):
         flow.cell_zone("rotor")
-
-
-def wavy(x, y, z, t):
-    """All components depend on all coordinates and on time, each in another way."""
-    return (
-        math.sin(x + 2.0 * y + 3.0 * z + 4.0 * t),
-        math.exp(0.3 * x - 0.2 * y + 0.5 * z + 0.7 * t),
-        x * y * z * z + y**3 * x * t + math.cos(2.0 * z * x),
-    )
-
-
-def wavy_gradient(x, y, z, t):
-    c, e = math.cos(x + 2.0 * y + 3.0 * z + 4.0 * t), wavy(x, y, z, t)[1]
-    s = math.sin(2.0 * z * x)
-    return (
-        (c, 2.0 * c, 3.0 * c),
-        (0.3 * e, -0.2 * e, 0.5 * e),
-        (y * z * z + y**3 * t - 2.0 * z * s, x * z * z + 3.0 * y * y * x * t, 2.0 * x * y * z - 2.0 * x * s),
-    )
-
-
-@pytest.mark.parametrize("given", [False, True])
-def test_a_function_has_its_derivatives_in_the_plain_text_too(given):
-    """Its gradient, ∂u/∂t and second derivatives, component by component."""
-    flow = analytic.function(wavy, wavy_gradient if given else None, length=1.0, time=1.0)
-    arrays, x, t = flow.arrays(0.0, ()), (0.3, -0.7, 0.4), 0.2
-    assert tuple(arrays) == (1e-3, 1e-3)
-    u, l, u_t = flow.kernels["sample"](arrays, 0, x, t)
-    assert u == wavy(*x, t)
-    assert l == pytest.approx(np.ravel(wavy_gradient(*x, t)), rel=1e-14 if given else 1e-9, abs=1e-10)
-    c, e = math.cos(0.3 - 1.4 + 1.2 + 0.8), wavy(*x, t)[1]
-    assert u_t == pytest.approx((4.0 * c, 0.7 * e, (-0.7) ** 3 * 0.3), rel=1e-9)
-    h, D = 1e-5, []
-    for arm in h * np.eye(3):
-        after, before = (np.array(wavy_gradient(*(np.array(x) + s * arm), t)) for s in (1.0, -1.0))
-        D.append((after - before) / (2.0 * h))
-    found = flow.kernels["curvature"](arrays, 0, x, t)
-    for (j, k), second in zip(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)), found, strict=True):
-        assert second == pytest.approx(0.5 * (D[k][:, j] + D[j][:, k]), abs=1e-6)
 
 
 def test_differences_are_of_the_fourth_order():

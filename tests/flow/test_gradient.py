@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from mesh_shapes import block, corners, grid
 
 from foamprb.flow import gradient
-from foamprb.flow.gradient import PAIR_OF, PAIRS, LeastSquaresGradient, grouped, invert
+from foamprb.flow.gradient import LeastSquaresGradient, grouped, invert
 from foamprb.flow.mesh.mesh import build_mesh
 
 NONE = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
@@ -32,21 +31,6 @@ def test_matrices_are_inverted_in_the_directions_that_they_know(random):
     for k in range(len(values)):
         scale = np.abs(exact[k]).max() or 1.0
         np.testing.assert_allclose(found[k] / scale, exact[k] / scale, rtol=0, atol=1e-6)
-
-
-@pytest.mark.parametrize("least", [1e-6, 1e-2])
-def test_a_direction_is_open_by_the_share_of_its_eigenvalue(least, random):
-    values = np.sort(10.0 ** random.uniform(-9.0, 0.0, (300, 3)), axis=1)
-    share = values[:, 0] / values[:, 2]
-    clear = np.abs(share / least - 1.0) > 1e-3
-    matrix, _ = symmetric(random, values)
-    # The shares of tiny eigenvalues are round-off beside the largest.
-    np.testing.assert_array_equal(gradient._nearly_singular(matrix, least)[clear], (share <= least)[clear])
-
-
-def test_pairs_of_directions():
-    for pair, (j, k) in enumerate(PAIRS):
-        assert PAIR_OF[j, k] == PAIR_OF[k, j] == pair
 
 
 def test_pairs_are_sorted_by_row_in_their_order(random):
@@ -106,26 +90,3 @@ def test_sites_beyond_boundary_faces_count(random):
         found = np.zeros((1, 3, 3))
         LeastSquaresGradient(mesh, sites, chosen, (1 + chosen).astype(np.int32))(sites @ l.T, found)
         np.testing.assert_allclose(found[0], l, atol=1e-12)
-
-
-def test_parts_of_the_cells_have_the_same_gradients(random, monkeypatch):
-    """From a cell on, and in chunks; less what second derivatives add."""
-    mesh = build_mesh(block(3, 0.3))
-    x = mesh.centres
-    bends = random.normal(size=(27, 1, 6))
-    values, whole = random.normal(size=(27, 1)), np.zeros((27, 1, 3))
-    LeastSquaresGradient(mesh, x, *NONE)(values, whole, bends=bends)
-    monkeypatch.setattr("foamprb.flow.gradient.CHUNK", 4)
-    chunked = LeastSquaresGradient(mesh, x, *NONE)
-    again, part = np.zeros((27, 1, 3)), np.zeros((10, 1, 3))
-    chunked(values, again, bends=bends)
-    chunked(values, part, 13, bends)
-    np.testing.assert_allclose(again, whole, rtol=1e-12, atol=1e-12)
-    np.testing.assert_allclose(part, whole[13:23], rtol=1e-12, atol=1e-12)
-    # A quadratic field, exactly, in a cell whose own second derivatives are known.
-    H = random.normal(size=(3, 3))
-    H = H + H.T
-    six = np.array([H[j, k] for j, k in PAIRS])
-    quadratic = 0.5 * np.einsum("ni,ij,nj->n", x, H, x)[:, None]
-    chunked(quadratic, again, bends=np.tile(six, (27, 1, 1)))
-    np.testing.assert_allclose(again[:, 0], x @ H, atol=1e-11)

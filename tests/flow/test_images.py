@@ -8,7 +8,7 @@ from mesh_shapes import block, box_patches, cyclic_row, period
 from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
-from foamprb.flow.images import Images, _unturned, points_of_faces
+from foamprb.flow.images import Images, _unturned
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.walls import Walls, images_of_walls
 
@@ -130,17 +130,3 @@ def test_on_an_axis_only_what_no_turn_about_it_changes_stays(random):
         # The mean over all turns.
         turns = [Rotation.from_rotvec(a * unit).as_matrix() for a in np.linspace(0, 2 * np.pi, 9)[:-1]]
         np.testing.assert_allclose(kept_T, np.mean([q @ T @ q.T for q in turns], axis=0), atol=1e-12)
-
-
-def test_points_of_faces_with_the_place_of_their_face():
-    shape = block(2, 0.2, "mixed")
-    mesh = build_mesh(shape, box_patches(shape))
-    chosen = np.array([7, 0, 3])
-    points, owner = points_of_faces(mesh, chosen)
-    at = 0
-    for k, face in enumerate(chosen):
-        own = mesh.face_points[slice(*mesh.face_start[mesh.n_internal + face :][:2])]
-        assert points[at : at + len(own)].tolist() == own.tolist()
-        assert owner[at : at + len(own)].tolist() == [k] * len(own)
-        at += len(own)
-    assert at == len(points)

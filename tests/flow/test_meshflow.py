@@ -215,13 +215,6 @@ def test_cells_and_zones():
     assert flow.cell_size(hosts) == pytest.approx(np.cbrt(mesh.volumes[[0, 1]]))
 
 
-def test_volumes_of_many_tetrahedra_are_taken_in_parts(monkeypatch):
-    flow = flow_on(build_mesh(block(2, 0.2)))
-    whole = flow.cell_zone(None).volumes
-    monkeypatch.setattr("foamprb.flow.meshflow._AT_ONCE", 7)
-    np.testing.assert_array_equal(flow.cell_zone(None).volumes, whole)
-
-
 def test_triangles_of_a_patch(random):
     shape = block(2, 0.2)
     mesh = build_mesh(shape, box_patches(shape))

@@ -18,11 +18,10 @@ from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.analytic import AnalyticFlow, gap_free, normal_free, recover_free, walk_free
-from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_times
-from foamprb.flow.series import SeriesArrays, SeriesFlow, _interval, _one_period, series_of
+from foamprb.flow.series import SeriesFlow, _one_period, series_of
 
 WATER = Medium(1e-3, 1e3, (0.0, 0.0, 0.0))
 INTEGRATORS = ("paper", "rosenbrock", "stokes")
@@ -219,15 +218,6 @@ def test_few_times_are_in_memory_and_each_is_read_once(mesh):
     assert log == list(range(21))
 
 
-def test_all_times_of_a_short_loop_may_stay_in_memory(mesh):
-    log = []
-    flow = in_files(mesh, [0.0, 0.1, 0.2], 5.0, log=log, period=0.3, keep=10)
-    for _ in range(2):
-        for t in (0.0, 0.15, 0.25, 0.9, 1.3):
-            flow.load(t, t + 0.05)
-    assert sorted(log) == [0, 1, 2]
-
-
 def test_a_particle_appears_with_the_velocity_of_the_fluid_at_that_time(mesh):
     flow = in_files(mesh, [0.0, 1.0], growth=3.0)
     # So heavy that they keep it.
@@ -420,14 +410,6 @@ def test_what_the_mesh_does_is_the_same_as_in_a_steady_flow(mesh, random):
             assert flow.kernels[name](ours, *arguments) == steady.kernels[name](theirs, *arguments)
 
 
-def test_intervals_begin_a_little_before_their_times():
-    """By twice the slack, so that a step that ends at a time by round-off begins the next there."""
-    times = np.array([0.0, 1.0, 3.0])
-    arrays = SeriesArrays(no_mesh(), times, np.zeros(3, dtype=np.int64), np.empty((0, 12)), 1e-3)
-    for t, k in ((0.0, 0), (0.9979, 0), (0.9981, 1), (2.9, 1), (3.0, 1), (9.0, 1), (-1.0, 0)):
-        assert _interval(arrays, t) == k
-
-
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_a_period_ends_where_the_first_time_comes_again(scale):
     """Times from there on are left out, a millionth of the period before it as well."""
@@ -442,47 +424,6 @@ def test_a_period_ends_where_the_first_time_comes_again(scale):
         last = max(t for t in few if t < end)
         with pytest.raises(InputError, match=rf"up to nearly {end:g} s, but .* before that is {last:g} s"):
             _one_period(tuple(few), period * scale)
-
-
-def test_levels_count_on_from_period_to_period(mesh):
-    _, flow = tables(mesh, (1.0, 1.5, 2.0), period=2.0)
-    assert [flow._time_of(level) for level in range(7)] == [1.0, 1.5, 2.0, 3.0, 3.5, 4.0, 5.0]
-    assert [flow._index(level) for level in range(7)] == [0, 1, 2, 0, 1, 2, 0]
-    for t, before, after in (
-        (1.0, 0, 0), (1.2, 0, 1), (1.5, 1, 1), (2.5, 2, 3), (3.0, 3, 3), (3.1, 3, 4), (4.9, 5, 6),
-        (5.0, 6, 6), (1.5 - 1e-8, 1, 1), (1.5 + 1e-8, 1, 1), (5.0 - 1e-8, 6, 6), (5.0 + 1e-8, 6, 6),
-    ):  # fmt: skip
-        assert (flow._level_before(t), flow._level_after(t)) == (before, after), t
-    assert flow._is_level(99)
-    assert not flow._is_level(-1)
-    _, once = tables(mesh, (1.0, 1.5, 2.0))
-    assert [once._is_level(k) for k in (-1, 0, 2, 3)] == [False, True, True, False]
-    assert once.span == (1.0, 2.0)
-    assert flow.span == (1.0, math.inf)
-    assert flow.load(1.2, 2.5) == 3.0
-    assert flow.load(3.0, 3.0) == 3.0
-    assert flow.arrays().times.tolist() == [2.0, 3.0]
-    assert flow.load(1.0, 1.0) == 1.5
-    assert flow.arrays().times.tolist() == [1.0, 1.5]
-    assert once.load(2.0, 2.0) == 2.0
-    assert once.arrays().times.tolist() == [1.5, 2.0]
-
-
-def test_times_in_memory_are_those_that_are_wanted_and_the_last_used(mesh):
-    """The longest unused gives its place; with room for all nothing is read twice."""
-    times = [0.0, 1.0, 2.0, 3.0, 4.0]
-    for keep, expected in ((0, [0, 1, 2, 3, 4, 0, 1]), (5, [0, 1, 2, 3, 4])):
-        log = []
-        flow = in_files(mesh, times, growth=1.0, log=log, keep=keep)
-        for start in (0.0, 1.0, 2.0, 3.0, 0.0):
-            flow.load(start, start + 1.0)
-            flow._reader.submit(int).result()
-            wanted = {int(start), int(start) + 1}
-            assert wanted <= set(flow._in_memory)
-            assert sorted(flow._in_memory.values()) == list(range(len(flow._in_memory)))
-        assert log[: len(expected)] == expected
-        assert len(log) <= len(expected) + 1
-        assert len(flow._fields) == (2 if keep == 0 else 5)
 
 
 def test_a_flow_is_known_between_its_times(mesh):

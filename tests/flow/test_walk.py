@@ -27,14 +27,12 @@ from foamprb.errors import InputError
 from foamprb.flow.mesh.arrays import frame, no_mesh
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
-from foamprb.flow.mesh.tree import build_tree
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import (
     FAILED,
     REACHED,
     cell_volume,
     cross,
-    curvature,
     holds,
     nearest_point,
     normal,
@@ -49,7 +47,6 @@ from foamprb.flow.wall_lists import near_walls, wall_tree
 from foamprb.flow.walls import gap
 
 GRADIENT = np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, -6.0]])
-ROOM = 1.0 - 1e-9
 
 
 def follow(flow, hosts, start, end, found, fractions):
@@ -110,22 +107,6 @@ def test_tree_finds_what_trying_all_tetrahedra_finds(random):
     assert np.array_equal(hosts >= 0, best >= -1e-9)
     inside = hosts >= 0
     assert weights(flow, hosts[inside], points[inside]).min(axis=1) == pytest.approx(best[inside], abs=1e-12)
-
-
-@pytest.mark.parametrize("n", [1, 2, 7, 8, 9, 17, 1000])
-def test_tree_holds_every_box_once(n, random):
-    low = random.random((n, 3))
-    boxes = np.concatenate([low, low + 0.1 * random.random((n, 3))], axis=1)
-    tree, cells = build_tree(boxes)
-    assert sorted(cells[cells >= 0].tolist()) == list(range(n))
-    leaves = len(cells)
-    for leaf in range(leaves):
-        node = leaves + leaf
-        while node:
-            for cell in cells[leaf][cells[leaf] >= 0]:
-                assert np.all(tree[node, :3] <= boxes[cell, :3])
-                assert np.all(tree[node, 3:] >= boxes[cell, 3:])
-            node //= 2
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -482,20 +463,6 @@ def test_values_between_nodes_are_linear_in_each_component(tetrahedra, host, ran
     assert turbulence(nothing, host, x, 0.3) == (0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-@pytest.mark.parametrize("host", [0, 1])
-def test_second_derivatives_are_those_of_the_gradient_between_nodes(tetrahedra, host, random):
-    """∂²u_i/∂x_j∂x_k, the mean of both ways to take it."""
-    arrays, x = tetrahedra, random.normal(size=3)
-
-    def gradient(at):
-        return np.reshape(sample(arrays, host, tuple(at), 0.0)[1], (3, 3))
-
-    D = np.stack([gradient(x + e) - gradient(x) for e in np.eye(3)], axis=2)
-    found = curvature(arrays, host, tuple(x), 0.0)
-    for (j, k), second in zip(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)), found, strict=True):
-        assert second == pytest.approx(0.5 * (D[:, j, k] + D[:, k, j]), rel=1e-8, abs=1e-9)
-
-
 def test_a_tetrahedron_holds_what_is_in_it_to_round_off(tetrahedra, random):
     arrays = tetrahedra
     for host, rows in enumerate(arrays.tets):
@@ -564,28 +531,6 @@ def test_who_meets_a_patch_cut_differently_lands_on_the_nearest_triangle_across(
             )
             moved += inside < -1e-6
     assert moved > 5
-
-
-def test_a_way_in_the_plain_text_ends_at_the_first_wall(random):
-    """Or where it should, in the tetrahedron that holds the place."""
-    flow = flow_on("tetrahedra", 3, 0.3)
-    arrays = flow.arrays()
-    for _ in range(30):
-        x0, x1 = random.random(3), random.uniform(-1.0, 2.0, 3)
-        host = int(flow.locate(x0[None])[0])
-        found, fraction, patch, triangle = walk(arrays, host, tuple(x0), tuple(x1))
-        d = x1 - x0
-        with np.errstate(divide="ignore"):
-            exact = min(1.0, np.where(d > 0.0, (1.0 - x0) / d, -x0 / d).min())
-        assert fraction == pytest.approx(exact, abs=1e-12)
-        end = x0 + exact * d
-        assert weights(flow, np.array([found]), end[None]).min() > -1e-8
-        assert (patch == REACHED) == (exact == 1.0)
-        if patch != REACHED:
-            assert found == flow.mesh.triangle_tet[triangle]
-            assert patch == flow.mesh.triangle_patch[triangle]
-            a, b, c = flow.mesh.points[flow.mesh.triangles[triangle]]
-            assert abs((end - a) @ np.cross(b - a, c - a)) < 1e-12
 
 
 @pytest.mark.parametrize("axis", range(3))

@@ -7,7 +7,6 @@ import pytest
 from mesh_shapes import corners, grid
 
 from foamprb.compile.link import link
-from foamprb.flow.mesh.folds import FLAT, SOUND, grade
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import LONG, MeshFlow
 from foamprb.flow.walk import REACHED, walk
@@ -57,25 +56,6 @@ def holds(flow, x):
     inverse = np.linalg.inv(np.stack([b - a, c - a, d - a], axis=2))
     w = np.einsum("tij,ptj->pti", inverse, x[:, None] - a)
     return (w.min(axis=2) >= -1e-9) & (w.sum(axis=2) <= 1.0 + 1e-9)
-
-
-@pytest.mark.parametrize("turn", range(3))
-@pytest.mark.parametrize(
-    ("height", "mark", "inside_out"),
-    [(0.5, SOUND, 0), (1e-8, FLAT, 0), (0.0, FLAT, 0), (-1e-13, FLAT, 0), (-1e-8, FLAT, 1), (-0.5, FLAT, 1)],
-)
-def test_one_tetrahedron_is_sound_flat_or_inside_out(height, mark, inside_out, turn):
-    """Turned inside out is one whose volume is below zero by more than round-off: its box is told."""
-    # The point of the cell first, as in every mesh; of the triangle no side lies along an axis.
-    corners = np.array([[0.3, 0.4, height], [0.1, 0.0, 0.0], [1.0, 0.2, 0.0], [0.2, 0.9, 0.0]])
-    corners = np.roll(corners, turn, axis=1)
-    nodes = np.vstack([corners[1:], corners[:1]])
-    folds, boxes = np.zeros(1, dtype=np.uint8), np.zeros((1, 6))
-    tets = np.array([[3, 0, 2, 1]], dtype=np.int32)
-    assert grade(nodes, tets, 3, folds, boxes) == inside_out
-    assert folds[0] == mark
-    expected = np.concatenate([corners.min(axis=0), corners.max(axis=0)])
-    np.testing.assert_array_equal(boxes[0], inside_out * expected)
 
 
 @pytest.mark.parametrize("kind", ["hexahedra", "tetrahedra"])

@@ -9,7 +9,7 @@ from foamprb.flow.base import NEAR
 from foamprb.flow.mesh.arrays import no_mesh
 from foamprb.flow.walk import nearest_point
 from foamprb.flow.wall_lists import wall_tree
-from foamprb.flow.walls import Walls, gap, nearest_in_tree, nearest_wall
+from foamprb.flow.walls import gap, nearest_in_tree, nearest_wall
 
 
 def distance(corners):
@@ -116,17 +116,3 @@ def test_of_walls_that_are_equally_near_the_first_counts():
         assert nearest_wall(listing, 0, 2, (0.0, 0.0, 0.25), F, 0.1) == expected
     for seed in (0, 1):
         assert nearest_in_tree(arrays, seed, (0.0, 0.0, 0.25), F, 0.1) == expected
-
-
-def test_triangles_go_where_a_motion_carries_them(random):
-    corners, normals, _ = soup(random, 4)
-    turn = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
-    shift = np.array([1.0, 2.0, 3.0])
-    walls = Walls(corners, normals, np.arange(4, dtype=np.int32))
-    moved = walls.moved(turn, shift)
-    for k in range(4):
-        for j in range(3):
-            np.testing.assert_allclose(moved.corners[k, j], turn @ corners[k, j] + shift)
-        np.testing.assert_allclose(moved.normals[k], turn @ normals[k])
-    assert moved.patches.tolist() == [0, 1, 2, 3]
-    assert walls.take([2, 0]).patches.tolist() == [2, 0]

@@ -74,21 +74,18 @@ class MeshArrays(NamedTuple):
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); no rows if they were not read."""
 
 
-_WIDTHS = {
+_FLOATS = {
     "nodes": 16, "turbulence": 8, "motions": 12, "tree_boxes": 6, "wall_boxes": 6, "triangle_normals": 3,
-    "tets": 4, "neighbours": 4, "triangles": 3, "across": 2, "tree_cells": 1, "wall_leaves": 1,
 }  # fmt: skip
-"""Columns of the tables; all other arrays have one dimension."""
+_TABLES = {"tets": 4, "neighbours": 4, "triangles": 3, "across": 2, "tree_cells": 1, "wall_leaves": 1}
 
 
 def no_mesh() -> MeshArrays:
     """Return the arrays of a mesh without cells, for which the kernels can be compiled."""
-    types = {"Floats": np.float64, "Ints": np.int32}
-    empty: dict[str, Any] = {
-        name: np.empty((0, _WIDTHS[name]) if name in _WIDTHS else 0, dtype=types.get(kind, np.uint8))
-        for name, kind in MeshArrays.__annotations__.items()
-    }
-    return MeshArrays(**empty | {"n_points": 0})
+    empty: dict[str, Any] = {name: np.empty(0, dtype=np.int32) for name in MeshArrays._fields}
+    empty |= {name: np.empty((0, columns)) for name, columns in _FLOATS.items()}
+    empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
+    return MeshArrays(**empty | {"n_points": 0, "folds": np.empty(0, dtype=np.uint8)})
 
 
 def point(table: Floats, i: int) -> Vector:

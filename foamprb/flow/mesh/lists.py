@@ -47,7 +47,7 @@ def cell_array(cells: Any) -> tuple[Index, Index]:
 
 
 def points_of(data: Any) -> NDArray[np.floating[Any]]:
-    """Points of a vtkPointSet, (n, 3), m, of the type that it holds."""
+    """Return the points of a vtkPointSet, (n, 3), m, in its own type."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if data.GetNumberOfPoints() == 0:
@@ -57,7 +57,7 @@ def points_of(data: Any) -> NDArray[np.floating[Any]]:
 
 
 def cell_types(grid: Any) -> NDArray[np.uint8]:
-    """VTK's type number of each cell of a vtkUnstructuredGrid."""
+    """Return VTK's type number of each cell of a vtkUnstructuredGrid."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if grid.GetNumberOfCells() == 0:

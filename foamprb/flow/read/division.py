@@ -60,7 +60,9 @@ def _by_array(mesh: Mesh, whole: Any, array: str, path: Path) -> tuple[NDArray[n
     values = np.asarray(whole.cell_data[array])
     if values.ndim != 1 or values.dtype.kind not in "iu":
         raise InputError(f"{path}: cell array {array} is not an array of integers, one for each cell.")
-    flat = [kind for kind in np.unique(whole.celltypes).tolist() if load_pyvista().CellType(kind).dimension == 2]
+    flat = [
+        kind for kind in np.unique(whole.celltypes).tolist() if load_pyvista().CellType(kind).dimension == 2
+    ]
     rows = np.flatnonzero(np.isin(whole.celltypes, flat))
     if len(rows) == 0:
         raise InputError(f"{path}: no surface cells among the cells, for {array} to name patches on.")

@@ -37,7 +37,7 @@ def load_pyvista() -> Any:
     Raises
     ------
     InputError
-        If it is not installed.
+        It is not installed.
     """
     return load("pyvista", "meshes", "mesh files need")
 

@@ -50,7 +50,7 @@ def times_of_file(path: Path) -> list[str]:
     times = _by_vtk(path, times_of, path)
     for time in times:
         if not math.isfinite(time):
-            raise InputError(f"{path}: the time {time:g} is not a number; the file is damaged.")
+            raise InputError(f"{path}: the time {time:g} is not finite; the file is damaged.")
     return [f"{time:.12g}" for time in times]
 
 

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from mesh_shapes import HEXAHEDRON_FACES, KINDS, block
 
 from foamprb.flow.mesh import faces
-from foamprb.flow.mesh.cells import list_half_faces
-from foamprb.flow.mesh.faces import OPEN, TWISTED, pair_faces, split_cells
+from foamprb.flow.mesh.faces import OPEN, TWISTED, split_cells
 from foamprb.flow.mesh.geometry import inward_normals
 from foamprb.flow.mesh.mesh import build_mesh
 
@@ -18,45 +15,6 @@ from foamprb.flow.mesh.mesh import build_mesh
 def lists_of(found):
     """Start and points of faces."""
     return np.cumsum([0, *map(len, found)]), np.array([p for face in found for p in face])
-
-
-def paired(found):
-    start, lists = lists_of(found)
-    n = len(found)
-    mate = np.zeros(n, dtype=int)
-    head = np.full(n, -1)
-    wrong = pair_faces(start, lists, head, np.zeros(n, dtype=int), mate)
-    # Few are compared: those alone whose points have the same sum.
-    if wrong < 0:
-        assert set(np.flatnonzero(head >= 0)) == {sum(face) % n for face in found}
-    return wrong, mate.tolist()
-
-
-def test_faces_of_the_same_points_are_pairs():
-    found = [(0, 1, 2), (3, 4, 5, 6), (2, 0, 1), (1, 2, 3), (6, 5, 4, 3), (0, 3, 2, 1), (0, 1, 5)]
-    assert paired(found) == (-1, [2, 4, 0, 3, 1, 5, 6])
-    # Others with the same sum of numbers are none, nor those with points as often in all.
-    assert paired([(0, 5, 1), (0, 4, 2), (3, 3, 0)]) == (-1, [0, 1, 2])
-    assert paired([(1, 1, 2, 2), (1, 2, 1, 2), (1, 1, 1, 3), (0, 2, 2, 2)]) == (-1, [1, 0, 2, 3])
-    # A third with the same points.
-    assert paired([(9, 8, 7), (0, 1, 2), (1, 2, 0), (2, 1, 0)])[0] == 3
-
-
-def test_the_faces_of_cells_are_listed_cell_after_cell():
-    """Tetrahedra, pyramids, prisms, hexahedra and polyhedra: each closed, with as many faces as it has."""
-    counts = {"hexahedra": 6, "tetrahedra": 4, "prisms": 5, "pyramids": 5, "polyhedra": 10}
-    for kind, count in counts.items():
-        half, *_ = list_half_faces(block(2, 0.0, kind), "mesh")
-        assert set(np.diff(half.first)) == {count}
-        for c in range(len(half.first) - 1):
-            edges = []
-            for f in range(half.first[c], half.first[c + 1]):
-                points = half.points[half.start[f] : half.start[f + 1]].tolist()
-                assert len(set(points)) == len(points)
-                edges += itertools.pairwise([*points, points[0]])
-            # Each edge once in each direction: the faces of a cell turn alike.
-            assert len(set(edges)) == len(edges)
-            assert {(b, a) for a, b in edges} == set(edges)
 
 
 def polygon(random, n):
@@ -108,56 +66,6 @@ def test_a_face_folded_onto_itself_has_its_mean_as_centre():
     bow = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0 + 1e-9, 0.0]])
     faces.measure_faces(bow, np.array([0, 4]), np.arange(4), centres, areas)
     assert np.abs(centres[0] - bow.mean(axis=0)).max() <= 0.51
-
-
-def test_the_sum_and_the_product_of_the_ways_to_two_points(random):
-    points, origins = random.normal(size=(4, 3)), random.normal(size=(2, 3))
-    a, b = points[1] - origins[1], points[3] - origins[1]
-    total, product = faces._edge(points, 1, 3, origins, 1)
-    assert total == pytest.approx(a + b)
-    assert product == pytest.approx(np.cross(a, b))
-
-
-def test_rows_are_added_and_bounded_by_cell(random):
-    cells, values = random.integers(0, 4, 12), random.normal(size=(12, 3))
-    sums, low, high = np.zeros((4, 3)), np.full((4, 3), np.inf), np.full((4, 3), -np.inf)
-    faces.add_at(cells, values, sums)
-    faces.bound(cells, values, low, high)
-    for c in range(4):
-        own = values[cells == c]
-        np.testing.assert_allclose(sums[c], own.sum(axis=0), atol=1e-14)
-        np.testing.assert_array_equal(low[c], own.min(axis=0))
-        np.testing.assert_array_equal(high[c], own.max(axis=0))
-
-
-def test_pyramids_make_the_volume_and_the_first_moment(random):
-    """A box, of which some faces turn inwards, about a place that is not its middle."""
-    size, corner, middle = np.array([1.0, 2.0, 3.0]), random.normal(size=3), random.normal(size=3)
-    centres, areas = [], []
-    for axis, side in itertools.product(range(3), (0.0, 1.0)):
-        at = corner + 0.5 * size
-        at[axis] = corner[axis] + side * size[axis]
-        centres.append(at)
-        areas.append((2.0 * side - 1.0) * size.prod() / size[axis] * np.eye(3)[axis])
-    centres, areas = np.array(centres), np.array(areas)
-    volumes, moments = np.zeros(3), np.zeros((3, 3))
-    middles = np.array([[9.0, 9.0, 9.0], [8.0, 8.0, 8.0], middle])
-    cells = np.full(3, 2)
-    faces.add_pyramids(cells, 1.0, centres[:3], areas[:3], middles, volumes, moments)
-    faces.add_pyramids(cells, -1.0, centres[3:], -areas[3:], middles, volumes, moments)
-    assert volumes == pytest.approx([0.0, 0.0, 6.0])
-    np.testing.assert_allclose(moments[2], 6.0 * (corner + 0.5 * size - middle), rtol=0, atol=1e-12)
-    assert not moments[:2].any()
-
-
-def test_the_quality_of_a_tetrahedron_is_its_volume_over_its_edges(random):
-    for _ in range(10):
-        points, centres = random.normal(size=(5, 3)), random.normal(size=(3, 3))
-        a, b, c = random.permutation(5)[:3]
-        nodes = np.array([centres[2], *points[[a, b, c]]])
-        six = np.linalg.det(nodes[1:] - nodes[0])
-        edges = sum(np.sum((p - q) ** 2) for p, q in itertools.combinations(nodes, 2))
-        assert faces._quality(points, centres, 2, a, b, c) == pytest.approx(six / edges**1.5)
 
 
 def split(cells):

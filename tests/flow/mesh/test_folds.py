@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from contextlib import suppress
 
 import numpy as np
@@ -35,17 +34,6 @@ def volume(a, b, c, d):
     return np.linalg.det([b - a, c - a, d - a])
 
 
-def test_volumes_are_compared_with_the_edges_from_the_first_node(random):
-    for tet in itertools.permutations(range(4)):
-        nodes = random.normal(size=(4, 3))
-        six, size = folds._volume(nodes, np.array([tet]), 0)
-        a, *others = nodes[list(tet)]
-        assert six == pytest.approx(volume(a, *others), rel=1e-12)
-        assert size == pytest.approx(np.prod([np.linalg.norm(b - a) for b in others]))
-        longest = max(np.sum((b - a) ** 2) for b in others)
-        assert folds._squared_edge(one(nodes, tet), 0) == pytest.approx(longest)
-
-
 @pytest.mark.parametrize(
     ("height", "flat", "mark", "folded"),
     [(1e-6, False, 0, 0), (1e-8, False, FLAT, 0), (1e-12, True, FLAT, 0), (0.0, True, FLAT, 0),
@@ -67,155 +55,6 @@ def test_tetrahedra_are_flat_or_folded_by_their_height(height, flat, mark, folde
         assert grade(nodes, np.array([[0, 1, 2, 3]] * 2), -2, marks, boxes) == 2
     else:
         assert np.isnan(boxes).all()
-
-
-def way_through(nodes, tet, origin, d):
-    """The face of a tetrahedron by which a line leaves it, and t; both by weights, None if it misses."""
-    a = nodes[list(tet)]
-    w0 = np.linalg.solve(np.vstack([a.T, np.ones(4)]), [*origin, 1.0])
-    slope = np.linalg.solve(np.vstack([a.T, np.ones(4)]), [*d, 0.0])
-    t = -w0 / slope
-    enters, leaves = t[slope > 0.0].max(), t[slope < 0.0].min()
-    return None if enters > leaves else (int(np.flatnonzero(t == leaves)[0]), leaves)
-
-
-def test_a_line_leaves_a_tetrahedron_by_the_face_where_a_weight_ends(random):
-    """Along every axis and both ways; t counts from another place on the line."""
-    missed = 0
-    for _ in range(200):
-        nodes = random.normal(size=(5, 3))
-        tet = tuple(random.permutation(5)[:4])
-        if volume(*nodes[list(tet)]) < 0.0:
-            tet = (tet[0], tet[2], tet[1], tet[3])
-        origin, d = 0.3 * random.normal(size=3), random.normal(size=3)
-        k = int(np.abs(d).argmax())
-        x0 = origin - random.uniform(-1.0, 1.0) * d
-        face, t = folds._way_out(one(nodes, tet), 0, origin, d, k, tuple(x0))
-        expected = way_through(nodes, tet, x0, d)
-        if expected is None:
-            missed += 1
-            assert face == -1
-        else:
-            assert (face, t) == (expected[0], pytest.approx(expected[1], abs=1e-9))
-        # A tetrahedron turned inside out is passed the other way.
-        back = way_through(nodes, tet, x0, -d)
-        turned = (tet[0], tet[2], tet[1], tet[3])
-        face, t = folds._way_out(one(nodes, turned), 0, origin, d, k, tuple(x0))
-        if back is None:
-            assert face == -1
-        else:
-            swap = {0: 0, 1: 2, 2: 1, 3: 3}
-            assert (face, t) == (swap[back[0]], pytest.approx(-back[1], abs=1e-9))
-    assert 20 < missed < 180
-
-
-def test_a_line_crosses_a_triangle_outwards_or_inwards(random):
-    seen = set()
-    for _ in range(200):
-        nodes = random.normal(size=(6, 3))
-        triangle = tuple(random.permutation(6)[:3])
-        a, b, c = nodes[list(triangle)]
-        x0, d = random.normal(size=3), random.normal(size=3)
-        k = int(np.abs(d).argmax())
-        s, *w = np.linalg.solve(np.column_stack([-d, b - a, c - a]), x0 - a)
-        w = [1.0 - w[0] - w[1], *w]
-        way, t = folds._crossing(one(nodes, triangles=[triangle]), 0, x0, d, k, tuple(x0))
-        if min(w) < 0.0:
-            assert (way, t) == (0, 0.0)
-        else:
-            assert way == np.sign(np.cross(b - a, c - a) @ d)
-            assert t == pytest.approx(s, abs=1e-9)
-        seen.add(way)
-        height = abs((x0 - a) @ np.cross(b - a, c - a)) / np.linalg.norm(np.cross(b - a, c - a))
-        assert folds.height(one(nodes, triangles=[triangle]), 0, x0) == pytest.approx(height)
-    assert seen == {-1, 0, 1}
-
-
-def test_ties_are_decided_as_if_the_origin_were_moved_a_little():
-    """By (ε, ε²), and points in one place by their numbers; from q to p it is the other side."""
-    e = 1e-3
-    for p, q in itertools.product([(1.0, 0.0), (-1.0, 0.0), (2.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0),
-                                   (-2.0, -2.0), (0.5, 0.5)], repeat=2):  # fmt: skip
-        if p == q:
-            continue
-        moved = [(x - e, y - e * e) for x, y in (p, q)]
-        cross = moved[0][0] * moved[1][1] - moved[1][0] * moved[0][1]
-        for rising in (True, False):
-            assert folds._left(p, q, rising) == (cross > 0.0)
-    for p in ((1.0, 0.5), (-1.0, 0.5)):
-        for rising in (True, False):
-            assert folds._left(p, p, rising) == (rising == (p[0] > 0.0))
-            assert folds._left(p, p, rising) != folds._left(p, p, not rising)
-
-
-def test_the_picture_of_a_node_is_what_is_left_across_the_line(random):
-    """Two coordinates that turn as seen along the line, and t from x0."""
-    for k, sign in itertools.product(range(3), (1.0, -1.0)):
-        for _ in range(5):
-            d = random.uniform(-0.5, 0.5, 3)
-            d[k] = sign
-            nodes, origin, x0 = random.normal(size=(4, 3)), random.normal(size=3), random.normal(size=3)
-            found = [folds._picture(nodes, n, origin, d, k, x0) for n in range(3)]
-            for n in range(3):
-                assert found[n][1] == pytest.approx((nodes[n, k] - x0[k]) / d[k])
-            (a, _), (b, _), (c, _) = found
-            area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-            # Seen along d, whose longest component is 1: n·d.
-            p, q, r = nodes[:3]
-            assert area == pytest.approx(np.cross(q - p, r - p) @ d, abs=1e-12)
-            on_line = origin + 0.7 * d
-            assert folds._picture(on_line[None], 0, origin, d, k, x0)[0] == pytest.approx(
-                (0.0, 0.0), abs=1e-14
-            )
-
-
-def test_a_triangle_is_met_where_its_weights_say():
-    p, q, r = (2.0, 0.0), (-1.0, 1.0), (-1.0, -1.0)
-    assert folds._meeting(p, q, r, 1.0, 2.0, 4.0) == pytest.approx(1.0 / 3.0 + 2.0 / 3.0 + 4.0 / 3.0)
-    assert folds._meeting((0.0, 0.0), q, r, 1.5, 2.0, 4.0) == pytest.approx(1.5)
-    # From its edge, in its middle; never before it or behind.
-    assert folds._meeting((1.0, 0.0), (2.0, 0.0), (3.0, 0.0), 1.0, 2.0, 5.0) == 3.0
-    assert folds._meeting((1.0, 0.0), (1.0, 1.0), (3.0, 0.0), 2.0, 3.0, 5.0) <= 5.0
-
-
-def test_a_place_is_pulled_into_a_tetrahedron(random):
-    """One inside is shifted as well, by some of the least weights; if that is none, it stays where it is."""
-    least = 0.01
-    for _ in range(20):
-        nodes = random.normal(size=(4, 3))
-        for low in (0.02, 0.005, -0.1):
-            w = np.insert((1.0 - low) * random.dirichlet(10.0 * np.ones(3)), random.integers(4), low)
-            x = tuple(w @ nodes)
-            expected = np.maximum(w, least) + least * np.array([0.0, 1.0, 2.0, 0.0])
-            found = folds._pulled(one(nodes), 0, x, least)
-            assert found == pytest.approx(expected / expected.sum() @ nodes, abs=1e-9)
-            clipped = np.maximum(w, 0.0)
-            found = folds._pulled(one(nodes), 0, x, 0.0)
-            assert found == pytest.approx(clipped / clipped.sum() @ nodes, abs=1e-9)
-            assert (found == x) == (w.min() >= 0.0)
-    flat = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]])
-    assert folds._pulled(one(flat), 0, (5.0, 5.0, 5.0), 0.01) == (5.0, 5.0, 5.0)
-
-
-def test_a_way_leaves_where_it_meets_the_plane_of_the_triangle(random):
-    """If that is within a thousand times the round-off of where it was found, and within the way."""
-    for _ in range(20):
-        nodes = random.normal(size=(4, 3))
-        if volume(*nodes) < 0.0:
-            nodes = nodes[[0, 2, 1, 3]]
-        arrays = one(nodes)._replace(triangle_tet=np.array([0]), triangle_patch=np.array([5]))
-        x0, middle = nodes.mean(axis=0), nodes[1:].mean(axis=0)
-        for reach in (0.5, 0.9):
-            d = (middle - x0) / reach
-            left = folds._left_by(arrays, 0, tuple(x0), tuple(d), reach + 1e-9, 1e-11)
-            assert left == (0, pytest.approx(reach, abs=1e-11), 5, 0)
-            far = folds._left_by(arrays, 0, tuple(x0), tuple(d), reach + 2e-8, 1e-11)
-            assert far == (0, reach + 2e-8, 5, 0)
-        d = np.cross(nodes[2] - nodes[1], nodes[3] - nodes[1])
-        along = nodes[2] - nodes[1]
-        assert folds._left_by(arrays, 0, tuple(middle), tuple(d), -1e-3, 1e-11)[1] == 0.0
-        assert folds._left_by(arrays, 0, tuple(middle), tuple(d), 1.5, 1e-11)[1] == 1.0
-        assert folds._left_by(arrays, 0, tuple(middle), tuple(along), 0.3, 1e-11)[1] == pytest.approx(0.3)
 
 
 def pressed(layers, thickness):
@@ -246,21 +85,6 @@ def test_who_is_in_a_flat_tetrahedron_is_in_the_one_beside_that_holds_the_place(
             assert folds._depth(arrays, found, place) >= -1e-9
     sound = next(t for t in range(len(arrays.tets)) if not is_flat(arrays, t))
     assert settle(arrays, sound, (9.0, 9.0, 9.0)) == sound
-
-
-def test_the_depth_of_a_place_is_its_smallest_weight(random):
-    nodes = random.normal(size=(4, 3))
-    nodes = nodes if volume(*nodes) > 0.0 else nodes[[0, 2, 1, 3]]
-    x = random.normal(size=3)
-    w = np.linalg.solve(np.vstack([nodes.T, np.ones(4)]), [*x, 1.0])
-    assert folds._depth(one(nodes), 0, x) == pytest.approx(w.min(), rel=1e-9)
-    assert folds._depth(one(nodes, (0, 2, 1, 3)), 0, x) == -np.inf
-    mesh = build_mesh(block(2, 0.2))
-    flow = MeshFlow(mesh, np.zeros((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3)))
-    arrays, x = flow.arrays(), (0.3, 0.2, 0.1)
-    depths = [folds._depth(arrays, t, x) for t in range(*mesh.cell_start[:2])]
-    assert folds._deepest(arrays, 0, x, -7, -np.inf) == (int(np.argmax(depths)), max(depths))
-    assert folds._deepest(arrays, 0, x, -7, 2.0) == (-7, 2.0)
 
 
 def along(flow, n, random, inside=0.7):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foamprb.flow.mesh import tree
 from foamprb.flow.mesh.tree import build_tree, holds_point, next_node, pairs_near
 
 
@@ -48,33 +47,6 @@ def test_traversal_visits_the_leaves_that_hold_a_point(random):
             found += [node] if hit and node >= n else []
             node = next_node(node, n, hit)
         assert found == expected.tolist()
-
-
-def test_a_group_is_halved_along_its_longest_axis(random):
-    for axis in range(3):
-        centres = random.random((32, 3))
-        centres[:, axis] *= 3.0
-        centres[28:] = np.inf
-        order = random.permutation(32).astype(np.int32)
-        tree._halve(centres, order, 1)
-        assert sorted(order) == list(range(32))
-        assert centres[order[:16], axis].max() <= centres[order[16:], axis].min()
-        tree._halve(centres, order, 2)
-        for begin in (0, 16):
-            half = order[begin : begin + 16]
-            there = centres[half][np.isfinite(centres[half]).all(axis=1)]
-            longest = int(np.ptp(there, axis=0).argmax())
-            assert centres[half[:8], longest].max() <= centres[half[8:], longest].min()
-
-
-def test_the_lower_part_is_put_first(random):
-    for n in (2, 3, 10, 31):
-        for _ in range(20):
-            centres = random.integers(0, 8, (n, 3)).astype(float)
-            order, middle = random.permutation(n), int(random.integers(1, n))
-            tree._partition(centres, 1, order, 0, n - 1, middle)
-            assert sorted(order) == list(range(n))
-            assert centres[order[:middle], 1].max() <= centres[order[middle:], 1].min()
 
 
 @pytest.mark.parametrize("n", [1, 9, 40])

@@ -127,7 +127,9 @@ def test_the_latest_time_and_others(tmp_path):
     assert select_time(tmp_path) == "1e1"
     (tmp_path / "20").touch()
     assert select_time(tmp_path, 0.5) == "0.5"
-    with pytest.raises(InputError, match=r"20: named like a time, but not a readable folder.* time is 1e1: -time 1e1\."):
+    with pytest.raises(
+        InputError, match=r"20: named like a time, but not a readable folder.* time is 1e1: -time 1e1\."
+    ):
         select_time(tmp_path)
 
 

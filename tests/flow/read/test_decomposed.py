@@ -21,9 +21,8 @@ from foamprb.errors import InputError
 from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
 from foamprb.flow.read.field import VELOCITY_FIELD, read_field
-from foamprb.flow.read.foamfile import read_faces, read_labels, read_vectors
+from foamprb.flow.read.foamfile import read_labels
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow, transient_flow
-from foamprb.flow.read.processors import processors
 from foamprb.flow.read.source import FlowSource
 
 TIMES = ("0", "0.5", "1e1")
@@ -291,28 +290,6 @@ MISTAKES = {
     "no whole number": (
         replace(f"{POLY}/owner", r"\n0\n", "\n0.5\n"), r"owner: line \d+: a list of whole numbers",
     ),
-    "a number beyond all": (
-        replace(f"{POLY}/owner", r"\n0\n", "\n99999999999999999999\n"), r"a list of whole numbers",
-    ),
-    "a point beyond all": (
-        replace(f"{POLY}/faces", r"\n4\(\d+", "\n4(99999999999999999999"), r"faces: line \d+: a list of f",
-    ),
-    "a length below zero": (
-        replace(f"{POLY}/faces", r"\n4\(", "\n-4("), r"faces: line \d+: a list of \d+ faces",
-    ),
-    "infinite": (
-        replace(f"{POLY}/owner", r"\n0\n", "\ninf\n"), r"a list of whole numbers",
-    ),
-    "a count beyond all": (
-        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n99999999999"), r"a number of entries up to",
-    ),
-    "a number that is none": (
-        replace(f"{POLY}/owner", r"\n0\n", "\nzero\n"), r"owner: line \d+: a list of whole numbers",
-    ),
-    "another count": (
-        replace(f"{POLY}/owner", r"\}\n(\d+)", r"}\n9"),
-        r"polyMesh/owner: line \d+: a list of 9 entries, not \d+, expected",
-    ),
     "an index too large": (
         replace(f"{POLY}/owner", r"\n0\n", "\n999\n"), r"owner: an index outside 0 to \d+",
     ),
@@ -361,49 +338,6 @@ def test_a_mistake_is_named(mistake, case):
 def test_messages_of_the_reader_name_the_case(case):
     with pytest.raises(InputError, match=re.escape(f"{case}: no time 7; the times are 0, 0.5, 1e1.")):
         read_parts(case, 7)
-
-
-def test_processors_are_in_the_order_of_their_numbers(tmp_path):
-    for number in range(11):
-        (tmp_path / f"processor{number}").mkdir()
-    assert [path.name for path in processors(tmp_path)] == [f"processor{number}" for number in range(11)]
-
-
-@pytest.mark.parametrize("binary", [False, True])
-def test_lists_are_read_in_all_their_forms(tmp_path, binary):
-    kind = "binary" if binary else "ascii"
-    points = np.array([[0.1, -2e-7, 3.0], [4.0, 5.0, 6.0]])
-
-    def write(name, cls, *parts, arch="LSB;label=32;scalar=64"):
-        head = f'FoamFile {{ version 2.0; format {kind}; class {cls}; arch "{arch}"; }}\n'
-        (tmp_path / name).write_bytes(head.encode() + b"".join(parts))
-        return tmp_path / name
-
-    def block(values, dtype):
-        return f"{len(values)}\n(".encode() + np.asarray(values).astype(dtype).tobytes() + b")\n"
-
-    if binary:
-        assert np.array_equal(read_vectors(write("p", "vectorField", block(points, "<f8"))), points)
-        swapped = write("p", "vectorField", block(points, ">f8"), arch="MSB;label=32;scalar=64")
-        assert np.array_equal(read_vectors(swapped), points)
-        single = write("p", "vectorField", block(points, "<f4"), arch="LSB;label=64;scalar=32")
-        assert np.array_equal(read_vectors(single), points.astype("f4"))
-        long = write("o", "labelList", block([3, -1], "<i8"), arch="LSB;label=64;scalar=64")
-        assert read_labels(long).tolist() == [3, -1]
-        faces = write("f", "faceCompactList", block([0, 3, 7], "<i4"), block([0, 1, 2, 3, 2, 1, 0], "<i4"))
-        short = write("s", "vectorField", block(points, "<f8")[:-10])
-        with pytest.raises(InputError, match="a list of 2 entries in binary expected"):
-            read_vectors(short)
-    else:
-        assert np.array_equal(
-            read_vectors(write("p", "vectorField", b"2 ( (.1 -2e-7 3) // a\n(4 5 6) )")), points
-        )
-        assert read_labels(write("o", "labelList", b"4{7}")).tolist() == [7, 7, 7, 7]
-        assert read_labels(write("o", "labelList", b"3(3 -1 2)")).tolist() == [3, -1, 2]
-        faces = write("f", "faceList", b"2 ( 3(0 1 2) /* quad */ 4(3 2 1 0) )")
-    assert read_labels(write("o", "labelList", b"0()\n")).tolist() == []
-    start, of_faces = read_faces(faces)
-    assert (start.tolist(), of_faces.tolist()) == ([0, 3, 7], [0, 1, 2, 3, 2, 1, 0])
 
 
 def test_a_field_is_read_whatever_stands_beside_the_values(tmp_path):

@@ -243,8 +243,8 @@ def test_a_time_that_does_not_fit_is_refused_when_it_is_read(change, message, tm
         ("{", "not a list of files"),
         ("[]", "not a list of files"),
         ('{"files": []}', "the list of files is empty"),
-        ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu is not there"),
-        ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series is not there"),
+        ('{"files": [{"name": "none.vtu", "time": 1}]}', "none.vtu does not exist"),
+        ('{"files": [{"name": "case.vtm.series", "time": 1}]}', "series does not exist"),
         ('{"files": [{"time": 1}]}', "not a list of files"),
     ],
 )
@@ -383,7 +383,7 @@ def test_a_cell_of_another_type_than_its_points_is_refused(kind, name, tmp_path)
     shape.save(path, binary=False)
     text = path.read_text()
     path.write_text(text.replace("CELL_TYPES 8\n12", f"CELL_TYPES 8\n{kind}"))
-    with pytest.raises(InputError, match=f"a {name} has not 4 points"):
+    with pytest.raises(InputError, match=f"a {name} does not have 4 points"):
         read_mesh_file(path)
 
 
@@ -448,7 +448,7 @@ def test_a_time_that_is_none_is_refused(tmp_path, time):
     sets = (f'<DataSet timestep="{t}" file="flow_{k}.vtu"/>' for k, t in enumerate(("0", time)))
     head = '<?xml version="1.0"?><VTKFile type="Collection" version="0.1"><Collection>'
     (tmp_path / "flow.pvd").write_text(f"{head}{''.join(sets)}</Collection></VTKFile>")
-    with pytest.raises(InputError, match=rf"flow.pvd: the time {time} is none"):
+    with pytest.raises(InputError, match=rf"flow.pvd: the time {time} is not finite"):
         read_mesh_file(tmp_path / "flow.pvd")
 
 

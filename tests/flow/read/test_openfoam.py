@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 import pyvista
 from foam_writer import GRADIENT, Format, header, write_case
-from mesh_shapes import block, box_patches, corners, grid, pipe
+from mesh_shapes import block, box_patches, pipe
 from paths import PIPE
 
-from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.boundary import Transform
@@ -22,7 +21,7 @@ from foamprb.flow.read.boundary import read_boundary
 from foamprb.flow.read.case import available_times, select_time
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
-from foamprb.flow.read.openfoam import Case, read_case, read_fields, read_series
+from foamprb.flow.read.openfoam import Case, read_case, read_fields
 
 POLY = "constant/polyMesh/"
 
@@ -135,30 +134,6 @@ def test_a_plain_file_counts_before_a_compressed_one(case):
     )
 
 
-def test_two_names_of_one_time(case):
-    shutil.copytree(case / "1e1", case / "10.0")
-    message = r"case: (10\.0 and 1e1|1e1 and 10\.0) are the same time"
-    for time in ("latestTime", 10, "10"):
-        with pytest.raises(InputError, match=message):
-            read_case(case, time)
-    assert select_time(case, "10.0") == "10.0"
-    assert select_time(case, "1e1") == "1e1"
-    assert select_time(case, "0.5") == "0.5"
-    for times in (None, "0.5:", "1e1,10.0"):
-        with pytest.raises(InputError, match=message):
-            read_series(case, times)
-    read_series(case, "0,0.5")
-
-
-@pytest.mark.parametrize("kind", ["link", "file"])
-def test_a_latest_time_that_is_no_folder_is_not_passed_over(kind, case):
-    later = case / "20"
-    later.symlink_to(case / "elsewhere") if kind == "link" else later.write_text("lost")
-    with pytest.raises(InputError, match=r"case/20: named like a time, but not a readable folder.* time is 1e1"):
-        read_case(case)
-    assert select_time(case, 10) == "1e1"
-
-
 def test_a_time_without_permission_is_not_passed_over(case, monkeypatch):
     access = os.access
     monkeypatch.setattr(os, "access", lambda path, mode: Path(path).name != "1e1" and access(path, mode))
@@ -216,24 +191,6 @@ def test_regions(case):
         read_case(case, region="aire")
     with pytest.raises(InputError, match=r"iron: no field U; the fields are \(none\)"):
         read_case(case, region="iron")
-
-
-def test_regions_are_known_before_they_have_a_mesh(case, capsys):
-    """From OpenFOAM's regionProperties; and before any other file is asked for."""
-    shutil.rmtree(case / "constant" / "polyMesh")
-    (case / "constant/regionProperties").write_text("regions ( fluid (air water) solid (heater) none () );")
-    for command in ("run", "info"):
-        assert main([command, "-case", str(case), "-region", "airr"]) == 1
-        assert "no region airr. Did you mean 'air'? Allowed: air, heater, water." in capsys.readouterr().err
-    with pytest.raises(InputError, match=r"choose one with -region\. Allowed: air, heater, water"):
-        read_case(case)
-    with pytest.raises(InputError, match="constant/air/polyMesh: no mesh here"):
-        read_case(case, region="air")
-
-
-def test_a_case_of_one_mesh_has_no_regions(case):
-    with pytest.raises(InputError, match="no region air; the case is not divided into regions"):
-        read_case(case, region="air")
 
 
 def test_a_gradient_can_be_given(case, random):
@@ -464,26 +421,6 @@ def test_numbers_beyond_any_length_are_refused(value, case):
         read_case(case)
 
 
-@pytest.mark.parametrize(
-    ("time", "message"),
-    [
-        ("3", r"no time 3; the times are 0, 0\.5, 1e1\."),
-        ("last", "'last' is neither a number nor latestTime"),
-    ],
-)
-def test_a_missing_time_lists_those_that_exist(case, time, message):
-    with pytest.raises(InputError, match=message):
-        read_case(case, time)
-
-
-def test_a_case_without_times(case):
-    for time in available_times(case):
-        shutil.rmtree(case / time)
-    with pytest.raises(InputError, match="no time directories; has the solver been run"):
-        read_case(case)
-    assert describe(Case(case)).times == ()
-
-
 def test_the_pipe(random):
     flow = read_case(PIPE)
     radius, mean = 2.1e-3, 0.484995
@@ -533,14 +470,6 @@ def test_mesh_files(suffix, where, tmp_path, random):
     u, l = flow.sample(points, flow.locate(points), 0.0)
     assert u == pytest.approx(points @ GRADIENT.T, abs=1e-5)
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=1e-4)
-
-
-def test_surfaces_in_a_mesh_file_are_left_out(tmp_path):
-    points, hexes = corners(2, 0.0)
-    shape = grid(points, [(12, hexes), (9, hexes[:, :4])])
-    shape.cell_data["U"] = np.tile([1.0, 2.0, 3.0], (16, 1))
-    shape.save(tmp_path / "flow.vtu")
-    assert read_mesh_file(tmp_path / "flow.vtu").mesh.n_cells == 8
 
 
 def test_other_names_of_the_velocity(tmp_path):

@@ -11,7 +11,6 @@ from foam_writer import decompose, header, write_case
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.boundary import Transform
-from foamprb.flow.read import processors as processors_module
 from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.field import VELOCITY_FIELD, PatchField, read_field
 from foamprb.flow.read.foamfile import read_cell_zones
@@ -134,15 +133,6 @@ def test_patches_of_the_whole_are_those_of_the_parts_together(written):
     assert ranges.tolist() == [0, 5, 14]
     with pytest.raises(InputError, match="the processor folders do not name all patches of the mesh"):
         whole_patches(written, parts_with(part, [(patch("a", 3), 0), (patch("c", 4), 2)]))
-
-
-def test_pieces_of_a_whole_have_all_numbers_once_or_more():
-    number = processors_module._count
-    assert number([np.array([2, 0]), np.array([1, 0])]) == 3
-    assert number([np.array([2, 0]), np.array([3])]) == -1
-    assert number([np.array([1, 0]), np.array([-1])]) == -1
-    assert number([np.array([0, 9])]) == -1
-    assert number([np.array([], dtype=int)]) == 0
 
 
 def test_zones_of_parts_are_one_zone_in_the_order_of_the_cells(case, tmp_path):

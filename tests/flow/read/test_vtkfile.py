@@ -77,10 +77,10 @@ def test_the_times_of_a_series_rise(tmp_path):
     (tmp_path / "b").touch()
     assert vtkfile._of_series(path, 2.0) == tmp_path / "b"
     for time in ("latestTime", 0.5):
-        with pytest.raises(InputError, match=r"the file .* is not there"):
+        with pytest.raises(InputError, match=r"the file .* does not exist"):
             vtkfile._of_series(path, time)
     path.write_text(json.dumps({"files": [{"name": "flow.vtu.series", "time": 1}]}))
-    with pytest.raises(InputError, match="is not there"):
+    with pytest.raises(InputError, match="does not exist"):
         vtkfile._of_series(path, 1)
     path.write_text('{"files": []}')
     with pytest.raises(InputError, match="the list of files is empty"):
