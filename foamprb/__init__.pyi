@@ -54,11 +54,11 @@ from .errors import (
 )
 from .flow import analytic as analytic
 from .flow.read.case import select_times as select_times
-from .flow.read.source import Division as Division
 from .flow.read.meshfile import read_mesh_file as read_mesh_file
 from .flow.read.meshfile import read_mesh_series as read_mesh_series
 from .flow.read.openfoam import read_case as read_case
 from .flow.read.openfoam import read_series as read_series
+from .flow.read.source import Division as Division
 from .flow.series import SeriesFlow as SeriesFlow
 from .run.job import Job as Job
 from .run.job import prepare as prepare

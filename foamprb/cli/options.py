@@ -53,8 +53,7 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
     InputError
         If the feature angle is out of range.
     """
-    from foamprb.flow.read.source import Division
-    from foamprb.flow.read.source import FlowSource
+    from foamprb.flow.read.source import Division, FlowSource
 
     angle = arguments.featureAngle
     if angle is not None and not 0.0 < angle < 180.0:
