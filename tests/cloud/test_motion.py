@@ -11,7 +11,7 @@ from foamprb.cloud.block import store3
 from foamprb.cloud.integrators.adaptive import during, holds_end
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Cyclic, Mirror
-from foamprb.flow.analytic import walk_pipe
+from foamprb.flow.channels import walk_pipe
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 
