@@ -25,7 +25,7 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
-from foamprb.results.names import file_name
+from foamprb.results.folder import file_name
 from foamprb.results.tables import write_table
 
 __all__ = ["PatchPostProcessing"]

@@ -1,1 +1,1 @@
-"""Results of a run on disk: clouds for ParaView and tables."""
+"""Results of a run on disk: snapshots, tables, checkpoints, and their folder."""

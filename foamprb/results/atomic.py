@@ -1,4 +1,4 @@
-"""Atomic writing of files: a file exists completely or not at all."""
+"""Atomic writing: a file is complete or absent."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ _TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """Yield a temporary file, renamed to ``path`` if the context ends without an error.
+    """Yield a temporary file; rename it to ``path`` when the context ends without an error.
 
-    Even after a full disk or a killed process ``path`` has either its previous contents or all of the new
-    ones. The folder of ``path`` is made if absent. An error inside the context removes the temporary file;
-    after a killed process :func:`remove_unfinished` removes it.
+    Even after a full disk or a killed process ``path`` holds either its earlier contents or all of the new
+    ones. The folder of ``path`` is made if it is absent. An error inside the context removes the temporary
+    file. A killed process leaves it behind; :func:`remove_unfinished` removes it.
 
     Yields
     ------
-    The empty temporary file in the folder of ``path``: on one file system, where renaming is atomic.
+    The temporary file, empty, in the folder of ``path``, as renaming is atomic within one file system.
 
     Raises
     ------
@@ -40,21 +40,33 @@ def atomic_write(path: Path) -> Iterator[Path]:
         yield temporary
         _flush(temporary, os.O_RDWR)
         temporary.replace(path)
-        # Without this a power failure may lose the new name itself.
+        # Otherwise the new name may be lost when the power fails.
         _flush(path.parent, os.O_RDONLY)
     except BaseException as error:
         temporary.unlink(missing_ok=True)
         if isinstance(error, OSError) and error.errno and error.filename in (None, temporary, str(temporary)):
-            # The error of a write names no file, and the temporary one is of no use to the user.
+            # The error of a write has no file name, and users do not know the temporary one.
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
 
-def forget(path: Path) -> None:
-    """Drop a file from the page cache of the operating system.
+def write_text(path: Path, text: str) -> None:
+    """Write a text file in one step.
 
-    The next file of a series reuses this memory; allocation of unused memory can cost several times as much
-    as the copy. This is advice, ignored by some file systems. A missing file is ignored.
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    with atomic_write(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def drop_cache(path: Path) -> None:
+    """Advise the operating system to drop its cached copy of a file, if the file exists.
+
+    The next file of a series then reuses that memory, as allocating unused memory can take several times as
+    long as writing. Not all file systems follow this advice.
     """
     with suppress(OSError):
         descriptor = os.open(path, os.O_RDONLY)
@@ -65,7 +77,7 @@ def forget(path: Path) -> None:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove the temporary files of killed processes in a folder, if it exists."""
+    """Remove the temporary files that killed processes left in a folder, if the folder exists."""
     for file in tuple(folder.iterdir()) if folder.is_dir() else ():
         if _TEMPORARY.fullmatch(file.name):
             file.unlink(missing_ok=True)
@@ -73,7 +85,7 @@ def remove_unfinished(folder: Path) -> None:
 
 @contextmanager
 def only_writer(folder: Path) -> Iterator[None]:
-    """Lock a folder, made if absent, for this process; the lock ends with the process.
+    """Lock a folder for this process, which ends the lock; make the folder if it is absent.
 
     Raises
     ------
@@ -90,7 +102,7 @@ def only_writer(folder: Path) -> Iterator[None]:
         except BlockingIOError as error:
             raise InputError(f"{folder}: another run is writing here.") from error
         except OSError:
-            # Some network file systems have no locks; the run continues without.
+            # Some network file systems have no locks; the run does not depend on them.
             pass
         yield
     finally:

@@ -1,4 +1,4 @@
-"""Background thread for output during the run."""
+"""Writing of files in a second thread while the particles advance."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Self
 
 
 class Writer:
-    """Thread that executes one task at a time, in order of submission.
+    """Thread that performs one task at a time, in order.
 
-    At most one task is unfinished, which bounds the memory: :meth:`begin` waits for the previous task. The
-    next call of any method raises an error of the thread, once.
+    At most one task is unfinished, which bounds the memory: :meth:`begin` waits for the task before. The next
+    call of any method raises the error of a task, once.
 
-    At the end of the context the last task is finished, or its error raised; an error of the context itself
+    At the end of the context the last task is finished, or its error raised. An error of the context itself
     takes precedence.
     """
 
@@ -23,12 +23,12 @@ class Writer:
         self._unfinished: Future[object] | None = None
 
     def begin(self, work: Callable[[], object]) -> None:
-        """Start a task after the previous one."""
+        """Begin a task when the task before is finished."""
         self.finish()
         self._unfinished = self._thread.submit(work)
 
     def check(self) -> None:
-        """Raise the error of the last task, if any, without waiting."""
+        """Raise the error of the last task, without waiting."""
         if self._unfinished is not None and self._unfinished.done():
             self.finish()
 

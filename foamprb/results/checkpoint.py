@@ -1,48 +1,47 @@
 """Checkpoints: files of a header and arrays, with a checksum.
 
-A file contains one line with format and version, the header as one line of JSON, the arrays as numpy's
-``.npy`` in the order of the header's ``arrays``, and the 64-bit XXH3 checksum of all this. If all rows of an
-array are equal, the file has one of them, and the header's ``rows`` their number. The last two files stay on
-disk, so that a run can resume if one of them is damaged.
+A file consists of a line with format and version, a checksum, the header as one line of JSON, and the arrays
+in numpy's ``.npy`` format, in the order of the header's ``arrays``. The checksum is the 64-bit XXH3 of
+everything else. If all rows of an array are equal, as in many arrays of a cloud, the file contains one of
+them; the header's ``rows`` gives their number. The last two files stay on disk, so that a run can resume when
+one of them is damaged.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import logging
-import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import xxhash
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, forget, remove_unfinished
+from foamprb.results.atomic import atomic_write, drop_cache, remove_unfinished
 
 log = logging.getLogger("foamprb")
 
-VERSION = 7
+VERSION = 8
 MOST_FILES = 2
-"""Number of checkpoints on disk."""
+"""Number of checkpoints that stay on disk."""
 
 _FORMAT = b"foamprb checkpoint "
 _NAME = re.compile(r"(\d+(?:\.\d+)?(?:e[-+]\d+)?)\.checkpoint")
 _SUM_BYTES = 8
-_LONGEST_VERSION = 8
-# Bytes copied at a time.
-_CHUNK = 1 << 20
-# Rows compared first, before all rows are.
+_LONGEST_FIRST = len(_FORMAT) + 8
+# Rows that are compared first.
 _FIRST = 1000
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """State at a time, s: a header of JSON values, and arrays by name."""
+    """State at a time, s: a header of values that JSON can represent, and arrays by name."""
 
     time: float
     header: Mapping[str, Any]
@@ -50,16 +49,16 @@ class Checkpoint:
 
 
 class DamagedError(Exception):
-    """Incomplete or damaged checkpoint; the message gives the reason."""
+    """A file that is no complete checkpoint; the message gives the reason."""
 
 
 class Checkpoints:
-    """Files ``<time>.checkpoint`` in a folder.
+    """The files ``<time>.checkpoint`` in a folder.
 
     Parameters
     ----------
     folder
-        Folder of the files; made with the first.
+        The folder, made when the first file is written.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -67,7 +66,7 @@ class Checkpoints:
         remove_unfinished(folder)
 
     def files(self) -> dict[float, Path]:
-        """Return the files by their times, s, intact or not, the latest last."""
+        """Return the files by their times, s, damaged or not, in order of time."""
         found = tuple(self.folder.iterdir()) if self.folder.is_dir() else ()
         times = {float(match[1]): file for file in found if (match := _NAME.fullmatch(file.name))}
         return dict(sorted(times.items()))
@@ -86,19 +85,23 @@ class Checkpoints:
         """
         path = self.file(checkpoint.time)
         for file in self.files().values():
-            forget(file)
+            drop_cache(file)
         write_checkpoint(path, checkpoint)
         for file in list(self.files().values())[:-MOST_FILES]:
             file.unlink(missing_ok=True)
         return path
 
     def latest(self) -> Checkpoint | None:
-        """Read the latest intact checkpoint, and remove later damaged ones; None without any.
+        """Read the latest undamaged checkpoint, and remove the damaged ones after it.
+
+        Returns
+        -------
+        The checkpoint; None if there are no files.
 
         Raises
         ------
         InputError
-            If all are damaged, or the latest intact one is of another version.
+            If all are damaged, or the latest undamaged one has another version.
         """
         files = self.files()
         for time, file in sorted(files.items(), reverse=True):
@@ -134,33 +137,42 @@ def write_checkpoint(path: Path, checkpoint: Checkpoint) -> None:
     arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
     rows = {name: len(array) for name, array in arrays.items() if is_one_row(array)}
     header = {"time": checkpoint.time, "arrays": list(arrays), "rows": rows, **checkpoint.header}
-    with atomic_write(path) as temporary, temporary.open("wb") as file:
-        summed = _Summed(file)
-        summed.write(_FORMAT + b"%d\n" % VERSION)
-        summed.write(json.dumps(header, allow_nan=False).encode() + b"\n")
+    first = _FORMAT + b"%d\n" % VERSION
+    with atomic_write(path) as temporary, temporary.open("w+b") as file:
+        file.write(first + bytes(_SUM_BYTES) + json.dumps(header, allow_nan=False).encode() + b"\n")
         for name, array in arrays.items():
-            summed.write_array(array[:1] if name in rows else array)
-        file.write(summed.checksum.digest())
+            np.lib.format.write_array(file, array[:1] if name in rows else array)
+        checksum = _checksum(file, first)
+        file.seek(len(first))
+        file.write(checksum)
 
 
 def read_checkpoint(path: Path) -> Checkpoint:
-    """Verify the checksum of a checkpoint and read it.
+    """Read a checkpoint, after comparing its checksum with its bytes.
 
     Raises
     ------
     DamagedError
         If the file is damaged.
     InputError
-        If it is intact, but of another version.
+        If it is undamaged, but has another version.
     """
     with path.open("rb") as file:
-        _check(file)
-        first = file.readline().removeprefix(_FORMAT).strip()
-        if first != b"%d" % VERSION:
-            raise InputError(
-                f"{path}: a checkpoint of format {first.decode(errors='replace')}; this version of foamprb "
-                f"reads format {VERSION}."
+        first = file.readline(_LONGEST_FIRST)
+        version = first.removeprefix(_FORMAT).strip().decode(errors="replace")
+        if file.read(_SUM_BYTES) != _checksum(file, first):
+            other = first.startswith(_FORMAT) and version.isdigit() and version != str(VERSION)
+            # Other versions may have other checksums.
+            raise DamagedError(
+                f"its format is {version}, not {VERSION}"
+                if other
+                else "its contents do not match its checksum"
             )
+        if version != str(VERSION):
+            raise InputError(
+                f"{path}: a checkpoint of format {version}; this version of foamprb reads format {VERSION}."
+            )
+        file.seek(len(first) + _SUM_BYTES)
         header = json.loads(file.readline())
         arrays = {name: np.lib.format.read_array(file, allow_pickle=False) for name in header.pop("arrays")}
     for name, n in header.pop("rows").items():
@@ -169,55 +181,15 @@ def read_checkpoint(path: Path) -> Checkpoint:
 
 
 def is_one_row(array: NDArray[Any]) -> bool:
-    """Return whether a contiguous array has more than one row, all equal to the last bit."""
+    """Return True if a contiguous array has two rows or more, and all are equal to the last bit."""
     if array.ndim == 0 or len(array) < 2 or not array.size or array.itemsize not in (1, 2, 4, 8):
         return False
     bits = array.view(f"u{array.itemsize}")
-    # Most arrays with different rows differ early, or at the end.
+    # Most arrays with different rows differ early, or in the last row.
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
 
 
-class _Summed:
-    """Writer that computes the checksum of its output.
-
-    XXH3 detects damage by disks and killed processes in a sixth of the time of writing. zlib's CRC-32 would
-    take as long as writing, and a cryptographic checksum longer.
-    """
-
-    def __init__(self, file: IO[bytes]) -> None:
-        self.file = file
-        self.checksum = xxhash.xxh3_64()
-
-    def write(self, data: bytes | memoryview) -> None:
-        self.checksum.update(data)
-        self.file.write(data)
-
-    def write_array(self, array: NDArray[Any]) -> None:
-        """Write a contiguous array as ``.npy``, without a copy."""
-        np.lib.format.write_array_header_1_0(self, np.lib.format.header_data_from_array_1_0(array))
-        if array.size:
-            self.write(array.reshape(-1).view(np.uint8).data)
-
-
-def _check(file: IO[bytes]) -> None:
-    """Compare the checksum at the end with the bytes before it, and rewind the file."""
-    if file.read(len(_FORMAT)) != _FORMAT:
-        raise DamagedError("it has no checkpoint header")
-    size = file.seek(0, os.SEEK_END)
-    file.seek(0)
-    rest, checksum = size - _SUM_BYTES, xxhash.xxh3_64()
-    while rest > 0:
-        data = file.read(min(rest, _CHUNK))
-        if not data:
-            raise DamagedError("it was truncated during reading")
-        checksum.update(data)
-        rest -= len(data)
-    matches = file.read() == checksum.digest()
-    file.seek(len(_FORMAT))
-    version = file.readline(_LONGEST_VERSION).strip()
-    file.seek(0)
-    if not matches and version != b"%d" % VERSION and version.isdigit():
-        # Other versions have other checksums.
-        raise DamagedError(f"its format is {version.decode()}, not {VERSION}")
-    if not matches:
-        raise DamagedError("its contents do not match its checksum")
+def _checksum(file: BinaryIO, first: bytes) -> bytes:
+    """Return the checksum of a file with a first line; it is much faster than CRC-32 or SHA-256."""
+    file.seek(len(first) + _SUM_BYTES)
+    return hashlib.file_digest(file, lambda: xxhash.xxh3_64(first)).digest()

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.results.atomic import atomic_write
+from foamprb.results.atomic import write_text
 
 __all__ = ["PatchValues", "remove_lagrangian", "write_lagrangian", "write_scalar_field"]
 
@@ -19,12 +19,12 @@ Floats = NDArray[np.float64]
 
 
 class PatchValues(NamedTuple):
-    """Boundary condition and values of a field on a patch."""
+    """Field on a patch."""
 
     type: str
-    """``calculated``, or the type of a constraint patch."""
+    """Type of the patch field: ``calculated``, or the type of a constraint patch such as ``empty``."""
     values: Floats | None = None
-    """One value per face."""
+    """Values at the faces; None for a constraint patch."""
 
 
 def write_scalar_field(
@@ -39,9 +39,9 @@ def write_scalar_field(
     dimensions
         Exponents of kg, m, s, K, mol, A, cd.
     cells
-        One value per cell.
+        Values at the cells.
     patches
-        By their names, in the order of the mesh.
+        Fields on the patches by name, in the order of the mesh.
 
     Raises
     ------
@@ -49,16 +49,15 @@ def write_scalar_field(
         If the file cannot be written.
     """
     parts = [
-        "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       volScalarField;\n"
-        f"    object      {path.name};\n}}\n\ndimensions      [{' '.join(map(str, dimensions))}];\n\n"
+        f"{_header('volScalarField', path.name)}dimensions      [{' '.join(map(str, dimensions))}];\n\n"
         f"internalField   {_values(cells)};\n\nboundaryField\n{{\n"
     ]
     for name, patch in patches.items():
         value = "" if patch.values is None else f"        value           {_values(patch.values)};\n"
-        parts.append(f"    {_key(name)}\n    {{\n        type            {patch.type};\n{value}    }}\n")
+        key = name if name.replace("_", "").replace("-", "").isalnum() else f'"{name}"'
+        parts.append(f"    {key}\n    {{\n        type            {patch.type};\n{value}    }}\n")
     parts.append("}\n")
-    with atomic_write(path) as temporary:
-        temporary.write_text("".join(parts), encoding="utf-8")
+    write_text(path, "".join(parts))
 
 
 def _values(values: Floats) -> str:
@@ -67,20 +66,14 @@ def _values(values: Floats) -> str:
     return f"nonuniform List<scalar> {len(values)}\n(\n" + "".join(f"{v!r}\n" for v in values.tolist()) + ")"
 
 
-def _key(name: str) -> str:
-    return name if name.replace("_", "").replace("-", "").isalnum() else f'"{name}"'
-
-
 _CLASSES = {1: "scalarField", 3: "vectorField", 6: "symmTensorField", 9: "tensorField"}
 _SYMMETRIC = [0, 3, 5, 1, 4, 2]
 """Indices of xx xy xz yy yz zz among xx yy zz xy yz xz."""
-
-
 _GEOMETRY = "geometry        positions;\n"
 
 
 def remove_lagrangian(case: Path, cloud: str) -> None:
-    """Remove the files of :func:`write_lagrangian` for a cloud at all times of a case, and nothing else.
+    """Remove the files of :func:`write_lagrangian` of a cloud at all times of a case, and no others.
 
     Raises
     ------
@@ -95,7 +88,7 @@ def remove_lagrangian(case: Path, cloud: str) -> None:
         shutil.rmtree(time / "lagrangian" / cloud, ignore_errors=True)
         shutil.rmtree(own.parent)
         for folder in ("lagrangian", "uniform/lagrangian", "uniform", "."):
-            # The folder contains nothing else.
+            # Only an empty folder can be removed.
             with suppress(OSError):
                 (time / folder).rmdir()
 
@@ -103,9 +96,9 @@ def remove_lagrangian(case: Path, cloud: str) -> None:
 def write_lagrangian(
     folder: Path, points: Floats, cells: NDArray[np.int64], arrays: Mapping[str, NDArray[Any]]
 ) -> None:
-    """Write a cloud in OpenFOAM's ascii format: ``positions``, and a file per array.
+    """Write a cloud in OpenFOAM's format, plain text: ``positions``, and a file for each array.
 
-    ``<time>/uniform/lagrangian/<cloud>/cloudProperties`` declares them as positions.
+    ``<time>/uniform/lagrangian/<cloud>/cloudProperties`` declares the format of the positions.
 
     Parameters
     ----------
@@ -114,10 +107,10 @@ def write_lagrangian(
     points
         Positions, (n, 3), m.
     cells
-        Cell of each particle.
+        Indices of the cells that contain them, (n,).
     arrays
-        Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9; OpenFOAM has no files for
-        other shapes, which are left out. NaN and infinity are written as 0.
+        Values by name, (n,) or (n, k) with k of 1, 3, 6 (xx yy zz xy yz xz) or 9. Other arrays are left out,
+        as OpenFOAM has no files for them. NaN and infinity are written as 0.
 
     Raises
     ------
@@ -126,10 +119,9 @@ def write_lagrangian(
     """
     time = folder.parents[1]
     own = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
-    with atomic_write(own) as temporary:
-        # Without it OpenFOAM expects barycentric coordinates, and finds no particles.
-        head = _header("dictionary", str(own.parent.relative_to(time.parent)), own.name)
-        temporary.write_text(head + _GEOMETRY, encoding="utf-8")
+    # Without this file OpenFOAM would expect barycentric coordinates, and find no particles.
+    location = str(own.parent.relative_to(time.parent))
+    write_text(own, _header("dictionary", own.name, location) + _GEOMETRY)
     n = len(points)
     lines = [
         f"({x!r} {y!r} {z!r}) {c}\n" for (x, y, z), c in zip(points.tolist(), cells.tolist(), strict=True)
@@ -151,14 +143,14 @@ def write_lagrangian(
         _write_list(folder / name, kind, n, lines)
 
 
-def _header(kind: str, location: str, name: str) -> str:
+def _header(kind: str, name: str, location: str = "") -> str:
+    place = f'    location    "{location}";\n' if location else ""
     return (
         f"FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {kind};\n"
-        f'    location    "{location}";\n    object      {name};\n}}\n\n'
+        f"{place}    object      {name};\n}}\n\n"
     )
 
 
 def _write_list(path: Path, kind: str, n: int, lines: Sequence[str]) -> None:
-    head = _header(kind, "/".join(path.parts[-4:-1]), path.name)
-    with atomic_write(path) as temporary:
-        temporary.write_text(f"{head}{n}\n(\n{''.join(lines)})\n", encoding="utf-8")
+    head = _header(kind, path.name, "/".join(path.parts[-4:-1]))
+    write_text(path, f"{head}{n}\n(\n{''.join(lines)})\n")

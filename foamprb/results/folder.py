@@ -1,32 +1,50 @@
-"""Folder of one cloud's results, and the names of its files."""
+"""Folder of one cloud's results, and the names of the files in it.
+
+Users name clouds, cloud functions, injection models and regions; a mesh names patches. No such name may lead
+out of the folder of the results.
+"""
 
 from __future__ import annotations
 
 import re
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
 from foamprb.errors import InputError, suggestion
-from foamprb.results.names import fault_of_word
 
-__all__ = ["FAILURES", "FATES", "KINDS", "MANIFEST", "RECORD_FORMAT", "ResultsFolder", "fault_of_function"]
+__all__ = [
+    "FAILURES",
+    "FATES",
+    "KINDS",
+    "MANIFEST",
+    "RECORD_FORMAT",
+    "ResultsFolder",
+    "fault_of_function",
+    "fault_of_word",
+    "file_name",
+]
 
 DEFAULT_CLOUD = "softCloud"
 FATES, FAILURES = "fates", "failed"
 """Tables of a run: a row per particle, and a row per failed particle."""
 KINDS = ("csv", "parquet")
-"""Kinds of tables, the suffixes of their files."""
+"""The kinds of tables, which are the endings of their files."""
 MANIFEST, RECORD, CHECKPOINTS = "manifest.json", "run.json", "checkpoint"
 RECORD_FORMAT = 2
 """Version of the entries of the record."""
 _ROOT = "postProcessing"
+_MOST_BYTES = 200
+"""Longest name: file systems allow 255, and suffixes and temporary names need some."""
+_NO_WORD = re.compile(r"""[\s"'/\\;{}]""")
 HOW = "Run the particles first: foamprb run."
 
 
 @dataclass(frozen=True, order=True)
 class ResultsFolder:
-    """Folder of one cloud's results, ``postProcessing/[<region>/]<cloud>`` in a case.
+    """The folder of one cloud's results, ``postProcessing/[<region>/]<cloud>`` in a case.
 
     Parameters
     ----------
@@ -44,12 +62,12 @@ class ResultsFolder:
 
     @classmethod
     def of_case(cls, case: Path, cloud: str, region: str = "") -> ResultsFolder:
-        """Return the folder for the results of a cloud."""
+        """Return the folder that a run of a cloud writes into."""
         return cls(case / _ROOT / region / cloud, cloud, region)
 
     @classmethod
     def find(cls, case: Path, cloud: str | None = None, region: str = "") -> ResultsFolder:
-        """Find the results of runs in a case.
+        """Find the results that runs left in a case.
 
         Parameters
         ----------
@@ -63,7 +81,7 @@ class ResultsFolder:
         Raises
         ------
         InputError
-            If there are no such results, or several clouds or regions have results.
+            If there are no such results, or those of several clouds or regions.
         """
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")
@@ -92,42 +110,42 @@ class ResultsFolder:
 
     @property
     def pvd(self) -> Path:
-        """Return the list of the snapshots, for ParaView."""
+        """List of the snapshots; ParaView opens it."""
         return self.path / f"{self.cloud}.pvd"
 
     @property
     def state(self) -> Path:
-        """Return ParaView's state, which shows the bodies."""
+        """ParaView's state, which shows the bodies."""
         return self.path / f"{self.cloud}.py"
 
     @property
     def record(self) -> Path:
-        """Return the description of the run."""
+        """Description of the run."""
         return self.path / RECORD
 
     @property
     def checkpoints(self) -> Path:
-        """Return the folder of the checkpoints."""
+        """Folder of the checkpoints."""
         return self.path / CHECKPOINTS
 
     @property
     def page(self) -> Path:
-        """Return the page of ``foamprb view``."""
+        """Page of ``foamprb view``."""
         return self.path / f"{self.cloud}.html"
 
     @property
     def report(self) -> Path:
-        """Return the page of ``foamprb report``."""
+        """Page of ``foamprb report``."""
         return self.path / "report.html"
 
     @property
     def tracks(self) -> Path | None:
-        """Return the paths of the cloud function ``particleTracks``; None without them."""
+        """Paths that the cloud function ``particleTracks`` wrote; None without them."""
         return min(self.path.glob("*/tracks.vtp"), default=None)
 
     @property
     def tables(self) -> tuple[str, ...]:
-        """Return the names of the tables on disk, without suffix: ``fates``, ``exposure/exposure``, …."""
+        """Names of the tables on disk, without endings: ``fates``, ``exposure/exposure``, …."""
         patterns = [f"{folder}*.{kind}" for folder in ("", "*/") for kind in KINDS]
         found = {file.relative_to(self.path) for pattern in patterns for file in self.path.glob(pattern)}
         return tuple(sorted({file.with_suffix("").as_posix() for file in found}))
@@ -141,12 +159,12 @@ class ResultsFolder:
         return next((file for kind in KINDS if (file := self.table(name, kind)).exists()), None)
 
     def snapshot(self, index: int) -> Path:
-        """Return the file of the snapshot with an index, without suffix."""
+        """Return the file of the snapshot with an index, without its ending."""
         return self.path / f"{self.cloud}_{index:06d}"
 
 
 def fault_of_function(name: str, cloud: str) -> str:
-    """Return why a name is not valid for a cloud function and its folder; empty if it is."""
+    """Return why a cloud function cannot have a name, which names its folder too; empty if it can."""
     series = re.compile(re.escape(cloud) + r"(\.pvd|\.py|_\d{6,}.*)")
     tables = {f"{table}.{kind}" for table in (FATES, FAILURES) for kind in KINDS}
     if name in {CHECKPOINTS, MANIFEST, RECORD, "manifest", *tables} or series.fullmatch(name):
@@ -154,8 +172,37 @@ def fault_of_function(name: str, cloud: str) -> str:
     return fault_of_word(name)
 
 
+def fault_of_word(name: str) -> str:
+    """Return why a name is not a valid OpenFOAM word and file name; empty if it is."""
+    if not name:
+        return "it is empty"
+    if found := _NO_WORD.search(name):
+        return f"it contains {found[0]!r}"
+    if not name.isprintable():
+        return "it contains a character that cannot be printed"
+    if name.startswith("."):
+        return "it begins with a dot"
+    if len(name.encode()) > _MOST_BYTES:
+        return f"it is longer than {_MOST_BYTES} bytes"
+    return ""
+
+
+def file_name(name: str) -> str:
+    """Return a file name: the name itself if it is a word, else with escapes such as ``%2F`` for ``/``.
+
+    Different names have different file names.
+    """
+    if not fault_of_word(name) and "%" not in name:
+        return name
+    escaped = quote(name, safe="+:,=@", errors="surrogateescape").replace(".", "%2E")
+    if len(escaped) <= _MOST_BYTES:
+        return escaped
+    checksum = zlib.crc32(name.encode(errors="surrogateescape"))
+    return f"{escaped[: _MOST_BYTES - 20]}%{checksum:08X}"
+
+
 def _written(case: Path) -> Iterator[ResultsFolder]:
-    """Yield the folders of the clouds with results in a case."""
+    """Give the folders of the clouds that runs have written in a case."""
     for pvd in (case / _ROOT).glob("*/*.pvd"):
         if pvd.stem == pvd.parent.name:
             yield ResultsFolder(pvd.parent, pvd.stem)

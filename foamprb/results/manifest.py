@@ -1,4 +1,4 @@
-"""List of the files of a run: the only files that a later run may remove."""
+"""List of the files that a run writes: a later run may remove these files and no others."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write
+from foamprb.results.atomic import write_text
 from foamprb.results.folder import MANIFEST
 
 FORMAT = 1
 
 
 class Manifest:
-    """Files that a run has written, or is about to write, into its folder.
+    """Files that a run has written into its folder or is about to write.
 
-    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that every
-    file is listed after any end of the run; a listed file may be missing.
+    ``manifest.json`` names them relative to the folder. A file is listed before it is written, so that no
+    file stays unlisted if the run is killed. A listed file may be missing.
 
     Parameters
     ----------
     folder
         The run's folder.
     files
-        Initial list.
+        Files that are listed initially.
     """
 
     def __init__(self, folder: Path, files: Iterable[Path] = ()) -> None:
@@ -37,17 +37,17 @@ class Manifest:
 
     @property
     def path(self) -> Path:
-        """Return the file of the list, which does not list itself."""
+        """File of the list, which does not list itself."""
         return self.folder / MANIFEST
 
     @classmethod
     def read(cls, folder: Path) -> Manifest:
-        """Read the list of a folder; empty without a manifest.
+        """Read the list of a run in its folder; it is empty without a manifest.
 
         Raises
         ------
         InputError
-            If the manifest is damaged, or of another format.
+            If the manifest is damaged or has another format.
         """
         manifest = cls(folder)
         if manifest.path.exists():
@@ -58,9 +58,9 @@ class Manifest:
         return manifest
 
     def expect(self, files: Iterable[Path]) -> None:
-        """List files before they are written, atomically.
+        """List files that are about to be written, in one step.
 
-        Missing files of the previous call are dropped from the list: they were not written, or are removed.
+        Files of the last call that do not exist now are dropped from the list.
 
         Raises
         ------
@@ -71,17 +71,16 @@ class Manifest:
         self._expected = frozenset(files)
         self.files |= self._expected
         names = sorted(file.relative_to(self.folder).as_posix() for file in self.files)
-        with atomic_write(self.path) as temporary:
-            text = json.dumps({"format": FORMAT, "files": names, "sha256": _digest(names)}, indent=1)
-            temporary.write_text(f"{text}\n", encoding="utf-8")
+        content = {"format": FORMAT, "files": names, "sha256": _digest(names)}
+        write_text(self.path, f"{json.dumps(content, indent=1)}\n")
 
     def remove(self, files: Iterable[Path]) -> None:
-        """Remove listed files, in order, and folders that become empty.
+        """Remove listed files, in order, and the folders that become empty.
 
         Raises
         ------
         OSError
-            If one cannot be removed.
+            If a file cannot be removed.
         """
         for file in files:
             file.unlink(missing_ok=True)
@@ -92,7 +91,7 @@ class Manifest:
 
 
 def _names(content: Any) -> list[str]:
-    """Return the names in a manifest; raise ValueError if it is damaged."""
+    """Return the names in a manifest; raise ValueError if it was changed."""
     if not isinstance(content, dict) or not isinstance(content.get("files"), list):
         raise ValueError("it is not a list of files.")
     if content.get("format") != FORMAT:

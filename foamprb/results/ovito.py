@@ -1,4 +1,4 @@
-"""LAMMPS dump of a cloud over time, shown by OVITO as ellipsoids."""
+"""Cloud over time as a LAMMPS dump, which OVITO shows as ellipsoids."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _LEAST = 1e-300
 
 
 def write_dump(path: Path, clouds: Iterable[PointCloud]) -> None:
-    """Write the clouds of all times into one text file, atomically.
+    """Write the clouds of all times into one text file, in one step.
 
-    Each body is an ellipsoid with the diameters ``shapex`` to ``shapez`` along axes rotated by the
-    quaternion. Its ``type`` is the index of its injection model plus 1. Lengths are in µm, a scale suitable
-    for OVITO, times in s.
+    Each body is an ellipsoid with the diameters ``shapex`` to ``shapez`` along axes that the quaternion
+    rotates. Its ``type`` is the index of its injection model plus 1. Lengths are in µm, as bodies are too
+    small for OVITO in m; times are in s.
 
     Raises
     ------

@@ -1,24 +1,24 @@
-"""ParaView state beside the results of a run: ``<cloud>.py``, for File > Load State."""
+"""State file of ParaView beside the results of a run: ``<cloud>.py``, for File > Load State."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from foamprb.results.atomic import atomic_write
+from foamprb.results.atomic import write_text
 
 __all__ = ["write_state"]
 
 _TEXT = """\
 # State of ParaView 5.11 or newer, by foamprb: File > Load State, or paraview --script=THIS_FILE.
-# The bodies of the cloud as they are deformed, enlarged, and the paths of particleTracks, if there are any.
+# Shows the deformed bodies of the cloud, enlarged, and the paths of particleTracks.
 from pathlib import Path
 
 from paraview import simple
 
 CLOUD = {name!r}
-# More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation,
-# so that a hundred thousand can be turned. Fewer are made one by one from glyph, with which a point of the
-# surface keeps its place on the body. 0: always as copies.
+# More bodies than this are drawn by the graphics card as copies of one sphere, from semiAxes and orientation.
+# Fewer bodies are made one by one from glyph, so that a point of the surface keeps its place on the body.
+# 0: always as copies.
 MANY = 20000
 folder = Path(__file__).resolve().parent
 view = simple.GetActiveViewOrCreate("RenderView")
@@ -29,7 +29,7 @@ scene.UpdateAnimationUsingDataTimeSteps()
 scene.GoToLast()
 cloud.UpdatePipeline(scene.AnimationTime)
 
-# So large that a body is a fiftieth of the cloud's own size.
+# The largest body is drawn with a fiftieth of the size of the cloud.
 low, high = cloud.PointData["d"].GetRange(0)
 bounds = cloud.GetDataInformation().GetBounds()
 size = max(bounds[2 * k + 1] - bounds[2 * k] for k in range(3))
@@ -60,7 +60,7 @@ else:
 sphere.Radius = 1.0
 sphere.ThetaResolution = sphere.PhiResolution = 8 if count > 5000 else 24
 if bodies is not cloud:
-    # ParaView chooses another factor when it makes the filter, also where it is given 1.
+    # ParaView changes the factor when it makes the filter, even a given factor of 1.
     bodies.UpdatePipeline(scene.AnimationTime)
     bodies.ScaleFactor = enlargement
     shown = simple.Show(bodies, view)
@@ -82,12 +82,11 @@ simple.Render(view)
 
 
 def write_state(path: Path, name: str) -> None:
-    """Write the state for a cloud, atomically.
+    """Write the state file for the cloud with a name, in one step.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
-    with atomic_write(path) as temporary:
-        temporary.write_text(_TEXT.format(name=name), encoding="utf-8")
+    write_text(path, _TEXT.format(name=name))

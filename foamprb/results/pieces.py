@@ -1,4 +1,4 @@
-"""PyVista reader for clouds of several processes, registered as an entry point."""
+"""PyVista reader of clouds that several processes wrote; an entry point of the package registers it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,6 @@ from vtkmodules.vtkIOXML import vtkXMLPPolyDataReader
 
 
 class XMLPPolyDataReader(BaseReader, PointCellDataSelection):  # type: ignore[misc]
-    """Reader of ``.pvtp`` files by VTK's reader."""
+    """Reader of ``.pvtp`` files, with VTK's reader of the same name."""
 
     _vtk_class = vtkXMLPPolyDataReader

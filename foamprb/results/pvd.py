@@ -1,4 +1,4 @@
-"""Files of a cloud over time: one ``.vtp`` or ``.pvtp`` per time, and their list, the ``.pvd``."""
+"""Files of a cloud over time: a ``.vtp`` or ``.pvtp`` file per time, and the ``.pvd`` that lists them."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from xml.etree import ElementTree
 from xml.sax.saxutils import quoteattr
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, forget
+from foamprb.results.atomic import drop_cache, write_text
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.vtk import Parts, PointCloud, write_snapshot
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """Return a cloud's file and the files of its pieces, existing or not."""
+    """Return the file of a snapshot and the files of its pieces, whether they exist or not."""
     if path.suffix != ".pvtp" or not path.exists():
         return (path,)
     root = ElementTree.fromstring(path.read_bytes())
@@ -31,15 +31,15 @@ class Entry(NamedTuple):
 
 
 class Series:
-    """Files ``<name>_<index>.vtp`` of one cloud and their list with times, ``<name>.pvd``.
+    """Snapshots ``<name>_<index>.vtp`` of one cloud, and the ``<name>.pvd`` that lists them with their times.
 
-    A cloud of several processes is a ``.pvtp``, with pieces in a folder of the same name. At any time the
-    ``.pvd`` on disk names complete files only.
+    Several processes write a ``.pvtp``, with pieces in a folder of the same name. At any moment the ``.pvd``
+    on disk names complete files only.
 
     Parameters
     ----------
     folder
-        Folder of the files; made with the first.
+        Folder of the files; made when the first is written.
     """
 
     def __init__(self, folder: ResultsFolder) -> None:
@@ -47,7 +47,7 @@ class Series:
         self.entries: tuple[Entry, ...] = ()
 
     def append(self, cloud: PointCloud | Parts) -> Path:
-        """Write a cloud and list it.
+        """Write a snapshot and list it.
 
         Returns
         -------
@@ -56,24 +56,24 @@ class Series:
         Raises
         ------
         ValueError
-            If the time is not later than that of the cloud before.
+            If the time is not later than the last listed one.
         OSError
             If a file cannot be written.
         """
         file = with_ending(self.next(cloud.time), ".vtp")
         if self.entries:
-            forget(self.folder.path / self.entries[-1].file)
+            drop_cache(self.folder.path / self.entries[-1].file)
         write_snapshot(file, cloud)
         self.add(cloud.time, file)
         return file
 
     def next(self, time: float) -> Path:
-        """Return the file for the cloud at a time, s, without suffix.
+        """Return the file for the snapshot of a time, s, without its ending.
 
         Raises
         ------
         ValueError
-            If the time is not later than that of the cloud before.
+            If the time is not later than the last listed one.
         """
         if self.entries and not time > self.entries[-1].time:
             raise ValueError(f"Time {time!r} s does not follow {self.entries[-1].time!r} s.")
@@ -92,12 +92,12 @@ class Series:
         self._list((*self.entries, Entry(float(time), file.name)))
 
     def relist(self, entries: Sequence[Entry]) -> None:
-        """List clouds of an earlier run, in order of time, and no others.
+        """List only these snapshots of an earlier run, in order of time.
 
         Raises
         ------
         OSError
-            If the list cannot be written, or removed if empty.
+            If the list cannot be written, or removed when it is empty.
         """
         if entries:
             self._list(tuple(entries))
@@ -106,18 +106,22 @@ class Series:
             self.entries = ()
 
     def _list(self, entries: tuple[Entry, ...]) -> None:
-        with atomic_write(self.folder.pvd) as temporary:
-            temporary.write_text(_pvd_text(entries), encoding="utf-8")
+        lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
+        write_text(
+            self.folder.pvd,
+            '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
+            f"{''.join(lines)}  </Collection>\n</VTKFile>\n",
+        )
         self.entries = entries
 
 
 def with_ending(stem: Path, ending: str) -> Path:
-    """Return the file of a cloud, whose name may contain a dot; ``ending`` is ``.vtp`` or ``.pvtp``."""
+    """Return the file of a cloud, the name of which may contain dots; ``ending`` is ``.vtp`` or ``.pvtp``."""
     return stem.with_name(stem.name + ending)
 
 
 def read_pvd(path: Path) -> tuple[Entry, ...]:
-    """Read the times and files of a ``.pvd``.
+    """Read the times and files that a ``.pvd`` lists.
 
     Returns
     -------
@@ -139,12 +143,3 @@ def read_pvd(path: Path) -> tuple[Entry, ...]:
                 f"{path}: names '{entry.file}', which is not a .vtp or .pvtp file in its own folder."
             )
     return tuple(sorted(entries))
-
-
-def _pvd_text(entries: Sequence[Entry]) -> str:
-    lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
-    return (
-        '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n  <Collection>\n'
-        f"{''.join(lines)}"
-        "  </Collection>\n</VTKFile>\n"
-    )

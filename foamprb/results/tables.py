@@ -5,10 +5,7 @@ from __future__ import annotations
 import csv
 import importlib
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from functools import lru_cache
-from itertools import groupby
-from math import isfinite
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,17 +19,15 @@ from foamprb.results.atomic import atomic_write
 
 Column = Sequence[object] | NDArray[Any]
 
-# Rows converted to text at a time: their pieces fit in the cache.
+# Rows that are converted to text together; their cells fit into the processor's cache.
 _CHUNK = 2048
-
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
-
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
 
 
 def require_kind(kind: str) -> None:
-    """Raise InputError if a kind of tables is not available."""
+    """Raise InputError if the library for a kind of tables is missing."""
     if kind == "parquet":
         _parquet("tables of Parquet")
 
@@ -40,11 +35,11 @@ def require_kind(kind: str) -> None:
 def write_table(
     path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
 ) -> None:
-    """Write a table, atomically; the suffix of the file selects the kind.
+    """Write a table, in one step; the ending of the file selects its kind.
 
-    Text has one line of column names. A floating-point number has the fewest digits that read back as the
-    same double; ``nan``, ``inf`` and ``-inf`` are words. Text with a comma, a quote or a line break is
-    quoted.
+    The text format begins with a line of column names. A floating-point number is written with the fewest
+    digits that read back as the same double, or as ``nan``, ``inf`` or ``-inf``. Text with a comma, a quote
+    or a line break is quoted.
 
     Parameters
     ----------
@@ -53,7 +48,7 @@ def write_table(
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
     before
-        Called before the file is renamed to its final name; an exception leaves no file.
+        Called when all is written, before the file takes its name; if it raises, no file remains.
 
     Raises
     ------
@@ -74,8 +69,9 @@ def write_table(
     with atomic_write(path) as temporary:
         with temporary.open("w", encoding="utf-8", newline="") as file:
             file.write(",".join(map(_cell, arrays)) + "\n")
-            for lines in _chunks(list(arrays.values())):
-                file.write(lines)
+            for start in range(0, max(lengths.values(), default=0), _CHUNK):
+                cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
+                file.writelines(",".join(row) + "\n" for row in zip(*cells, strict=True))
         before()
 
 
@@ -87,16 +83,16 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     path
         The file.
     words
-        Columns of words, also if all of them look like numbers.
+        Columns of text, even if all cells look like numbers.
 
     Returns
     -------
-    The columns (n,) by name, in order: integers (int64), numbers (float64), or words.
+    The columns (n,) by name, in order: integers (int64), numbers (float64), or text.
 
     Raises
     ------
     InputError
-        If the file is missing or not a table; if it is Parquet, and pyarrow is not installed.
+        If the file is missing or is no table; if it is Parquet, and pyarrow is not installed.
     """
     if path.suffix == ".parquet":
         return _read_parquet(path)
@@ -111,31 +107,29 @@ def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any
     return {name: _typed([line[i] for line in lines], name in words) for i, name in enumerate(names)}
 
 
-def _parquet(what: str) -> Any:
-    load("pyarrow", "parquet", f"{what} needs")
-    return importlib.import_module("pyarrow.parquet")
+def _parquet(what: str) -> tuple[Any, Any]:
+    """Return the modules pyarrow and pyarrow.parquet, which ``what`` needs."""
+    return load("pyarrow", "parquet", f"{what} needs"), importlib.import_module("pyarrow.parquet")
 
 
 def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[], object]) -> None:
-    """Write a Parquet table with typed numbers; the bytes depend on columns and pyarrow version only."""
-    parquet = _parquet(str(path))
-    arrow = importlib.import_module("pyarrow")
-    columns = {name: arrow.array(_plain(array)) for name, array in arrays.items()}
-    kinds = {name: _plain(array).dtype.kind for name, array in arrays.items()}
-    # Corresponding bytes of doubles of similar magnitude are similar.
-    split = [name for name, kind in kinds.items() if kind == "f"]
-    words = [name for name, kind in kinds.items() if kind == "O"]
+    """Write Parquet. Its bytes depend on nothing but the columns and the version of pyarrow."""
+    arrow, parquet = _parquet(str(path))
+    plain = {name: _plain(array) for name, array in arrays.items()}
+    table = arrow.table({name: arrow.array(array) for name, array in plain.items()})
+    # Doubles of similar size compress better byte by byte.
+    split = [name for name, array in plain.items() if array.dtype.kind == "f"]
+    words = [name for name, array in plain.items() if array.dtype.kind == "O"]
     with atomic_write(path) as temporary:
         with temporary.open("wb") as file:
             parquet.write_table(
-                arrow.table(columns), file, compression="zstd", use_dictionary=words,
-                use_byte_stream_split=split,
-            )  # fmt: skip
+                table, file, compression="zstd", use_dictionary=words, use_byte_stream_split=split
+            )
         before()
 
 
 def _plain(array: NDArray[Any]) -> NDArray[Any]:
-    """Return numbers as they are, and words as Python strings."""
+    """Return numbers, or else Python strings."""
     if array.dtype.kind in _WIDE:
         return array
     found = array.tolist()
@@ -145,10 +139,9 @@ def _plain(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
-    parquet = _parquet(str(path))
-    arrow = importlib.import_module("pyarrow")
+    arrow, parquet = _parquet(str(path))
     try:
-        # An open file, as pyarrow could interpret a name as a folder or an address.
+        # pyarrow would take some file names for folders or addresses.
         with path.open("rb") as file:
             table = parquet.read_table(file)
     except (OSError, arrow.ArrowException) as error:
@@ -161,7 +154,7 @@ def _read_parquet(path: Path) -> dict[str, NDArray[Any]]:
 
 
 def _typed(words: list[str], stay: bool) -> NDArray[Any]:
-    """Return numbers if all words are numbers and the column may be numeric."""
+    """Return numbers if all words are numbers; if ``stay``, return the words."""
     for kind in () if stay else (np.int64, np.float64):
         try:
             return np.array(words, dtype=str).astype(kind)
@@ -171,58 +164,26 @@ def _typed(words: list[str], stay: bool) -> NDArray[Any]:
 
 
 def _as_column(name: str, column: Column) -> NDArray[Any]:
-    # Objects: numpy would convert a mixed list to text and long integers to floats.
+    # Objects, so that numpy does not turn a mixed list into text or a list of long integers into floats.
     array = column if isinstance(column, np.ndarray) else np.array(column, dtype=object)
     if array.ndim != 1:
         raise ValueError(f"Column '{name}' of a table has shape {array.shape}.")
     return array
 
 
-def _chunks(columns: list[NDArray[Any]]) -> Iterator[str]:
-    """Yield the lines of a table, some thousands at a time."""
-    n = len(columns[0]) if columns else 0
-    runs = [list(run) for _, run in groupby(columns, _kind)]
-    for start in range(0, n, _CHUNK):
-        rows = slice(start, start + _CHUNK)
-        # Cells and separators in one list: a third of the cost of joining row by row.
-        pieces = [","] * (2 * len(runs) * len(columns[0][rows]))
-        for i, run in enumerate(runs):
-            pieces[2 * i :: 2 * len(runs)] = _texts([column[rows] for column in run])
-        pieces[2 * len(runs) - 1 :: 2 * len(runs)] = ["\n"] * len(columns[0][rows])
-        yield "".join(pieces)
-
-
-def _kind(column: NDArray[Any]) -> np.dtype[Any] | int:
-    """Return the kind of a column; columns of numbers of one kind are written together."""
-    return _WIDE.get(column.dtype.kind, id(column))
-
-
-def _texts(columns: list[NDArray[Any]]) -> list[str]:
-    """Return the rows of columns of one kind as text."""
-    kind = _kind(columns[0])
-    if isinstance(kind, int):
-        values = columns[0].tolist()
-        if set(map(type, values)) != {str}:
-            return list(map(_cell, values))
-        cells = {text: _quoted(text) for text in set(values)}
-        return [cells[text] for text in values]
-    # JSON has the number format of tables, and orjson writes it thirty times as fast as Python.
-    numbers = np.stack(columns, axis=1).astype(kind, order="C", copy=False)
-    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[2:-2].split("],[")
-    for row in np.flatnonzero(~np.isfinite(numbers).all(axis=1)):
-        texts[row] = ",".join(map(_float, numbers[row].tolist()))
+def _texts(column: NDArray[Any]) -> list[str]:
+    """Return the cells of a column as text."""
+    kind = column.dtype.kind
+    if kind not in _WIDE:
+        return list(map(_cell, column.tolist()))
+    # JSON's numbers are valid in tables, and orjson writes them much faster than Python does.
+    numbers = column.astype(_WIDE[kind], order="C", copy=False)
+    texts = orjson.dumps(numbers, option=orjson.OPT_SERIALIZE_NUMPY).decode()[1:-1].split(",")
+    for row in np.flatnonzero(~np.isfinite(numbers)):
+        texts[row] = repr(float(numbers[row]))
     return texts
 
 
-def _float(value: float) -> str:
-    return orjson.dumps(value).decode() if isfinite(value) else repr(value)
-
-
 def _cell(value: object) -> str:
-    return _quoted(str(value))
-
-
-# A column has few different words.
-@lru_cache(maxsize=_CHUNK)
-def _quoted(text: str) -> str:
+    text = str(value)
     return f'"{text.replace(_QUOTE, 2 * _QUOTE)}"' if _SPECIAL.search(text) else text

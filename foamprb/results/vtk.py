@@ -1,8 +1,8 @@
-"""Clouds and tracks as VTK PolyData: a ``.vtp`` file, or a ``.pvtp`` of several pieces."""
+"""Clouds and tracks as VTK PolyData: ``.vtp`` files, ``.pvtp`` files of several pieces, and VTKHDF files."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,13 +15,17 @@ from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
-from foamprb.results.atomic import atomic_write
+from foamprb.errors import InputError
+from foamprb.results.atomic import atomic_write, write_text
 
 _BLOCK_BYTES = 1 << 20
-"""Compression block; VTK's default, 32 kB, takes a quarter more time."""
+"""Size of a compressed block; VTK's default of 32 kB is slower."""
+_CHUNK = 4096
+"""Values in a compressed block of a VTKHDF file, the smallest size of an array there."""
 
 
 @dataclass(frozen=True)
@@ -35,12 +39,12 @@ class PointCloud:
     points
         Positions, shape (n, 3), m.
     arrays
-        Values at the points by name, each of shape (n,) or (n, k); types are kept, except that booleans
-        become 0 and 1.
+        Values at the points by name, each of shape (n,) or (n, k). Each keeps its type, but Booleans become
+        0 and 1.
     units
         Unit of each array by name.
     names
-        For an array of codes, the meaning of the codes 0, 1, …: ``{"status": ("pending", "active", …)}``.
+        For each array of codes, the meanings of the codes 0, 1, …: ``{"status": ("pending", "active", …)}``.
 
     Raises
     ------
@@ -66,18 +70,18 @@ class PointCloud:
 
 
 class Parts(NamedTuple):
-    """Cloud in parts, so that a large one is never completely in memory."""
+    """Cloud in parts, so that a large one is never in memory as a whole."""
 
     time: float
     """Time of all parts, s."""
     number: int
-    """Number of parts, at least 1."""
+    """Number of parts, at least one."""
     snapshots: Iterator[PointCloud]
-    """Iterator over ``number`` parts with the same arrays, units and names."""
+    """The parts, all with the same arrays, units and names."""
 
 
 def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, ...]:
-    """Write a cloud as VTK PolyData, atomically: a vertex per particle, with its point arrays.
+    """Write a cloud as VTK PolyData, in one step: a vertex per particle, with its point arrays.
 
     Field data are ``TimeValue``, ``units`` (``"rho kg/m3"``, …) and, for each array of codes,
     ``<array>Names``. Each part of a cloud becomes a piece of the file.
@@ -98,50 +102,99 @@ def write_snapshot(path: Path, cloud: PointCloud | Parts) -> tuple[PieceArray, .
     OSError
         If the file cannot be written.
     Exception
-        Any exception of the parts; ``path`` is then unchanged.
+        Any exception of the parts; ``path`` is unchanged then.
     """
     parts = Parts(cloud.time, 1, iter([cloud])) if isinstance(cloud, PointCloud) else cloud
-    source = _Source(parts)
+    source = _Source(lambda _: next(parts.snapshots))
     writer = vtkXMLPolyDataWriter()
     writer.SetInputConnection(source.GetOutputPort())
     writer.SetNumberOfPieces(parts.number)
-    _write(path, writer, source)
+    _write_xml(path, writer, source)
     return source.layout
 
 
-class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
-    """VTK source that passes the parts of a cloud to the writer, one piece per request."""
+def write_vtkhdf(path: Path, times: Sequence[float], cloud_of: Callable[[int], PointCloud]) -> None:
+    """Write the clouds of all times into one file, in one step, with one cloud at a time in memory.
 
-    def __init__(self, parts: Parts) -> None:
+    Parameters
+    ----------
+    path
+        The file, ``.vtkhdf``.
+    times
+        Increasing times, s; the file stores them in single precision.
+    cloud_of
+        Returns the cloud of a time, by its index; all have the same arrays.
+
+    Raises
+    ------
+    InputError
+        If VTK was built without its VTKHDF writer.
+    OSError
+        If the file cannot be written.
+    Exception
+        Any exception of ``cloud_of``; ``path`` is unchanged then.
+    """
+    try:
+        from vtkmodules.vtkIOHDF import vtkHDFWriter
+    except ImportError as error:
+        raise InputError("a VTKHDF file needs a VTK with the module IOHDF, as pip installs it.") from error
+    source, writer = _Source(cloud_of, times), vtkHDFWriter()
+    writer.SetInputConnection(source.GetOutputPort())
+    writer.SetWriteAllTimeSteps(True)
+    writer.SetCompressionLevel(1)
+    writer.SetChunkSize(_CHUNK)
+    _write(path, writer, source)
+
+
+class _Source(VTKPythonAlgorithmBase):  # type: ignore[misc]
+    """Source of VTK's writers, which request one piece after the other, or one time after the other.
+
+    Parameters
+    ----------
+    cloud_of
+        Returns the cloud of a time, by its index; without times, the next piece.
+    times
+        Times of the clouds, s.
+    """
+
+    def __init__(self, cloud_of: Callable[[int], PointCloud], times: Sequence[float] = ()) -> None:
         super().__init__(nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
-        self.parts = parts
+        self._cloud_of, self._times = cloud_of, np.array(times, dtype=np.float64)
+        self._last = vtkPolyData()
         self.layout: tuple[PieceArray, ...] = ()
         self.error: Exception | None = None
-        """What went wrong: no exception comes back from VTK."""
-        self._last: vtkPolyData | None = None
+        """First exception of ``cloud_of``, which VTK does not pass on."""
 
     def RequestInformation(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
-        outputs.GetInformationObject(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+        information, times = outputs.GetInformationObject(0), self._times.tolist()
+        if times:
+            information.Set(Pipeline.TIME_STEPS(), times, len(times))
+            information.Set(Pipeline.TIME_RANGE(), [times[0], times[-1]], 2)
+        else:
+            information.Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
         return 1
 
     def RequestData(self, request: Any, inputs: Any, outputs: Any) -> int:  # noqa: ARG002
+        requested = outputs.GetInformationObject(0).Get(Pipeline.UPDATE_TIME_STEP())
+        output, index = vtkPolyData.GetData(outputs), 0
+        if requested is not None and len(self._times):
+            index = int(np.argmin(abs(self._times - requested)))
         if self.error is None:
             try:
-                snapshot = next(self.parts.snapshots)
+                snapshot = self._cloud_of(index)
                 self.layout = self.layout or layout(snapshot)
                 self._last = poly_data(snapshot)
             except Exception as error:
                 self.error = error
-        if self._last is None:
-            return 0
-        # Also after an error: if its source fails after the first piece, the writer would repeat the request
-        # for ever.
-        vtkPolyData.GetData(outputs).ShallowCopy(self._last)
+        # Also after an error: a writer whose source fails after the first piece repeats its request for ever.
+        output.ShallowCopy(self._last)
+        if len(self._times):
+            output.GetInformation().Set(output.DATA_TIME_STEP(), float(self._times[index]))
         return 1
 
 
 class PieceArray(NamedTuple):
-    """Declaration of an array in a ``.pvtp``: name, VTK's name of its type, components."""
+    """Declaration of an array in a ``.pvtp``: its name, VTK's name of its type, its number of components."""
 
     name: str
     type: str
@@ -149,25 +202,30 @@ class PieceArray(NamedTuple):
 
 
 def layout(snapshot: PointCloud) -> tuple[PieceArray, ...]:
-    """Return the arrays of a cloud, the points first."""
+    """Return the declarations of the arrays of a cloud, the points first."""
+    kinds = {"f": "Float", "i": "Int", "u": "UInt", "b": "Int"}
     arrays = {"Points": np.asarray(snapshot.points, dtype=np.float64), **snapshot.arrays}
     return tuple(
-        PieceArray(name, _type_name(array.dtype), 1 if array.ndim == 1 else array.shape[1])
+        PieceArray(
+            name,
+            f"{kinds[array.dtype.kind]}{8 * array.dtype.itemsize}",
+            1 if array.ndim == 1 else array.shape[1],
+        )
         for name, array in arrays.items()
     )
 
 
 def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path]) -> None:
-    """Write the file that joins several ``.vtp`` to one cloud, atomically.
+    """Write the file that makes several ``.vtp`` one cloud, in one step.
 
     Parameters
     ----------
     path
         The file, ``.pvtp``.
     arrays
-        :func:`layout` of each of the pieces.
+        The :func:`layout` of each of the pieces.
     pieces
-        The files of the pieces, in a folder in that of ``path``.
+        Files of the pieces, in the folder of ``path`` or below.
 
     Raises
     ------
@@ -179,32 +237,31 @@ def write_pieces(path: Path, arrays: Sequence[PieceArray], pieces: Sequence[Path
         for a in arrays
     )
     sources = (quoteattr(piece.relative_to(path.parent).as_posix()) for piece in pieces)
-    text = (
+    write_text(
+        path,
         '<?xml version="1.0"?>\n'
         '<VTKFile type="PPolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
         '  <PPolyData GhostLevel="0">\n'
         f"    <PPointData>\n{''.join(f'      {value}' for value in values)}    </PPointData>\n"
         f"    <PPoints>\n      {points}    </PPoints>\n"
         f"{''.join(f'    <Piece Source={source}/>{chr(10)}' for source in sources)}"
-        "  </PPolyData>\n</VTKFile>\n"
+        "  </PPolyData>\n</VTKFile>\n",
     )
-    with atomic_write(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
 
 
-def _type_name(dtype: np.dtype[Any]) -> str:
-    kind = {"f": "Float", "i": "Int", "u": "UInt", "b": "Int"}[dtype.kind]
-    return f"{kind}{8 * dtype.itemsize}"
-
-
-def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
-    """Write PolyData atomically; other threads run while VTK writes."""
+def _write_xml(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = None) -> None:
+    """Write a compressed XML file in one step."""
     writer.SetDataModeToAppended()
     writer.EncodeAppendedDataOff()
-    # Mantissas of doubles hardly compress: zlib gains 8 % in size in 25 times the time.
+    # Mantissas of doubles hardly compress, so the slower zlib would gain little.
     writer.SetCompressorTypeToLZ4()
     writer.SetBlockSize(_BLOCK_BYTES)
-    # VTK does not print observed errors; the error code gives the reason.
+    _write(path, writer, source)
+
+
+def _write(path: Path, writer: Any, source: _Source | None = None) -> None:
+    """Write a file in one step; other threads run while VTK writes."""
+    # VTK does not print errors that are observed; the error code gives their reason.
     sources = () if source is None else (source, source.GetExecutive())
     for part in (writer, writer.GetExecutive(), *sources):
         part.AddObserver("ErrorEvent", lambda *_: None)
@@ -213,14 +270,14 @@ def _write(path: Path, writer: vtkXMLPolyDataWriter, source: _Source | None = No
         written = writer.Write()
         if source is not None and source.error is not None:
             raise source.error
-        if written != 1 or writer.GetErrorCode():
+        if written != 1 or writer.GetErrorCode() or not temporary.stat().st_size:
             reason = vtkErrorCode.GetStringFromErrorCode(writer.GetErrorCode())
             raise OSError(f"{path}: VTK could not write this file ({reason}).")
 
 
 @dataclass(frozen=True)
 class Tracks:
-    """Paths of m particles, stored consecutively.
+    """Paths of m particles, one after the other.
 
     Parameters
     ----------
@@ -229,9 +286,9 @@ class Tracks:
     start
         Index of the first point of each path, and n, shape (m + 1,).
     values
-        Arrays by name, (n,) or (n, k): at the points.
+        Arrays by name, (n,) or (n, k), at the points.
     tracks
-        Arrays by name, (m,): of the paths.
+        Arrays by name, (m,), of the paths.
     units, names
         See :class:`PointCloud`.
     """
@@ -245,72 +302,62 @@ class Tracks:
 
 
 def write_tracks(path: Path, tracks: Tracks) -> None:
-    """Write paths as VTK PolyData, atomically: a polyline per path, with point and cell arrays.
+    """Write paths as VTK PolyData, in one step: a polyline per path, with point and cell arrays.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
-    data = vtkPolyData()
-    points = vtkPoints()
-    points.SetData(_vtk_array("Points", np.asarray(tracks.points, dtype=np.float64)))
-    data.SetPoints(points)
-    lines = vtkCellArray()
-    order = np.arange(len(tracks.points), dtype=np.int64)
-    lines.SetData(_vtk_array("offsets", tracks.start), _vtk_array("connectivity", order))
-    data.SetLines(lines)
-    for name, array in tracks.values.items():
-        data.GetPointData().AddArray(_vtk_array(name, array))
+    data = _points(tracks.points, tracks.values)
+    data.SetLines(_cells(tracks.start))
     for name, array in tracks.tracks.items():
         data.GetCellData().AddArray(_vtk_array(name, array))
     _add_texts(data, tracks.units, tracks.names)
     writer = vtkXMLPolyDataWriter()
     writer.SetInputData(data)
-    _write(path, writer)
+    _write_xml(path, writer)
 
 
 def poly_data(snapshot: PointCloud) -> vtkPolyData:
-    """Return a cloud as VTK PolyData, like :func:`write_snapshot`; it shares the memory of the arrays."""
-    data = vtkPolyData()
-    points = vtkPoints()
-    points.SetData(_vtk_array("Points", np.asarray(snapshot.points, dtype=np.float64)))
-    data.SetPoints(points)
-    data.SetVerts(_vertices(len(snapshot.points)))
-    for name, array in snapshot.arrays.items():
-        data.GetPointData().AddArray(_vtk_array(name, array))
-    fields = data.GetFieldData()
-    fields.AddArray(_vtk_array("TimeValue", np.array([snapshot.time], dtype=np.float64)))
+    """Return a cloud as the PolyData of :func:`write_snapshot`; it shares the memory of the arrays."""
+    data = _points(snapshot.points, snapshot.arrays)
+    data.SetVerts(_cells(np.arange(len(snapshot.points) + 1, dtype=np.int64)))
+    data.GetFieldData().AddArray(_vtk_array("TimeValue", np.array([snapshot.time], dtype=np.float64)))
     _add_texts(data, snapshot.units, snapshot.names)
     return data
 
 
-def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
-    """Add the units of the arrays, and the meaning of codes."""
-    fields = data.GetFieldData()
-    if units:
-        fields.AddArray(_text_array("units", [f"{name} {unit}" for name, unit in units.items()]))
-    for name, meanings in names.items():
-        fields.AddArray(_text_array(f"{name}Names", meanings))
+def _points(points: NDArray[np.float64], arrays: Mapping[str, NDArray[Any]]) -> vtkPolyData:
+    """Return PolyData with points and point arrays, without cells."""
+    data, positions = vtkPolyData(), vtkPoints()
+    positions.SetData(_vtk_array("Points", np.asarray(points, dtype=np.float64)))
+    data.SetPoints(positions)
+    for name, array in arrays.items():
+        data.GetPointData().AddArray(_vtk_array(name, array))
+    return data
 
 
-def _vertices(n: int) -> vtkCellArray:
-    cells = vtkCellArray()
-    index = np.arange(n + 1, dtype=np.int64)
-    cells.SetData(_vtk_array("offsets", index), _vtk_array("connectivity", index[:n]))
+def _cells(offsets: NDArray[np.int64]) -> vtkCellArray:
+    """Return cells of consecutive points, cell i of the points ``offsets[i]`` to ``offsets[i + 1] - 1``."""
+    cells, points = vtkCellArray(), np.arange(offsets[-1], dtype=np.int64)
+    cells.SetData(_vtk_array("offsets", offsets), _vtk_array("connectivity", points))
     return cells
+
+
+def _add_texts(data: vtkPolyData, units: Mapping[str, str], names: Mapping[str, Sequence[str]]) -> None:
+    """Add the units of the arrays and the meanings of codes as field data."""
+    texts = {"units": [f"{name} {unit}" for name, unit in units.items()]} if units else {}
+    for name, values in (texts | {f"{name}Names": list(found) for name, found in names.items()}).items():
+        array = vtkStringArray()
+        array.SetName(name)
+        for value in values:
+            array.InsertNextValue(value)
+        data.GetFieldData().AddArray(array)
 
 
 def _vtk_array(name: str, array: NDArray[Any]) -> Any:
     plain = array.astype(np.int8) if array.dtype == np.bool_ else array
     result = numpy_to_vtk(np.ascontiguousarray(plain))
     result.SetName(name)
-    return result
-
-
-def _text_array(name: str, texts: Sequence[str]) -> vtkStringArray:
-    result = vtkStringArray()
-    result.SetName(name)
-    for text in texts:
-        result.InsertNextValue(text)
     return result

@@ -24,7 +24,7 @@ from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import allowed, names_of, read_entries, read_entry, selected
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, unquoted
 from foamprb.dictionary.values import Line
-from foamprb.results.names import fault_of_word
+from foamprb.results.folder import fault_of_word
 from foamprb.settings.fluid import ConstantProperties, Fluid
 
 __all__ = ["STIFFNESS", "InjectionModel", "InjectionSettings", "Solid", "parameters", "read_injections"]

@@ -23,8 +23,7 @@ from foamprb.dictionary.schema import Instead, read_entries, read_entry, read_mo
 from foamprb.dictionary.tree import CaseFile, Dictionary, unquoted
 from foamprb.dictionary.values import Files
 from foamprb.errors import InputError
-from foamprb.results.folder import fault_of_function
-from foamprb.results.names import fault_of_word
+from foamprb.results.folder import fault_of_function, fault_of_word
 from foamprb.settings.fluid import ConstantProperties, Fluid, of_region, read_fluid, read_gravity
 from foamprb.settings.injections import InjectionSettings, read_injections
 from foamprb.settings.libs import load_libs

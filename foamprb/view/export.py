@@ -16,7 +16,7 @@ from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.foam import remove_lagrangian, write_lagrangian
 from foamprb.results.ovito import write_dump
-from foamprb.results.vtkhdf import write_vtkhdf
+from foamprb.results.vtk import write_vtkhdf
 from foamprb.view.results import Run, open_run
 
 __all__ = ["export"]

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, forget, only_writer, remove_unfinished
+from foamprb.results.atomic import atomic_write, drop_cache, only_writer, remove_unfinished
 
 
 def test_whole_file_is_written(tmp_path: Path) -> None:
@@ -143,11 +143,11 @@ def test_file_is_unchanged_after_its_pages_are_dropped(tmp_path: Path, monkeypat
         raise OSError(errno.EINVAL, "Invalid argument")
 
     path = tmp_path / "table.csv"
-    forget(path)
+    drop_cache(path)
     with atomic_write(path) as temporary:
         temporary.write_text("whole")
-    forget(path)
+    drop_cache(path)
     assert path.read_text() == "whole"
     monkeypatch.setattr(os, "posix_fadvise", refuse)
-    forget(path)
+    drop_cache(path)
     assert path.read_text() == "whole"

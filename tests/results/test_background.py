@@ -13,7 +13,7 @@ from pipe_case import edit, results, short_case
 
 from foamprb import execute, prepare
 from foamprb.cli import main
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Stepper
 from foamprb.errors import RunStopped
 from foamprb.results import pvd
 from foamprb.results.background import Writer
@@ -161,7 +161,7 @@ def test_checkpoints_hold_what_cloud_functions_had_observed_at_their_time(case, 
 def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
     job = prepare(case, threads=1)
     write, begun, writers = pvd.write_snapshot, [], []
-    begin, carry = Writer.begin, Cloud.carry
+    begin, advance = Writer.begin, Stepper.advance
 
     def full(path, cloud):
         begun.append(path.name)
@@ -173,15 +173,15 @@ def test_a_failed_write_ends_the_run_before_the_next_is_due(case, monkeypatch):
         begin(writer, work)
         writers.append(writer)
 
-    def slow(cloud, steps, stop):
+    def slow(stepper, steps, stop):
         # As more particles would be: on the way to the third write time the second cloud has time to fail.
-        carry(cloud, steps, stop)
-        if cloud.step > 100:
+        advance(stepper, steps, stop)
+        if stepper.cloud.step > 100:
             wait_for(lambda: writers[-1]._unfinished.done())
 
     monkeypatch.setattr(pvd, "write_snapshot", full)
     monkeypatch.setattr(Writer, "begin", known)
-    monkeypatch.setattr(Cloud, "carry", slow)
+    monkeypatch.setattr(Stepper, "advance", slow)
     with pytest.raises(RunStopped, match=r"No space .*softCloud_000002\.vtp'\. To continue .*-resume"):
         execute(job)
     assert begun == ["softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp"]

@@ -5,8 +5,7 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foamprb.results.folder import fault_of_function
-from foamprb.results.names import fault_of_word, file_name
+from foamprb.results.folder import fault_of_function, fault_of_word, file_name
 
 WORDS = ["inlet", "out.let", "wall_1", "a:b", "(in|out)", "größe", "-x", "50%", "x" * 200]
 OTHERS = ["", ".", "..", ".hidden", "a/b", "../../pwn", "/etc/passwd", "a b", "a\tb", "a\nb", "a;b", "{a}",

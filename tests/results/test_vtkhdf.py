@@ -8,8 +8,7 @@ import pyvista
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from foamprb.errors import InputError
-from foamprb.results.vtk import PointCloud
-from foamprb.results.vtkhdf import write_vtkhdf
+from foamprb.results.vtk import PointCloud, write_vtkhdf
 
 
 def test_each_time_has_its_own_cloud_of_its_own_size(tmp_path, random):

@@ -20,8 +20,7 @@ from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.memory import OutOfMemory
 from foamprb.results.atomic import atomic_write
-from foamprb.results.folder import RECORD_FORMAT
-from foamprb.results.names import file_name
+from foamprb.results.folder import RECORD_FORMAT, file_name
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
