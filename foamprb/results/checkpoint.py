@@ -16,7 +16,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 import xxhash
@@ -189,7 +189,7 @@ def is_one_row(array: NDArray[Any]) -> bool:
     return all(bool((bits[part] == bits[0]).all()) for part in (slice(-1, None), slice(_FIRST), slice(None)))
 
 
-def _checksum(file: BinaryIO, first: bytes) -> bytes:
+def _checksum(file: Any, first: bytes) -> bytes:
     """Return the checksum of a file with a first line; it is much faster than CRC-32 or SHA-256."""
     file.seek(len(first) + _SUM_BYTES)
     return hashlib.file_digest(file, lambda: xxhash.xxh3_64(first)).digest()

@@ -1,4 +1,4 @@
-"""Initial settings of ``foamprb init``: a dictionary with the values of a case."""
+"""Initial settings, written by ``foamprb init``, with values from the case."""
 
 from __future__ import annotations
 
@@ -31,26 +31,29 @@ from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
 
-__all__ = ["FlowScales", "FluidGuess", "scales_of", "template", "write_template"]
+__all__ = ["FlowScales", "scales_of", "template", "write_template"]
 
 NAME = "softCloudProperties"
 PARTICLES = 1000
-"""Approximate number of particles of the first run."""
+"""Approximate number of particles in a first run."""
 _TIMES, _MOST_STEPS = 50, 5000
 _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
-"""Capillary numbers of the initial stiffness, at mean and largest shear rate; softer bodies may fail."""
+"""Capillary numbers of the initial stiffness, at the mean shear rate and the largest at most.
+
+Extension may tear softer bodies apart.
+"""
 _TEMPERATURE = 300.0
-"""Temperature for a viscosity that depends on it, K."""
+"""Temperature of a fluid, K, if its viscosity depends on it."""
 
 
 @dataclass(frozen=True)
 class FlowScales:
-    """Scales of a flow for initial settings."""
+    """Scales of a flow, from which the initial settings follow."""
 
     speed: float
-    """Largest speed, at cells and boundary, m/s; 0 for a fluid at rest."""
+    """Largest speed at cells and boundary, m/s; 0 for a fluid at rest."""
     step: float
-    """Time in which the fluid crosses a fifth of a cell, s: the 5 % quantile."""
+    """Time in which the fluid crosses a fifth of a cell, s; the 5 % quantile."""
     duration: float
     """Time in which the fluid is replaced, or crosses a closed domain ten times, s."""
     shear: float
@@ -58,24 +61,15 @@ class FlowScales:
     most_shear: float
     """Shear rate exceeded at one node in a thousand, 1/s."""
     cell: float
-    """Cell size, m: the 5 % quantile."""
+    """Size of a cell, m; the 5 % quantile."""
     volume: float
     """Volume of the domain, m³."""
     inlet: str
-    """Patch with the largest inflow; empty without inflow."""
-
-
-@dataclass(frozen=True)
-class FluidGuess:
-    """Fluid of the case, and the entries left to the cloud's dictionary."""
-
-    rho: float
-    nu: float
-    lines: tuple[str, ...]
+    """Patch through which most fluid enters; empty without inflow."""
 
 
 def write_template(case: Path, source: FlowSource | None = None) -> Path:
-    """Write ``constant/softCloudProperties`` for a case; that of its region, if the source names one.
+    """Write ``constant/softCloudProperties`` for a case, or for the region of the source.
 
     Returns
     -------
@@ -84,7 +78,7 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
     Raises
     ------
     InputError
-        If it is there already, which is left as it is; or the case has no mesh or no flow.
+        If the file exists, which is not changed, or the case has no mesh or no flow.
     """
     source = source or FlowSource()
     if not case.is_dir():
@@ -110,51 +104,106 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
 def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
-    fluid = _fluid(case, source)
+    rho, nu, fluid = _fluid(case, source)
     step, interval, end = times(scales)
-    rho0 = 1050.0 if fluid.rho > 500.0 else 1000.0
+    rho0 = 1050.0 if rho > 500.0 else 1000.0
     rotating = _rotating(case, flow, source)
-    d = diameter(scales, fluid.nu, rho0 / fluid.rho if len(rotating) > 1 else 0.0)
+    d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
     rate = scales.shear or 1.0
-    modulus = _rounded(fluid.rho * fluid.nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
-    parts = [
-        _HEAD.format(name=NAME),
-        _dictionary(
-            "solution",
-            [
-                _line("deltaT", f"{step:g}", _said("solution", "deltaT", "a fifth of a cell in the flow")),
-                _line("endTime", f"{end:g}", _said("solution", "endTime")),
-                _line("writeInterval", f"{interval:g}", _said("solution", "writeInterval")),
-                *(rotating or _transient(case, source)),
-            ],
-        ),
-        _dictionary(
-            "constantProperties",
-            [
-                _line("rho0", f"{rho0:g}", _said("constantProperties", "rho0")),
-                *fluid.lines,
-                "",
-                "solid",
-                "{",
-                _line("    type", "neoHooke", "all types: foamprb help solid"),
-                _line("    poissonsRatio", "0.499", "nearly incompressible"),
-                _line(
-                    "    shearModulus",
-                    f"{modulus:g}",
-                    f"Pa; Ca = {fluid.rho * fluid.nu * rate / modulus:.2g} at {rate:.2g} 1/s, "
-                    + ("the mean shear rate" if scales.shear else "as the fluid is at rest"),
-                ),
-                "}",
-            ],
-        ),
-        _sub_models(case, flow, scales, end, d, source),
-        _functions(end / step),
-    ]
-    return "\n".join(parts)
+    modulus = _rounded(rho * nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
+    of_rate = "the mean shear rate" if scales.shear else "as the fluid is at rest"
+    text = f"""\
+// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run. Explain an entry:
+// foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
+FoamFile
+{{
+    version     2.0;
+    format      ascii;
+    class       dictionary;
+    object      {NAME};
+}}
+
+solution
+{{
+    deltaT {step:g}; // {_said("solution", "deltaT", "a fifth of a cell in the flow")}
+    endTime {end:g}; // {_said("solution", "endTime")}
+    writeInterval {interval:g}; // {_said("solution", "writeInterval")}
+{_lines(rotating or _transient(case, source))}}}
+
+constantProperties
+{{
+    rho0 {rho0:g}; // {_said("constantProperties", "rho0")}
+{_lines(fluid)}
+    solid
+    {{
+        type neoHooke; // all types: foamprb help solid
+        poissonsRatio 0.499; // nearly incompressible
+        shearModulus {modulus:g}; // Pa; Ca = {rho * nu * rate / modulus:.2g} at {rate:.2g} 1/s, {of_rate}
+    }}
+}}
+
+subModels
+{{
+    particleForces
+    {{
+        ellipsoidDrag;
+        {_gravity(case, source.region)}
+    }}
+
+{_lines(_dispersion(case, flow, source))}    injectionModels
+    {{
+        particles
+        {{
+{_lines(_injection(scales, end), 12)}
+            sizeDistribution
+            {{
+                type fixedValue; // or: foamprb help distributions
+                fixedValueDistribution
+                {{
+                    value {d:g}; // m, diameter; cells are {scales.cell:.2g} m
+                }}
+            }}
+        }}
+    }}
+
+    patchInteractionModel localInteraction;
+
+    localInteractionCoeffs
+    {{
+        patches
+        (
+{_lines(_patches(flow.patches), 12)}        );
+    }}
+}}
+
+cloudFunctions
+{{
+    paths
+    {{
+        type particleTracks; // for foamprb view and foamprb report
+        trackInterval {max(1, round(end / step / 500))}; // steps
+        maxSamples 1000;
+        maxTracks 200;
+    }}
+    exposure
+    {{
+        type particleHistogram; // residence time, deformation, shear
+    }}
+}}
+"""
+    return re.sub(r"^( *)(\w+)(?: ([^{}\n]*?))?;(?: // (.*))?$", _aligned, text, flags=re.MULTILINE)
 
 
-# ---------------------------------------------------------------------------------------------------------
-# What the flow says
+def _aligned(entry: re.Match[str]) -> str:
+    """Return an entry with its value and its comment in columns."""
+    indent, key, value, comment = entry.groups()
+    text = f"{key:19} {value.strip()};" if value else f"{key};"
+    return indent + (f"{text:35} // {comment}" if comment else text)
+
+
+def _lines(lines: Sequence[str], by: int = 4) -> str:
+    """Return indented lines, each with a line break."""
+    return "".join(" " * by + line + "\n" if line else "\n" for line in lines)
 
 
 def scales_of(flow: MeshFlow) -> FlowScales:
@@ -188,7 +237,7 @@ def scales_of(flow: MeshFlow) -> FlowScales:
 
 
 def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
-    """Return the patch with the largest inflow, and the total inflow, m³/s."""
+    """Return the patch through which most fluid enters, and the inflow through all patches, m³/s."""
     rates = {}
     for patch in flow.patches:
         if not needs_entry(patch) or patch.type in WALLS:
@@ -200,14 +249,14 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         rates[patch.name] = float((inflow.mean(axis=1) * faces.areas).sum())
     total = sum(rates.values())
-    # What is left of round-off, or of a recirculation, is no inlet.
+    # Round-off and weak recirculation are no inflow.
     if total <= 1e-6 * speed * volume ** (2.0 / 3.0):
         return "", 0.0
     return max(rates, key=lambda name: rates[name]), total
 
 
 def times(scales: FlowScales) -> tuple[float, float, float]:
-    """Return step, write interval and end of a first run, s: integer multiples with few digits."""
+    """Return step, write interval and end of a first run, s: integer multiples of each other, rounded."""
     if scales.speed == 0.0:
         return 0.01, 0.02, 1.0
     shortest = scales.duration / _MOST_STEPS
@@ -217,9 +266,9 @@ def times(scales: FlowScales) -> tuple[float, float, float]:
 
 
 def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
-    """A diameter, m, that suits cells and Stokes flow: γ̇ d²/ν below 0.05; 10 µm at most.
+    """Return a diameter, m, for the cells and for Stokes flow (γ̇ d²/ν below 0.05), at most 10 µm.
 
-    ``ratio`` is how many times denser than the fluid a solid is whose inertia is to be small, too.
+    ``ratio`` is the density of the solid over that of the fluid if the solid's inertia must be small, too.
     """
     largest = min(0.05, 0.5 * SMALL_STOKES / relaxation_time(ratio, 0.5, 1.0)) if ratio > 0.0 else 0.05
     stokes = math.sqrt(largest * nu / scales.most_shear) if scales.most_shear > 0.0 else math.inf
@@ -227,7 +276,7 @@ def diameter(scales: FlowScales, nu: float, ratio: float = 0.0) -> float:
 
 
 def _nice(value: float, *, up: bool) -> float:
-    """Return the nearest of 1, 2, 5, 10, … not above the value, or not below it."""
+    """Return the nearest of 1, 2, 5, 10, … that is not above the value, or not below it if ``up``."""
     power = math.floor(math.log10(value))
     steps = [float(f"{m}e{e}") for e in (power - 1, power, power + 1) for m in (1, 2, 5)]
     slack = 1e-9 * value
@@ -238,11 +287,8 @@ def _rounded(value: float) -> float:
     return float(f"{value:.1e}")
 
 
-# ---------------------------------------------------------------------------------------------------------
-# What the case's dictionaries say
-
-
-def _fluid(case: Path, source: FlowSource) -> FluidGuess:
+def _fluid(case: Path, source: FlowSource) -> tuple[float, float, list[str]]:
+    """Return density and kinematic viscosity of the fluid, and entries for values that the case lacks."""
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
     nu, mu, lines = None, None, []
@@ -256,23 +302,22 @@ def _fluid(case: Path, source: FlowSource) -> FluidGuess:
             nu, mu, temperature = read_viscosity(file, case, _TEMPERATURE)
             if temperature is None:
                 raise error
-            lines.append(_line("TInf", f"{_TEMPERATURE:g}", _said("constantProperties", "TInf")))
+            lines.append(f"TInf {_TEMPERATURE:g}; // {_said('constantProperties', 'TInf')}")
         except InputError:
             nu = _some_viscosity(file, case)
-            lines.append(_line("nu", f"{nu:g}", f"m2/s, kinematic viscosity; {where} has no constant value"))
+            lines.append(f"nu {nu:g}; // m2/s, kinematic viscosity; {where} has no constant value")
     if nu is None and mu is None:
         nu = 1e-6
-        lines.append(_line("nu", "1e-06", "m2/s, kinematic viscosity; not in the case: like water"))
+        lines.append("nu 1e-06; // m2/s, kinematic viscosity; not in the case: like water")
     rho, origin = _density(case, file, source.region, where)
     if rho is None:
-        # Gases have some 1e-5 m²/s, or 1e-5 Pa s.
+        # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
         water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
-        rho = 1000.0 if water else 1.2
-        kind = "like water" if water else "like air"
-        lines.append(_line("rhoInf", f"{rho:g}", f"kg/m3, density of the fluid; not in the case: {kind}"))
+        rho, kind = (1000.0, "water") if water else (1.2, "air")
+        lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; not in the case: like {kind}")
     else:
         lines.append(f"// {'rhoInf':12s}{rho:g}: from {origin}")
-    return FluidGuess(rho, nu if nu is not None else float(mu or 0.0) / rho, tuple(lines))
+    return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
 
 
 def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:
@@ -286,7 +331,7 @@ def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[fl
 
 
 def _some_viscosity(file: Path | None, case: Path) -> float:
-    """Return a viscosity from a dictionary of another model, m²/s: that at rest, if present."""
+    """Return a viscosity of another model's dictionary, m²/s: at rest, if it has one."""
     try:
         root = read_dictionary(file, case) if file is not None else None
     except InputError:
@@ -311,7 +356,7 @@ def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
 
 
 def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
-    """Return the entries for zones of ``MRFProperties``, if any."""
+    """Return entries for the rotating zones of ``MRFProperties``."""
     if source.file is not None:
         return []
     try:
@@ -319,18 +364,18 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
         for zone in zones:
             flow.cell_zone(zone.zone)
     except InputError:
-        return [_line("rotatingZones", "absolute", "MRFProperties has features that are not modelled")]
+        return ["rotatingZones absolute; // MRFProperties has features that are not modelled"]
     if not zones:
         return []
     names = ", ".join(zone.name for zone in zones)
     return [
-        _line("rotatingZones", "relative", f"{names} of MRFProperties; absolute: as with fixed blades"),
+        f"rotatingZones relative; // {names} of MRFProperties; absolute: as with fixed blades",
         "integrationSchemes  { shape stokes; } // required for rotating zones",
     ]
 
 
 def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
-    """Return the entry for turbulent dispersion, if the case has its fields."""
+    """Return the entry of a dispersion model if the case has the fields of a mean turbulent flow."""
     if source.file is not None:
         return []
     divided = source.decomposed or is_only_decomposed(case, source.region)
@@ -338,12 +383,11 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
     if not fields:
         return []
-    why = f"or stochasticDispersionRAS: {' and '.join(fields)} are available"
-    return [_line("dispersionModel", "none", why), ""]
+    return [f"dispersionModel none; // or stochasticDispersionRAS: {' and '.join(fields)} are available", ""]
 
 
 def _transient(case: Path, source: FlowSource) -> list[str]:
-    """Return a hint on transient flow, if the case has several times."""
+    """Return a hint if the flow was written at several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
     if len(names) < 2 or _steady(case, source.region):
         return []
@@ -353,7 +397,7 @@ def _transient(case: Path, source: FlowSource) -> list[str]:
 
 
 def _steady(case: Path, region: str) -> bool:
-    """Return whether ``fvSchemes`` is that of a steady solver, whose times are iterations."""
+    """Return True if ``fvSchemes`` is steady, so that the times of a case are iterations."""
     try:
         schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
     except InputError:
@@ -362,94 +406,35 @@ def _steady(case: Path, region: str) -> bool:
     return isinstance(default, Stream) and default.text == "steadyState"
 
 
-# ---------------------------------------------------------------------------------------------------------
-# Text
-
-_HEAD = """\
-// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run. Explain an entry:
-// foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
-FoamFile
-{{
-    version     2.0;
-    format      ascii;
-    class       dictionary;
-    object      {name};
-}}
-"""
-
-
-def _sub_models(
-    case: Path, flow: MeshFlow, scales: FlowScales, end: float, d: float, source: FlowSource
-) -> str:
-    size = [
-        "sizeDistribution",
-        "{",
-        _line("    type", "fixedValue", "or: foamprb help distributions"),
-        "    fixedValueDistribution",
-        "    {",
-        _line("        value", f"{d:g}", f"m, diameter; cells are {scales.cell:.2g} m"),
-        "    }",
-        "}",
-    ]
-    lines = [
-        "particleForces",
-        "{",
-        "    ellipsoidDrag;",
-        *_gravity(case, source.region),
-        "}",
-        "",
-        *_dispersion(case, flow, source),
-        "injectionModels",
-        "{",
-        *_indented(_injection(scales, end, size)),
-        "}",
-        "",
-        "patchInteractionModel localInteraction;",
-        "",
-        "localInteractionCoeffs",
-        "{",
-        "    patches",
-        "    (",
-        *_indented(_patches(flow.patches), 8),
-        "    );",
-        "}",
-    ]
-    return _dictionary("subModels", lines)
-
-
-def _injection(scales: FlowScales, end: float, size: Sequence[str]) -> list[str]:
-    if scales.inlet:
-        duration = _rounded(0.2 * end)
-        rate = _rounded(PARTICLES / duration)
-        own = [
-            _line("type", "patchInjection"),
-            _line("patch", _word(scales.inlet), "largest inflow"),
-            _line(
-                "parcelsPerSecond",
-                f"{rate:g}",
-                _said("injections", "parcelsPerSecond", model="patchInjection"),
-            ),
-            _line("duration", f"{duration:g}", "s"),
-        ]
-    else:
+def _injection(scales: FlowScales, end: float) -> list[str]:
+    """Return the entries of an injection model but the size distribution."""
+    if not scales.inlet:
         density = _rounded(PARTICLES / scales.volume)
-        own = [
-            _line("type", "cellZoneInjection", "no patch has inflow"),
-            _line("selectionMode", "all", "all cells"),
-            _line("numberDensity", f"{density:g}", f"1/m3, of {scales.volume:.3g} m3"),
+        return [
+            "type cellZoneInjection; // no patch has inflow",
+            "selectionMode all; // all cells",
+            f"numberDensity {density:g}; // 1/m3, of {scales.volume:.3g} m3",
         ]
-    return ["particles", "{", *_indented([*own, "", *size]), "}"]
+    duration = _rounded(0.2 * end)
+    rate = _said("injections", "parcelsPerSecond", model="patchInjection")
+    return [
+        "type patchInjection;",
+        f"patch {_word(scales.inlet)}; // largest inflow",
+        f"parcelsPerSecond {_rounded(PARTICLES / duration):g}; // {rate}",
+        f"duration {duration:g}; // s",
+    ]
 
 
-def _gravity(case: Path, region: str) -> list[str]:
+def _gravity(case: Path, region: str) -> str:
+    """Return the entry of gravity, or a comment if the case has no gravity."""
     file = of_region(case, region, "g")
     try:
         g: Vector3 = read_gravity(case, region)
     except InputError:
-        return ["    // gravity;            // the case has no constant/g"]
+        return "// gravity;            // the case has no constant/g"
     if not any(g):
-        return [f"    // gravity;            // {file} is zero"]
-    return [_line("    gravity", "", f"less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2")]
+        return f"// gravity;            // {file} is zero"
+    return f"gravity; // less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2"
 
 
 def _patches(patches: Sequence[Patch]) -> list[str]:
@@ -469,47 +454,14 @@ def _patches(patches: Sequence[Patch]) -> list[str]:
     return lines
 
 
-def _functions(steps: float) -> str:
-    every = max(1, round(steps / 500))
-    return _dictionary(
-        "cloudFunctions",
-        [
-            "paths",
-            "{",
-            _line("    type", "particleTracks", "for foamprb view and foamprb report"),
-            _line("    trackInterval", f"{every}", "steps"),
-            _line("    maxSamples", "1000"),
-            _line("    maxTracks", "200"),
-            "}",
-            "exposure",
-            "{",
-            _line("    type", "particleHistogram", "residence time, deformation, shear"),
-            "}",
-        ],
-    )
-
-
 def _said(section: str, entry: str, more: str = "", model: str = "") -> str:
-    """Return the documentation of an entry, its unit first, up to the first stop."""
+    """Return the unit of an entry and the first clause of its documentation."""
     text = meaning(section, entry, model)
     said = re.split(r"[;:,]", plain(text.meaning))[0]
     unit = text.unit.replace("³", "3").replace("²", "2")
     return ", ".join(filter(None, (unit, said, more)))
 
 
-def _line(key: str, value: str, comment: str = "") -> str:
-    entry = f"{key:20s}{value};" if value else f"{key};"
-    return f"{entry:35s} // {comment}" if comment else entry
-
-
 def _word(name: str) -> str:
-    """Return a name as a keyword; other names are quoted, which makes them regular expressions."""
+    """Return a name as a keyword; a name that is no word is quoted and escaped as a regular expression."""
     return name if re.fullmatch(r"[A-Za-z_][\w.:+-]*", name) else f'"{re.escape(name)}"'
-
-
-def _indented(lines: Sequence[str], by: int = 4) -> list[str]:
-    return [" " * by + line if line else "" for line in lines]
-
-
-def _dictionary(name: str, lines: Sequence[str]) -> str:
-    return "\n".join([name, "{", *_indented(lines), "}", ""])
