@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 import pyvista
 from paths import ROOT
-from pipe_case import edit, short_case
+from pipe_case import edit, fates, short_case, with_eddies
 from transient_case import write_transient_case
 
 from foamprb.cli import main
@@ -89,7 +89,7 @@ def after_hook(folder: Path, hook: str) -> Path:
         "import errno, os, signal, sys\n"
         "from foamprb.cli import main\n"
         "from foamprb.parallel import shared_memory\n"
-        "from foamprb.parallel.ranks import Ranks\n"
+        "from foamprb.parallel.ranks import RankStepper\n"
         "from foamprb.parallel.worker import Worker\n"
         "rank = int(os.environ['OMPI_COMM_WORLD_RANK'])\n"
         f"{hook}\n"
@@ -299,13 +299,13 @@ def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
 
 
 LANDING = """
-advance = Ranks.advance
+carry = RankStepper._carry
 def hooked(self, flow, steps, stop):
-    outcome = advance(self, flow, steps, stop)
+    outcome = carry(self, flow, steps, stop)
     with open({log!r}, "a") as file:
-        print(*(int(share.counts[1]) for share in self._shares), file=file)
+        print(*(int(counts[1]) for counts in self._counts), file=file)
     return outcome
-Ranks.advance = hooked
+RankStepper._carry = hooked
 """
 
 
@@ -407,3 +407,11 @@ def test_rebounds_are_noted_by_all_processes(tmp_path):
         tables.append((folder_of(case) / "hits/wall.csv").read_text())
     assert tables[0] == tables[1]
     assert tables[0].count("rebound") > 3
+
+
+def test_eddies_are_the_same_on_several_processes(tmp_path):
+    case = with_eddies(tmp_path)
+    assert main(["run", "-case", str(case)]) == 0
+    expected = fates(case)
+    finish(3, case, "-overwrite")
+    assert fates(case) == expected

@@ -10,12 +10,28 @@ from hypothesis import given
 from hypothesis import strategies as st
 from limits import limit_of_file_size
 from numpy.typing import NDArray
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
 from foamprb.results.pvd import Entry, Series, files_of, read_pvd
-from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot
+from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot, write_vtkhdf
+
+
+def assert_equal(read: Any, written: PointCloud) -> None:
+    """Compare a file with a cloud: points, a vertex per point, arrays with their types, and field data."""
+    n = len(written.points)
+    np.testing.assert_array_equal(read.points, written.points)
+    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
+    assert set(read.point_data.keys()) == set(written.arrays)
+    for name, array in written.arrays.items():
+        np.testing.assert_array_equal(read.point_data[name], array)
+        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
+    assert read.field_data["TimeValue"][0] == written.time
+    assert list(read.field_data["units"]) == [f"{name} {unit}" for name, unit in written.units.items()]
+    for name, meanings in written.names.items():
+        assert list(read.field_data[f"{name}Names"]) == list(meanings)
 
 
 @pytest.mark.parametrize("n", [0, 1, 4])
@@ -25,18 +41,8 @@ def test_snapshot_round_trip(tmp_path: Path, n: int) -> None:
     read = pyvista.read(path)
 
     assert read.points.dtype == np.float64
-    np.testing.assert_array_equal(read.points, written.points)
-    assert read.n_verts == n
-    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
-    assert set(read.point_data.keys()) == set(written.arrays)
-    for name, array in written.arrays.items():
-        np.testing.assert_array_equal(read.point_data[name], array)
-        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
     assert read.field_data["TimeValue"].dtype == np.float64
-    assert read.field_data["TimeValue"][0] == 0.1 + 0.2
-    assert list(read.field_data["units"]) == ["d m", "U m/s"]
-    assert list(read.field_data["statusNames"]) == ["pending", "active", "stuck"]
-    assert list(read.field_data["patchNames"]) == ["inlet", "outlet", "wall"]
+    assert_equal(read, written)
 
 
 def test_columns_of_a_transposed_array_keep_their_place(tmp_path: Path) -> None:
@@ -175,15 +181,7 @@ def test_a_cloud_in_parts_is_one_file(tmp_path: Path, sizes: tuple[int, ...]) ->
     found = write_snapshot(tmp_path / "cloud.vtp", in_parts(whole, sizes))
     assert found == layout(whole)
     read = pyvista.read(tmp_path / "cloud.vtp")
-    np.testing.assert_array_equal(read.points, whole.points)
-    n = sum(sizes)
-    np.testing.assert_array_equal(read.verts, np.c_[np.ones(n), np.arange(n)].ravel())
-    for name, array in whole.arrays.items():
-        np.testing.assert_array_equal(read.point_data[name], array)
-        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
-    assert read.field_data["TimeValue"][0] == whole.time
-    assert list(read.field_data["units"]) == ["d m", "U m/s"]
-    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+    assert_equal(read, whole)
 
 
 @pytest.mark.parametrize("good", [0, 1, 2])
@@ -208,13 +206,7 @@ def test_error_in_a_part_keeps_the_old_file(
 def test_pieces_are_one_cloud(tmp_path: Path, sizes: tuple[int, ...]) -> None:
     whole, path = in_pieces(tmp_path, sizes)
     read = XMLPPolyDataReader(path).read()
-    np.testing.assert_array_equal(read.points, whole.points)
-    assert read.n_verts == sum(sizes)
-    for name, array in whole.arrays.items():
-        np.testing.assert_array_equal(read.point_data[name], array)
-        assert read.point_data[name].dtype == (np.int8 if array.dtype == np.bool_ else array.dtype)
-    assert read.field_data["TimeValue"][0] == whole.time
-    assert list(read.field_data["statusNames"]) == list(whole.names["status"])
+    assert_equal(read, whole)
     assert [file.name for file in files_of(path)] == [path.name, *(f"{i}.vtp" for i in range(len(sizes)))]
 
 
@@ -235,3 +227,42 @@ def test_a_series_goes_on_in_pieces_and_back(tmp_path: Path) -> None:
         "cloud_000001.pvtp",
         "cloud_000002.vtp",
     ]
+
+
+def test_each_time_has_its_own_cloud_of_its_own_size(tmp_path: Path, random: np.random.Generator) -> None:
+    clouds = [
+        PointCloud(time, random.random((n, 3)), {"d": random.random(n)})
+        for time, n in ((0.5, 2), (1.0, 0), (1.25, 7))
+    ]
+    write_vtkhdf(tmp_path / "a.vtkhdf", [each.time for each in clouds], clouds.__getitem__)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+    reader = vtkHDFReader()
+    reader.SetFileName(str(tmp_path / "a.vtkhdf"))
+    reader.UpdateInformation()
+    times = reader.GetOutputInformation(0).Get(reader.GetExecutive().TIME_STEPS())
+    assert times == (0.5, 1.0, 1.25)
+    for time, written in zip(times, clouds, strict=True):
+        reader.UpdateTimeStep(time)
+        found = pyvista.wrap(reader.GetOutputDataObject(0))
+        assert found.n_points == len(written.points)
+        if len(written.points):
+            np.testing.assert_array_equal(found.points, written.points)
+            np.testing.assert_array_equal(found.point_data["d"], written.arrays["d"])
+
+
+def test_failed_vtkhdf_file_keeps_the_old_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.vtkhdf"
+    path.write_text("before")
+
+    def broken(index: int) -> PointCloud:
+        if index:
+            raise InputError("damaged")
+        return PointCloud(0.0, np.zeros((2, 3)), {"d": np.ones(2)})
+
+    with pytest.raises(InputError, match="damaged"):
+        write_vtkhdf(path, [0.0, 1.0], broken)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
+    assert path.read_text() == "before"
+    with pytest.raises(OSError, match=r"a\.vtkhdf"):
+        write_vtkhdf(tmp_path / "a.vtkhdf/no/b.vtkhdf", [0.0], broken)
+    assert [file.name for file in tmp_path.iterdir()] == ["a.vtkhdf"]
