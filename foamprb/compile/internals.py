@@ -49,17 +49,6 @@ _ALIGNED = '"stackrealign"'
 class _Inlined(JITCodeLibrary):  # type: ignore[misc]
     """LLVM IR that is linked into its callers before these are optimised."""
 
-    def _optimize_functions(self, ll_module: Any) -> None:
-        ll_module.data_layout = self._codegen._data_layout
-        passes = binding.create_new_function_pass_manager()
-        passes.add_sroa_pass()
-        passes.add_simplify_cfg_pass()
-        passes.add_instruction_combine_pass()
-        builder = self._codegen._pass_builder()
-        for function in ll_module.functions:
-            if not function.is_declaration:
-                passes.run(function, builder)
-
     def finalize(self) -> None:
         self._finish()
 
@@ -112,7 +101,6 @@ class _Separate(_Entry):
     """LLVM IR that is optimised with all that it calls, and linked with its callers after that."""
 
     _finish = _Inlined._finish
-    _optimize_functions = JITCodeLibrary._optimize_functions
 
     def add_ir_module(self, ir_module: Any) -> None:
         for function in ir_module.functions:
