@@ -8,7 +8,7 @@ from typing import NamedTuple
 from foamprb.body.brownian import BOLTZMANN
 
 
-class Sphere(NamedTuple):
+class SoftSphere(NamedTuple):
     """A soft sphere."""
 
     d: float
@@ -80,7 +80,7 @@ def lift_coefficient(capillary_number: float) -> float:
     return 225.0 / 224.0 * capillary_number * (1.0 + 0.72 * square) / (1.0 + 1.52 * square)
 
 
-def estimate(sphere: Sphere, around: Surroundings, residence_time: float) -> Estimate:
+def estimate(sphere: SoftSphere, around: Surroundings, residence_time: float) -> Estimate:
     """Return dimensionless numbers, speeds and distances of a soft sphere for a residence time, s.
 
     They hold for a single round body. The lift is that of a point stresslet, too large by a relative 5/3

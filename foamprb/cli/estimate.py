@@ -57,7 +57,7 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         If a number is not positive.
     """
     # Slow imports, which other commands do not need.
-    from foamprb.body.estimate import Sphere, Surroundings, estimate, shear_modulus
+    from foamprb.body.estimate import SoftSphere, Surroundings, estimate, shear_modulus
     from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
 
     given = vars(arguments)
@@ -72,7 +72,7 @@ def lines(arguments: argparse.Namespace) -> list[str]:
     around = Surroundings(
         given["mu"], given["rhoInf"], given["shearRate"], h, given["temperature"], given["gravity"]
     )
-    e = estimate(Sphere(d, given["rho0"], modulus), around, given["residenceTime"])
+    e = estimate(SoftSphere(d, given["rho0"], modulus), around, given["residenceTime"])
     facts = [
         ("shear modulus [Pa]", modulus, ""),
         ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere suffices"),

@@ -19,7 +19,7 @@ from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
-from foamprb.flow.series import cell_volume, cross, gap, normal, recover, walk, walk_on, walls
+from foamprb.flow.series import SeriesFlow
 from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import sample as sample_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
@@ -91,16 +91,9 @@ class RotatingFlow(MeshFlow):
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
+        **SeriesFlow.kernels,
         "sample": sample,
         "curvature": curvature,
-        "walk": walk,
-        "walk_on": walk_on,
-        "gap": gap,
-        "walls": walls,
-        "normal": normal,
-        "cross": cross,
-        "recover": recover,
-        "cell_volume": cell_volume,
         "turbulence": turbulence,
         "rotation_at": rotation_at,
     }

@@ -23,7 +23,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
     return (path, *(path.parent / piece.attrib["Source"] for piece in root.iter("Piece")))
 
 
-class Entry(NamedTuple):
+class SnapshotFile(NamedTuple):
     """Line of a ``.pvd``: a time, s, and the name of its file in the same folder."""
 
     time: float
@@ -44,7 +44,7 @@ class Series:
 
     def __init__(self, folder: ResultsFolder) -> None:
         self.folder = folder
-        self.entries: tuple[Entry, ...] = ()
+        self.entries: tuple[SnapshotFile, ...] = ()
 
     def append(self, cloud: PointCloud | Parts) -> Path:
         """Write a snapshot and list it.
@@ -89,9 +89,9 @@ class Series:
         OSError
             If the list cannot be written.
         """
-        self._list((*self.entries, Entry(float(time), file.name)))
+        self._list((*self.entries, SnapshotFile(float(time), file.name)))
 
-    def relist(self, entries: Sequence[Entry]) -> None:
+    def relist(self, entries: Sequence[SnapshotFile]) -> None:
         """List only these snapshots of an earlier run, in order of time.
 
         Raises
@@ -105,7 +105,7 @@ class Series:
             self.folder.pvd.unlink(missing_ok=True)
             self.entries = ()
 
-    def _list(self, entries: tuple[Entry, ...]) -> None:
+    def _list(self, entries: tuple[SnapshotFile, ...]) -> None:
         lines = [f'    <DataSet timestep="{e.time!r}" part="0" file={quoteattr(e.file)}/>\n' for e in entries]
         write_text(
             self.folder.pvd,
@@ -120,7 +120,7 @@ def with_ending(stem: Path, ending: str) -> Path:
     return stem.with_name(stem.name + ending)
 
 
-def read_pvd(path: Path) -> tuple[Entry, ...]:
+def read_pvd(path: Path) -> tuple[SnapshotFile, ...]:
     """Read the times and files that a ``.pvd`` lists.
 
     Returns
@@ -134,7 +134,7 @@ def read_pvd(path: Path) -> tuple[Entry, ...]:
     """
     try:
         root = ElementTree.fromstring(path.read_bytes())
-        entries = [Entry(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
+        entries = [SnapshotFile(float(e.attrib["timestep"]), e.attrib["file"]) for e in root.iter("DataSet")]
     except (OSError, ElementTree.ParseError, KeyError, ValueError) as error:
         raise InputError(f"{path}: not a readable list of VTK files ({error}).") from error
     for entry in entries:

@@ -25,7 +25,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.results.checkpoint import Checkpoint, is_one_row
-from foamprb.results.pvd import Entry, files_of, read_pvd, with_ending
+from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 
 log = logging.getLogger("foamprb")
@@ -66,7 +66,7 @@ def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
 def checkpoint_of(
     cloud: Cloud | Snapshot,
     functions: Mapping[str, NDArray[Any]],
-    entries: Sequence[Entry],
+    entries: Sequence[SnapshotFile],
     marks: Fingerprint,
 ) -> Checkpoint:
     """Return the checkpoint of a run.
@@ -143,7 +143,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, whe
     cloud.step, cloud.recovered, cloud.reach = header["step"], header["recovered"], header["reach"]
 
 
-def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Entry, ...]:
+def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[SnapshotFile, ...]:
     """Return the snapshots that a run had written when it wrote a checkpoint, if all are there.
 
     Parameters
@@ -165,7 +165,7 @@ def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Entr
         log.warning("%s It is made anew from the checkpoint.", error)
         listed = None
     if listed is None:
-        entries = tuple(Entry(time, _existing(pvd.parent / stem).name) for time, stem in expected)
+        entries = tuple(SnapshotFile(time, _existing(pvd.parent / stem).name) for time, stem in expected)
     else:
         entries = tuple(entry for entry in listed if entry.time <= checkpoint.time)
     fault = f"{pvd.name} lists other times" if _stems(entries) != expected else ""
@@ -189,7 +189,7 @@ def _existing(stem: Path) -> Path:
     return pieces if pieces.exists() else with_ending(stem, ".vtp")
 
 
-def _stems(entries: Sequence[Entry]) -> list[list[float | str]]:
+def _stems(entries: Sequence[SnapshotFile]) -> list[list[float | str]]:
     """Return times and files without their endings, which depend on how many processes wrote them."""
     return [[entry.time, Path(entry.file).stem] for entry in entries]
 

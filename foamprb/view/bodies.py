@@ -51,7 +51,7 @@ UNNAMED = 255
 """Code without a name, such as the patch of a body that has met no patch."""
 
 
-class Field(NamedTuple):
+class Quantity(NamedTuple):
     """Array of the bodies over the times, to colour by."""
 
     name: str
@@ -116,7 +116,7 @@ class Bodies:
     F: Singles
     present: Mask
     status: Codes
-    fields: dict[str, Field]
+    fields: dict[str, Quantity]
     codes: dict[str, Codes]
 
     @property
@@ -240,7 +240,7 @@ def gather(run: Run, frames: Sequence[int], most: int | None = None) -> Bodies:
     nearest = _nearest_present(present), np.arange(n)
     meanings = run.names.get("status", ())
     status = Codes("status", label_of("status"), meanings, _known(named("status", 1, np.float64), meanings))
-    fields: dict[str, Field] = {}
+    fields: dict[str, Quantity] = {}
     codes: dict[str, Codes] = {}
     for name in names:
         if name in run.names:
@@ -251,7 +251,7 @@ def gather(run: Run, frames: Sequence[int], most: int | None = None) -> Bodies:
             held = named(name, k)[nearest]
             held[~np.isfinite(held)] = np.nan
             parts = components_of(name, k)
-            fields[name] = Field(name, label_of(name), "" if unit == "1" else unit, parts, _once(held))
+            fields[name] = Quantity(name, label_of(name), "" if unit == "1" else unit, parts, _once(held))
     return Bodies(
         times=np.array([cloud.time for cloud in clouds]),
         ids=ids,
@@ -265,7 +265,7 @@ def gather(run: Run, frames: Sequence[int], most: int | None = None) -> Bodies:
     )
 
 
-def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Field]:
+def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
     """Return the :data:`FATE_COLUMNS` of ``fates.csv`` as arrays that never change."""
     ids = fates["id"]
     place = np.minimum(np.searchsorted(ids, bodies.ids), max(len(ids) - 1, 0))
@@ -274,7 +274,7 @@ def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Field]:
     for name, (label, unit) in FATE_COLUMNS.items():
         values = np.full(len(bodies.ids), np.nan, dtype=np.float32)
         values[found] = fates[name][place[found]]
-        columns[name] = Field(name, label, unit, ("",), values[None, :, None])
+        columns[name] = Quantity(name, label, unit, ("",), values[None, :, None])
     return columns
 
 

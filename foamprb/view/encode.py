@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.view.bodies import Bodies, Field
+from foamprb.view.bodies import Bodies, Quantity
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -105,7 +105,7 @@ def pack_shapes(bodies: Bodies) -> Column:
     return pack(np.rint(bodies.F.reshape(m, n, 9) / step), [0.0], [step])
 
 
-def pack_field(field: Field) -> Column:
+def pack_field(field: Quantity) -> Column:
     """Pack the values of an array: 0 for NaN, 1 to 2¹⁶ − 1 for the range."""
     values = field.values.astype(np.float64)
     known = np.isfinite(values)

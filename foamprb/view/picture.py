@@ -56,7 +56,7 @@ _LATER: dict[str, Any] = {"render": False, "reset_camera": False}
 """Options of the plotter: the picture is rendered once, by the camera of the scene."""
 
 
-class Shape(NamedTuple):
+class Triangles(NamedTuple):
     """Triangulated part of the unit sphere."""
 
     points: Floats
@@ -428,17 +428,17 @@ def marked(colours: Table) -> Table:
     return np.asarray(np.rint(0.2 * plain + 0.8 * mark), dtype=np.uint8)
 
 
-def sphere_for(count: int) -> Shape:
+def sphere_for(count: int) -> Triangles:
     """Return the unit sphere, coarser for more bodies."""
     around, down = next((around, down) for most, around, down in _SPHERES if count <= most)
     ball = pyvista.Sphere(radius=1.0, theta_resolution=around, phi_resolution=down)
     points = np.asarray(ball.points, dtype=np.float64)
-    return Shape(
+    return Triangles(
         points / np.linalg.norm(points, axis=1, keepdims=True), np.array(ball.regular_faces, dtype=np.int64)
     )
 
 
-def mark() -> Shape:
+def mark() -> Triangles:
     """Return the mark that moves with the material: three great circles, and a spot around the first axis."""
     n = _MARK_STEPS
     angle = 2.0 * np.pi * np.arange(n) / n
@@ -456,10 +456,10 @@ def mark() -> Shape:
     band = np.concatenate([np.stack([k, after, n + k], axis=1), np.stack([after, n + after, n + k], axis=1)])
     points = [ring(axis, height) for axis, low, high in heights for height in (low, high)]
     triangles = [2 * n * index + band for index in range(len(heights))]
-    return Shape(np.concatenate(points), np.concatenate(triangles))
+    return Triangles(np.concatenate(points), np.concatenate(triangles))
 
 
-def draw(shape: Shape, place: Floats, F: Floats, size: Floats, colours: Table) -> Any:
+def draw(shape: Triangles, place: Floats, F: Floats, size: Floats, colours: Table) -> Any:
     """Return one mesh of a shape on each of n bodies, with normals by F⁻ᵀ.
 
     Parameters

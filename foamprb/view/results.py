@@ -19,7 +19,7 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
-from foamprb.results.pvd import Entry, read_pvd
+from foamprb.results.pvd import SnapshotFile, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
 from foamprb.view.libraries import load
@@ -60,7 +60,7 @@ class Run:
     """
 
     results: ResultsFolder
-    entries: tuple[Entry, ...]
+    entries: tuple[SnapshotFile, ...]
     units: Mapping[str, str]
     names: Mapping[str, tuple[str, ...]]
     components: Mapping[str, int]

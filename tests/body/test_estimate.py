@@ -5,10 +5,10 @@ from math import inf, pi
 import pytest
 from scipy.integrate import solve_ivp
 
-from foamprb.body.estimate import Sphere, Surroundings, estimate, lift_coefficient, shear_modulus
+from foamprb.body.estimate import SoftSphere, Surroundings, estimate, lift_coefficient, shear_modulus
 
 WATER = Surroundings(mu=1e-3, rho=1000.0, shear_rate=100.0, wall_distance=20e-6, temperature=300.0)
-BEAD = Sphere(d=5e-6, rho=1050.0, mu=1.0)
+BEAD = SoftSphere(d=5e-6, rho=1050.0, mu=1.0)
 
 
 def test_numbers_of_a_bead_in_water():

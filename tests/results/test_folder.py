@@ -8,13 +8,13 @@ from hypothesis import strategies as st
 
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder, fault_of_function, fault_of_word, file_name
-from foamprb.results.pvd import Entry, Series
+from foamprb.results.pvd import Series, SnapshotFile
 
 
 def written(case, *places):
     for place in places:
         *region, cloud = place.split("/")
-        Series(ResultsFolder.of_case(case, cloud, *region)).relist([Entry(0.0, f"{cloud}_000000.vtp")])
+        Series(ResultsFolder.of_case(case, cloud, *region)).relist([SnapshotFile(0.0, f"{cloud}_000000.vtp")])
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 from foamprb.errors import InputError
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.pieces import XMLPPolyDataReader
-from foamprb.results.pvd import Entry, Series, files_of, read_pvd
+from foamprb.results.pvd import Series, SnapshotFile, files_of, read_pvd
 from foamprb.results.vtk import Parts, PointCloud, layout, write_pieces, write_snapshot, write_vtkhdf
 
 
@@ -103,7 +103,7 @@ def test_series_goes_on_after_the_entries_that_it_is_given(tmp_path: Path) -> No
     assert [entry.time for entry in read_pvd(series.folder.pvd)] == [0.1, 0.2]
     series.append(cloud(0.3))
     assert series.entries == read_pvd(series.folder.pvd) == old.entries[:3]
-    assert series.entries[-1] == Entry(0.3, "softCloud_000002.vtp")
+    assert series.entries[-1] == SnapshotFile(0.3, "softCloud_000002.vtp")
 
 
 def test_series_without_entries_has_no_list(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foamprb.body.estimate import Sphere, Surroundings, estimate
+from foamprb.body.estimate import SoftSphere, Surroundings, estimate
 from foamprb.cli import main
 
 NUMBERS = ("-d", "5e-6", "-rho0", "1050", "-mu", "1e-3", "-rhoInf", "1000")
@@ -22,7 +22,7 @@ def told(capsys, *more):
 
 def test_it_prints_what_the_formulas_give(capsys):
     found = told(capsys, "-Ca", "0.1", "-wallDistance", "20e-6")
-    e = estimate(Sphere(5e-6, 1050.0, 1.0), Surroundings(1e-3, 1000.0, 100.0, 20e-6), 10.0)
+    e = estimate(SoftSphere(5e-6, 1050.0, 1.0), Surroundings(1e-3, 1000.0, 100.0, 20e-6), 10.0)
     assert found["shear modulus [Pa]"] == pytest.approx(1.0)
     assert found["Reynolds number"] == pytest.approx(e.reynolds_number, rel=1e-3)
     assert found["Peclet number"] == pytest.approx(e.peclet_number, rel=1e-3)

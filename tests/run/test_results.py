@@ -23,7 +23,7 @@ from foamprb.results import atomic
 from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
-from foamprb.results.pvd import Entry, Series, read_pvd
+from foamprb.results.pvd import Series, SnapshotFile, read_pvd
 
 TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
 HITS = "hits { type patchPostProcessing; patches (wall outlet); }"
@@ -113,7 +113,7 @@ def leave_behind(case: Path) -> None:
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).touch()
     series = Series(ResultsFolder(folder, "softCloud"))
-    series.relist([*read_pvd(series.folder.pvd), Entry(0.004, left[0])])
+    series.relist([*read_pvd(series.folder.pvd), SnapshotFile(0.004, left[0])])
 
 
 @pytest.mark.parametrize("option", ["-resume", "-overwrite"])

@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as hnp
 from page_reader import unpacked
 from view_run import motion
 
-from foamprb.view.bodies import Field
+from foamprb.view.bodies import Quantity
 from foamprb.view.encode import (
     POSITION_BITS,
     SHAPE_STEP,
@@ -102,7 +102,7 @@ def test_stretched_shapes_keep_their_relative_error(largest, seed):
     )
 )
 def test_values_are_known_to_a_part_of_their_range(values):
-    packed = pack_field(Field("a", "a", "", ("",), values))
+    packed = pack_field(Quantity("a", "a", "", ("",), values))
     whole = unpacked(packed)
     assert whole.max() < 2**16
     np.testing.assert_array_equal(whole == 0, np.isnan(values))

@@ -14,7 +14,7 @@ from view_run import motion, write_run
 
 from foamprb.errors import InputError
 from foamprb.flow.read.openfoam import read_case
-from foamprb.view.bodies import Bodies, Codes, Field, gather
+from foamprb.view.bodies import Bodies, Codes, Quantity, gather
 from foamprb.view.colours import colour_of_name, readable, rgb, ticks, written
 from foamprb.view.geometry import Geometry, Surface, boundary, cut, flat_normal, read_plane
 from foamprb.view.results import open_run
@@ -248,7 +248,7 @@ class TestNumbers:
 def with_values(values):
     """Bodies at one time, all in the flow, with an array of these values."""
     n = len(values)
-    field = Field("D", "D", "", ("",), np.array(values, dtype=np.float32)[None, :, None])
+    field = Quantity("D", "D", "", ("",), np.array(values, dtype=np.float32)[None, :, None])
     status = Codes("status", "status", ("pending", "active"), np.ones((1, n), dtype=np.uint8))
     return replace(EMPTY, present=np.ones((1, n), dtype=bool), status=status, fields={"D": field})
 

@@ -20,7 +20,7 @@ from foamprb.flow.read.field import FoamField, PatchField
 from foamprb.flow.reconstruct import VALUELESS
 
 
-class Faces(NamedTuple):
+class PatchGeometry(NamedTuple):
     """Faces of a patch."""
 
     cells: Floats
@@ -33,7 +33,7 @@ class Faces(NamedTuple):
     """(n, 3), m."""
 
 
-Rule = Callable[[PatchField, Faces], Floats | None]
+Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
 
 
@@ -65,7 +65,7 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
         _check_type(field, patch, entry)
         if entry is None or patch.type in VALUELESS or patch.faces == 0:
             continue
-        faces = Faces(cells[owner[rows]], normals[rows], sizes[rows], mesh.boundary_centres[rows])
+        faces = PatchGeometry(cells[owner[rows]], normals[rows], sizes[rows], mesh.boundary_centres[rows])
         values[rows] = _values(field, patch, entry, faces)
     return values
 
@@ -91,7 +91,7 @@ def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) ->
         )
 
 
-def _values(field: FoamField, patch: PatchInfo, entry: PatchField, faces: Faces) -> Floats:
+def _values(field: FoamField, patch: PatchInfo, entry: PatchField, faces: PatchGeometry) -> Floats:
     always, otherwise = RULES.get(entry.type, (False, None))
     given = entry.fields.get("value")
     found = given if given is not None and not always else otherwise and otherwise(entry, faces)
@@ -113,15 +113,15 @@ def _missing(patch: PatchInfo, entry: PatchField, rule: Rule | None) -> str:
     return f"{what}, and {entry.type} is not known. {suggestion(entry.type, [*RULES, *CONDITIONS])}"
 
 
-def _zero(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+def _zero(entry: PatchField, faces: PatchGeometry) -> Floats:  # noqa: ARG001
     return np.zeros((1, 3))
 
 
-def _of_cells(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+def _of_cells(entry: PatchField, faces: PatchGeometry) -> Floats:  # noqa: ARG001
     return faces.cells
 
 
-def _tangential(entry: PatchField, faces: Faces) -> Floats:  # noqa: ARG001
+def _tangential(entry: PatchField, faces: PatchGeometry) -> Floats:  # noqa: ARG001
     return faces.cells - _along(faces.cells, faces.normals)
 
 
@@ -130,7 +130,7 @@ def _along(vectors: Floats, normals: Floats) -> Floats:
     return along
 
 
-def _fixed_normal_slip(entry: PatchField, faces: Faces) -> Floats | None:
+def _fixed_normal_slip(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return n (n·fixedValue) plus the tangential part of the cells' velocity."""
     fixed = entry.fields.get("fixedValue")
     if fixed is None:
@@ -138,13 +138,13 @@ def _fixed_normal_slip(entry: PatchField, faces: Faces) -> Floats | None:
     return _along(np.broadcast_to(fixed, faces.cells.shape), faces.normals) + _tangential(entry, faces)
 
 
-def _partial_slip(entry: PatchField, faces: Faces) -> Floats | None:
+def _partial_slip(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return f refValue + (1 − f) u_t with f = valueFraction and u_t the tangential velocity of the cells."""
     f, fixed = entry.fields.get("valueFraction"), entry.fields.get("refValue", np.zeros((1, 3)))
     return None if f is None else f * fixed + (1.0 - f) * _tangential(entry, faces)
 
 
-def _surface_normal(entry: PatchField, faces: Faces) -> Floats | None:
+def _surface_normal(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return ``refValue`` times the outward normal."""
     speed = entry.fields.get("refValue")
     return None if speed is None else speed * faces.normals
@@ -153,19 +153,19 @@ def _surface_normal(entry: PatchField, faces: Faces) -> Floats | None:
 def _entry(name: str) -> Rule:
     """Make the rule that returns the field, or the constant, of an entry."""
 
-    def rule(entry: PatchField, faces: Faces) -> Floats | None:  # noqa: ARG001
+    def rule(entry: PatchField, faces: PatchGeometry) -> Floats | None:  # noqa: ARG001
         return entry.fields[name] if name in entry.fields else _constant(entry.words.get(name, ""), 3)
 
     return rule
 
 
-def _flow_rate(entry: PatchField, faces: Faces) -> Floats | None:
+def _flow_rate(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return the uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
     rate = _constant(entry.words.get("volumetricFlowRate", ""), 1)
     return None if rate is None else -rate / faces.areas.sum() * faces.normals
 
 
-def _rotating_wall(entry: PatchField, faces: Faces) -> Floats | None:
+def _rotating_wall(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return ω a × (x − origin) with a the direction of the axis."""
     origin, axis = (_constant(entry.words.get(key, ""), 3) for key in ("origin", "axis"))
     omega = _constant(entry.words.get("omega", ""), 1)

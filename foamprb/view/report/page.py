@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 from foamprb.view.report.plots import Plot
 
-__all__ = ["Section", "figure", "grid", "image", "page", "table"]
+__all__ = ["PageSection", "figure", "grid", "image", "page", "table"]
 
 
-class Section(NamedTuple):
+class PageSection(NamedTuple):
     """Part of the page with a heading."""
 
     id: str
@@ -27,7 +27,7 @@ def page(
     subtitle: str,
     cards: Sequence[tuple[str, str]],
     warnings: Sequence[str],
-    sections: Sequence[Section],
+    sections: Sequence[PageSection],
 ) -> str:
     """Return the whole page, HTML; ``cards`` are numbers with their meanings."""
     template = (files("foamprb.view.report") / "page.html").read_text(encoding="utf-8")

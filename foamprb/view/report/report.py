@@ -26,7 +26,7 @@ from foamprb.view.geometry import Geometry, boundary
 from foamprb.view.picture import picture, require_graphics
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
-from foamprb.view.report.page import Section, figure, grid, image, page, table
+from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.show import Request, make_scene, spread
 
@@ -153,7 +153,7 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     return cards
 
 
-def _scene(given: _Given, request: Request, target: Path) -> Section:
+def _scene(given: _Given, request: Request, target: Path) -> PageSection:
     live = given.run.results.page
     try:
         require_graphics()
@@ -175,10 +175,10 @@ def _scene(given: _Given, request: Request, target: Path) -> Section:
         body += f'<p><a href="{_link(live, target)}">Interactive view</a> (foamprb view)</p>'
     else:
         body += "<p>foamprb view writes an interactive view.</p>"
-    return Section("scene", "Bodies", body)
+    return PageSection("scene", "Bodies", body)
 
 
-def _fates(given: _Given) -> Section:
+def _fates(given: _Given) -> PageSection:
     counts: dict[str, dict[str, int]] = {}
     for patch, fate in zip(given.fates["patch"].tolist(), given.fates["fate"].tolist(), strict=True):
         if fate != "pending":
@@ -193,10 +193,10 @@ def _fates(given: _Given) -> Section:
     ]
     listed = table("Particles by place and fate", ("where", *plots.FATES, "share"), rows)
     drawn = given.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
-    return Section("fates", "Fates", grid(drawn, listed))
+    return PageSection("fates", "Fates", grid(drawn, listed))
 
 
-def _deposition(given: _Given) -> Section | None:
+def _deposition(given: _Given) -> PageSection | None:
     fates, geometry = given.fates, given.geometry
     stuck = fates["fate"] == "stuck"
     if geometry is None or "x1" not in fates:
@@ -228,14 +228,14 @@ def _deposition(given: _Given) -> Section | None:
         drawn += given.figure(
             f"deposits-{name}", plots.unrolled(own), f"{name}, {how}: particles per area; dots are particles."
         )
-    return Section("deposition", "Deposition on walls", listed + grid(drawn))
+    return PageSection("deposition", "Deposition on walls", listed + grid(drawn))
 
 
 def _by_fate(fates: NDArray[np.str_], values: Floats) -> dict[str, Floats]:
     return {fate: values[fates == fate] for fate in plots.FATES if (fates == fate).any()}
 
 
-def _residence(given: _Given) -> Section:
+def _residence(given: _Given) -> PageSection:
     fates = given.fates
     ended = _by_fate(fates["fate"], fates["t1"] - fates["t0"])
     rows = [
@@ -252,10 +252,10 @@ def _residence(given: _Given) -> Section:
         "Time from release to the end of each particle, or of the run.",
     )
     listed = table("Residence time", ("fate", "particles", "1 in 10 below", "median", "9 in 10 below"), rows)
-    return Section("residence", "Residence time", grid(drawn, listed))
+    return PageSection("residence", "Residence time", grid(drawn, listed))
 
 
-def _deformation(given: _Given) -> Section | None:
+def _deformation(given: _Given) -> PageSection | None:
     run, fates = given.run, given.fates
     drawn = ""
     if "D" in fates:
@@ -277,14 +277,14 @@ def _deformation(given: _Given) -> Section | None:
             plots.curves([("median", t, middle)], ("time t", "s"), ("D", "1"), (t, low, high)),
             "D of the moving particles over time: the median, and the range of nine in ten.",
         )
-    return Section("deformation", "Deformation", grid(drawn)) if drawn else None
+    return PageSection("deformation", "Deformation", grid(drawn)) if drawn else None
 
 
-def _exposure(given: _Given) -> Section:
+def _exposure(given: _Given) -> PageSection:
     found = [name for name in given.run.tables if name.endswith("/exposure")]
     if not found:
         text = "<p>The run did not have the cloud function particleHistogram, which integrates γ̇.</p>"
-        return Section("shear", "Shear exposure", text)
+        return PageSection("shear", "Shear exposure", text)
     own = given.run.table(found[0])
     shear = given.figure(
         "shearExposure",
@@ -296,15 +296,15 @@ def _exposure(given: _Given) -> Section:
         plots.histogram(_by_fate(own["fate"], own["maxDeformation"]), "largest D", "1"),
         "The largest deformation of each particle on its path.",
     )
-    return Section("shear", "Shear exposure", grid(shear, deformation))
+    return PageSection("shear", "Shear exposure", grid(shear, deformation))
 
 
-def _along_paths(given: _Given) -> Section:
+def _along_paths(given: _Given) -> PageSection:
     paths = given.run.paths(("taylorDeformation", "shearRate"))
     title = "Deformation along paths"
     if paths is None:
         text = "<p>The run did not have the cloud function particleTracks, which records paths.</p>"
-        return Section("paths", title, text)
+        return PageSection("paths", title, text)
     ids = paths.tracks["origId"]
     chosen = given.paths or [int(ids[k]) for k in spread(len(ids), _PATHS)]
     if missing := [number for number in chosen if number not in ids]:
@@ -323,14 +323,14 @@ def _along_paths(given: _Given) -> Section:
     D_plot, rate_plot = plots.curves(lines, x, ("D", "1")), plots.curves(rates, x, ("γ̇", "1/s"))
     drawn = given.figure("deformationAlongPaths", D_plot, f"D of single particles, {which}.")
     drawn += given.figure("shearAlongPaths", rate_plot, "The fluid's shear rate at the same particles.")
-    return Section("paths", title, grid(drawn))
+    return PageSection("paths", title, grid(drawn))
 
 
-def _record(given: _Given) -> Section:
+def _record(given: _Given) -> PageSection:
     record = given.run.record
     if record.get("format") != RECORD_FORMAT:
         text = "<p>The run has no run.json, or one of another version of foamprb.</p>"
-        return Section("run", "Record", text)
+        return PageSection("run", "Record", text)
     fluid, models, time, mesh = (record[key] for key in ("fluid", "models", "time", "mesh"))
     g = " ".join(f"{c:g}" for c in fluid["gravity"])
     facts = [
@@ -358,7 +358,7 @@ def _record(given: _Given) -> Section:
     if text := record["settings"]["text"]:
         name = html.escape(record["settings"]["file"])
         body += f"<details><summary>{name} of the run</summary><pre>{html.escape(text)}</pre></details>"
-    return Section("run", "Record", body)
+    return PageSection("run", "Record", body)
 
 
 def _named(models: Mapping[str, str]) -> str:
@@ -369,7 +369,7 @@ def _range(ends: Sequence[float | None]) -> str:
     return "–".join("?" if end is None else f"{end:.3g}" for end in ends)
 
 
-def _files(given: _Given, target: Path, beside: Path) -> Section:
+def _files(given: _Given, target: Path, beside: Path) -> PageSection:
     results = given.run.results
     shown = [results.pvd, *map(given.run.file, given.run.tables)]
     shown += [path for path in (results.record, results.page, results.tracks) if path and path.exists()]
@@ -377,7 +377,7 @@ def _files(given: _Given, target: Path, beside: Path) -> Section:
     for name in given.made:
         links = [_anchor(beside / f"{name}.{kind}", target, kind.upper()) for kind in ("svg", "png")]
         items.append(f"{html.escape(name)}: {', '.join(links)}")
-    return Section("files", "Files", f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>")
+    return PageSection("files", "Files", f"<ul>{''.join(f'<li>{item}</li>' for item in items)}</ul>")
 
 
 def _anchor(path: Path, target: Path, text: str) -> str:
