@@ -10,7 +10,7 @@ from mesh_shapes import block, box_patches
 from validation.rotating import OMEGA
 
 from foamprb.cloud.block import Medium
-from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.limits import Limits
 from foamprb.cloud.patches import Escape, Mirror
 from foamprb.cloud.state import Reason, spheres
@@ -93,7 +93,8 @@ def test_a_body_beyond_max_cells_fails_in_a_zone_too():
     p = spheres([[0.75, 0.5, 0.5]], d=0.1, rho=1000.0, mu=1e3, poissons_ratio=0.4999)
     models = Models(integrator="stokes", surroundings=(RotatingFrames(),))
     walls = [Escape() for _ in flow.patches]
-    Cloud(p, flow, WATER, walls, 1e-3, models, threads=1, limits=Limits(maxCells=0.1)).carry(1)
+    cloud = Cloud(p, flow, WATER, walls, 1e-3, models, threads=1, limits=Limits(maxCells=0.1))
+    Stepper(cloud).advance(1)
     assert p.reason[0] == Reason.CELLS_TOO_MANY
 
 
