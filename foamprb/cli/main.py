@@ -133,7 +133,7 @@ def _do(words: Sequence[str], ranks: Ranks | None) -> int:
 
 
 def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
-    """Call a command, print what went wrong, and return the exit status."""
+    """Call a command, print its error message, and return the exit status."""
     try:
         try:
             status = command()

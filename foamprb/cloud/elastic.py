@@ -1,4 +1,4 @@
-"""What the solid and its surface tension resist with, of a lane of a block."""
+"""Elastic stress of the solid and its surface tension, for a lane of a block."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from foamprb.cloud.layout import LANES
 
 
 def solid(block: Any, i: int) -> tuple[Any, Any, Any]:
-    """μ_s and λ_s, Pa, and the third parameter of the solid."""
+    """Return μ_s and λ_s, Pa, and the third parameter of the solid."""
     return block[at.mu * LANES + i], block[at.lame * LANES + i], block[at.k * LANES + i]
 
 
@@ -24,7 +24,7 @@ def conservative_stress(block: Any, i: int, stretches: Vector, b_e: Tensor, J: A
 
 
 def incompressible_stress(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Tensor:
-    """The same of an incompressible body, whose pressure is found elsewhere."""
+    """Return the same stress of an incompressible body, without its pressure."""
     return _with_interface(block, i, stretches, extra_stress(b_e, 1.0, *solid(block, i)))
 
 
@@ -38,14 +38,14 @@ def _with_interface(block: Any, i: int, stretches: Vector, tau: Tensor) -> Tenso
 
 
 def solid_elasticity(block: Any, i: int, stretches: Vector, b_e: Tensor) -> Elasticity:
-    """The solid's elasticity."""
+    """Return the elasticity of the solid."""
     J = stretches[0] * stretches[1] * stretches[2]
     squares = (b_e[0], b_e[4], b_e[8])
     return elasticity(squares, J, *solid(block, i), block[at.tension * LANES + i])
 
 
 def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
-    """The same without resistance to dilation, but for a pressure."""
+    """Return the same elasticity without resistance to dilation."""
     mu, _, k = solid(block, i)
     squares = (b_e[0], b_e[4], b_e[8])
     return extra_elasticity(squares, 1.0, mu, 0.0, k, block[at.tension * LANES + i])

@@ -20,7 +20,7 @@ RECORD = np.dtype([("id", "i8"), *((name, v.dtype, v.shape) for name, v in VARIA
 
 
 def pack(p: Particles, rows: Rows, ids: Rows) -> NDArray[Any]:
-    """Records of the particles in some rows.
+    """Return records of the particles in some rows.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def pack(p: Particles, rows: Rows, ids: Rows) -> NDArray[Any]:
 
 
 def unpack(records: NDArray[Any]) -> tuple[Particles, Rows]:
-    """The particles of records, and their numbers in the whole cloud."""
+    """Return the particles of records, and their numbers in the whole cloud."""
     return Particles(*(records[name].copy() for name in Particles._fields)), records["id"].copy()
 
 
@@ -61,7 +61,7 @@ def plan_exchange(active: Sequence[int]) -> NDArray[np.int64] | None:
     plan = np.zeros((n, n), dtype=np.int64)
     surplus = np.asarray(active) - even
     givers, takers = np.flatnonzero(surplus > 0), np.flatnonzero(surplus < 0)
-    # Both sides laid out in rows of particles: what lies side by side changes hands.
+    # Surplus and deficit as rows of particles: each surplus particle goes to the deficit at the same index.
     given = np.repeat(givers, surplus[givers])
     taken = np.repeat(takers, -surplus[takers])
     np.add.at(plan, (given, taken), 1)

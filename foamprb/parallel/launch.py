@@ -15,7 +15,7 @@ _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCI
 
 
 def run_together(lead: Callable[[Ranks | None], int]) -> int:
-    """Do something with the other processes of ``mpirun``, if there are any.
+    """Call a function with the processes of ``mpirun``, if there are several.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     Raises
     ------
     InputError
-        On the first process, if mpi4py or MPI is missing: one message is enough.
+        On the first process only, if mpi4py or MPI is missing.
     """
     try:
         found = connect()
@@ -41,7 +41,7 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
     if found is None:
         return lead(None)
     if isinstance(found, Worker):
-        # One log is enough.
+        # Only the first process logs.
         logging.getLogger("foamprb").handlers[:] = [logging.NullHandler()]
         with caught_signals() as signals:
             return found.serve(signals)
@@ -54,7 +54,7 @@ def run_together(lead: Callable[[Ranks | None], int]) -> int:
 
 
 def connect() -> Ranks | Worker | None:
-    """Find the other processes that ``mpirun`` has started.
+    """Connect to the other processes that ``mpirun`` has started.
 
     Returns
     -------
@@ -85,5 +85,5 @@ def connect() -> Ranks | Worker | None:
 
 
 def _is_first() -> bool:
-    """Whether this process is the first that ``mpirun`` has started, as far as can be told without MPI."""
+    """Return whether this process seems the first of ``mpirun``, judged without MPI."""
     return all(os.environ.get(name, "0") == "0" for name in _RANK_VARIABLES)

@@ -70,7 +70,7 @@ class Windows:
         self.arrays[key] = np.ndarray(shape, dtype, buffer=memory)
 
     def spread(self, key: int) -> None:
-        """Bring what the first process has written into an array to all."""
+        """Copy an array from the first process to all computers."""
         self._windows[key].Sync()
         if self.leaders != self._MPI.COMM_NULL:
             flat = self.arrays[key].reshape(-1).view(np.uint8)
@@ -92,7 +92,7 @@ class Windows:
 
 
 class Publisher:
-    """Decides on the first process what is in the windows of all.
+    """Publisher of arrays, on the first process, into the windows of all.
 
     Parameters
     ----------

@@ -27,29 +27,29 @@ from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
 _LONGEST_NAP = 1e-3
-"""Seconds between two tests whether the others have come, when that takes its time."""
+"""Longest pause between two tests of a barrier, s."""
 _COLLECTIVE = ("make", "spread", "free", "distribute", "exchange", "gather")
-"""Orders in the course of which the processes wait for each other: one that fails there takes all down."""
+"""Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
 class Piece(NamedTuple):
-    """What a process has written of a cloud."""
+    """File that a process has written, and its arrays."""
 
     file: Path
     arrays: tuple[PieceArray, ...]
 
 
-class Share(NamedTuple):
-    """What a process tells of its particles."""
+class ShareState(NamedTuple):
+    """State of the particles of a process."""
 
     counts: NDArray[np.int64]
     """Number of each status."""
     outcome: Outcome = Outcome()
-    """How far they came in the steps that they were ordered to take."""
+    """Progress in the ordered steps."""
 
 
 class Answer(NamedTuple):
-    """How a process has carried out an order."""
+    """Result of an order."""
 
     value: Any
     error: Exception | None
@@ -57,7 +57,7 @@ class Answer(NamedTuple):
 
 
 class _SharedFlow(NamedTuple):
-    """A flow as the processes that did not read it know it: its kernel, and arrays in shared memory."""
+    """Flow of a process that did not read it: its kernel, and arrays in shared memory."""
 
     kernel: Callable[..., Any]
     arrays: Any
@@ -67,7 +67,7 @@ class _SharedFlow(NamedTuple):
 
 
 class Worker:
-    """A process with its share of the particles; what it is ordered to do are its methods by name.
+    """Process with its share of the particles; orders are names of its methods.
 
     Parameters
     ----------
@@ -84,14 +84,14 @@ class Worker:
         self.make, self.spread, self.free = self.windows.make, self.windows.spread, self.windows.free
         self.particles, self.ids = empty(0), np.empty(0, dtype=np.int64)
         self._whole: Particles | None = None
-        # Of each particle, whether the first process may not know its state.
+        # True for particles whose state the first process may not have.
         self._fresh = np.empty(0, dtype=bool)
         self._flow: Any = None
         self.signals: Sequence[int] = ()
-        """Those that this process has received, which grow."""
+        """Signals that this process has received; the sequence grows."""
 
     def carry_out(self, name: str, arguments: tuple[Any, ...], signals: Sequence[int]) -> Answer:
-        """Do what an order says."""
+        """Execute an order."""
         self.signals = signals
         try:
             return Answer(getattr(self, name)(*arguments), None, list(signals))
@@ -115,8 +115,8 @@ class Worker:
     def distribute(self, whole: Particles | None = None) -> None:
         """Receive a share from the first process, which has the whole: every N-th particle of N processes.
 
-        Injection models release their particles in the order of their numbers, more or less, so that each
-        process then has as many active ones as any other.
+        Injection models release particles roughly in the order of their numbers. The processes therefore have
+        similar numbers of active particles.
         """
         size = self.comm.size
         if self.rank == 0:
@@ -131,20 +131,20 @@ class Worker:
             self.particles, self.ids = unpack(self._receive(0))
         self._fresh = _live(self.particles)
 
-    def share(self) -> Share:
-        """Tell of the particles."""
+    def share(self) -> ShareState:
+        """Return the state of the particles."""
         counts = np.bincount(self.particles.status, minlength=len(Status))
-        return Share(counts)
+        return ShareState(counts)
 
     def use_flow(self, flow: bytes) -> None:
-        """Use from now on what the flow's kernels read, with places in shared memory for its arrays."""
+        """Replace the arguments of the flow's kernels, whose arrays are places in shared memory."""
         self._flow = self.windows.find(pickle.loads(flow))
 
     def exchange(self, plan: NDArray[np.int64]) -> None:
-        """Give active particles away and receive others: ``plan[i, j]`` from process i to j."""
+        """Send active particles and receive others: ``plan[i, j]`` from process i to j."""
         sent, received = plan[self.rank], plan[:, self.rank]
         active = np.flatnonzero(self.particles.status == Status.ACTIVE)
-        # Evenly spread over all: what some cost more than others is then spread as well.
+        # Evenly spread over the rows, so that costly particles are spread too.
         rows = active[np.arange(sent.sum()) * len(active) // max(sent.sum(), 1)]
         gone = np.zeros(self.particles.size, dtype=bool)
         gone[rows] = True
@@ -159,18 +159,18 @@ class Worker:
 
     def advance(
         self, step: int, steps: int, bounds: LoopLimits, stop: Callable[[], bool] | None = None
-    ) -> Share:
-        """Carry the particles through some steps, or to where ``stop``, else a signal, ends them."""
+    ) -> ShareState:
+        """Advance the particles by some steps; ``stop`` or a signal ends them early."""
         stop = stop or (lambda: bool(self.signals))
         outcome = self._tracker.advance(self._flow, self.particles, step, steps, self._threads, bounds, stop)
         return self.share()._replace(outcome=outcome)
 
     def take_rebounds(self) -> NDArray[np.float64]:
-        """The rebounds of the particles that were here when they bounced off."""
+        """Return the rebounds that happened in this process."""
         return self._tracker.take_rebounds()
 
     def gather(self) -> None:
-        """Send what may have changed since the last time to the first process."""
+        """Send the particles that may have changed to the first process."""
         rows = np.flatnonzero(self._fresh)
         changed = pack(self.particles, rows, self.ids[rows])
         if self._whole is None:
@@ -183,16 +183,16 @@ class Worker:
         self._fresh = _live(self.particles)
 
     def write(self, folder: Path, time: float, names: Mapping[str, Sequence[str]]) -> Piece | None:
-        """Write the particles into a file of their own, unless there are none and others write some.
+        """Write the particles into a piece; no-op without particles, except in the first process.
 
         Parameters
         ----------
         folder
-            The folder of the pieces of the cloud.
+            Folder of the pieces.
         time
             Time of the state, s.
         names
-            For each array of codes, what the codes 0, 1, … mean.
+            For each array of codes, the meanings of the codes 0, 1, ….
         """
         if self.rank and not len(injected(self.particles)):
             return None
@@ -201,12 +201,12 @@ class Worker:
         return Piece(file, write_snapshot(file, report(self.particles, flow, mu, time, names, self.ids)))
 
     def serve(self, signals: Sequence[int]) -> int:
-        """Carry out the first process' orders until it sends all home; return the exit status.
+        """Execute the orders of the first process until it dismisses all; return the exit status.
 
         Parameters
         ----------
         signals
-            Those that this process has received, which grow.
+            Signals that this process has received; the sequence grows.
         """
         while True:
             self.meet()
@@ -219,14 +219,14 @@ class Worker:
             self.comm.gather(answer)
 
     def meet(self) -> None:
-        """Wait for all processes without keeping a processor busy, as MPI itself would."""
+        """Wait for all processes with short pauses; MPI itself would keep the processor busy."""
         request, nap = self.comm.Ibarrier(), 1e-6
         while not request.Test():
             time.sleep(nap)
             nap = min(2.0 * nap, _LONGEST_NAP)
 
     def leave(self) -> None:
-        """Give back what was shared, and end MPI."""
+        """Free the shared memory, and finalise MPI."""
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
         self._record.Free()
@@ -243,7 +243,7 @@ class Worker:
 
 
 def piece_file(folder: Path, rank: int) -> Path:
-    """The file of a process' piece of a cloud, in the folder of its pieces."""
+    """Return the file of a process' piece of a cloud."""
     return folder / f"{rank}.vtp"
 
 

@@ -1,4 +1,4 @@
-"""Whether a run's numbers make physical sense: dimensionless groups, and a warning for each doubtful one."""
+"""Dimensionless groups of a run, and a warning for each that is out of the model's range."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from foamprb.cloud.measures import as_slice, shear_rate_at
 from foamprb.cloud.state import Particles
 
 STEADY_CAPILLARY = 0.3
-"""Largest μ_f γ̇/μ_s, about, at which a neo-Hookean sphere comes to a steady shape in uniaxial extension."""
+"""Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
 _CHUNK = 16_384
 SMALL_REYNOLDS = 0.1
-"""Largest particle Reynolds number at which Stokes flow around the particle is taken for granted."""
+"""Largest particle Reynolds number without a warning; the model assumes Stokes flow around the particle."""
 
 
 class Groups(NamedTuple):
-    """Ranges (smallest, largest) over the particles of one injection model, at their release."""
+    """Ranges (smallest, largest) over the particles of one injection model at their release."""
 
     n: int
     shear_rate: tuple[float, float]
@@ -38,13 +38,13 @@ class Groups(NamedTuple):
     size: tuple[float, float]
     """d over the size of the cell at release."""
     extending: float = 0.0
-    """Share of the flow in which the softest has no steady shape if it stays."""
+    """Share of the flow in which the softest particle has no steady shape."""
 
 
 def groups(cloud: Cloud, injector: int) -> Groups:
     """Return the dimensionless groups of the particles that one injection model releases."""
     rows = np.flatnonzero(cloud.particles.injector == injector)
-    # A few at a time: copies of all would need as much memory again.
+    # Part by part: a copy of all particles would double the memory.
     chosen = (as_slice(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK))
     parts = [_ranges(cloud, cloud.particles.take(some)) for some in chosen]
     found = np.array(parts) if parts else np.full((1, 6, 2), np.nan)
@@ -57,7 +57,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
 
 
 def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
-    """The ranges of :class:`Groups`, of some particles."""
+    """Return the ranges of :class:`Groups` for some particles."""
     medium = cloud.medium
     gamma = shear_rate_at(cloud.flow, p, cloud.time)
     tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)
@@ -77,10 +77,10 @@ def _range(values: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def _extending(cloud: Cloud, rows: NDArray[np.intp]) -> float:
-    """Share of the flow's nodes where the softest particle's capillary number of extension is too large.
+    """Return the share of the nodes where the softest particle's capillary number of extension is too large.
 
-    It is that of the uniaxial extension that stretches as fast as the flow there, the rate of which is the
-    largest real part of the eigenvalues of ∇u; in simple shear, where every body has a steady shape, zero.
+    The rate of extension is the largest real part of the eigenvalues of ∇u. It is zero in simple shear, where
+    every body has a steady shape.
     """
     gradient = cloud.flow.at_nodes()[2]
     gradient = gradient[:: max(1, len(gradient) // _MOST_NODES)]
@@ -99,7 +99,7 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
     g, integrator
         The groups, and the integrator of the shape.
     where
-        What the sentences begin with, e.g. ``injection model inlet``.
+        Beginning of the sentences, e.g. ``injection model inlet``.
     """
     found = []
     scheme = INTEGRATORS[integrator]

@@ -119,7 +119,7 @@ def prepare(
         An OpenFOAM case folder.
     time
         Time of a steady flow: a value, or ``"latestTime"``, the default. Times of a transient flow, as
-        :func:`foamprb.flow.read.case.select_times` has them; all by default.
+        :func:`foamprb.flow.read.case.select_times` selects them; all by default.
     dictionary
         Settings instead of ``constant/softCloudProperties``.
     threads
@@ -178,9 +178,9 @@ def _compile(settings: Settings, rotating: bool) -> Compilation:
 
 
 def likely_integrator(settings: Settings) -> str:
-    """What ``auto`` will choose, as far as can be told before the flow is read.
+    """Return the likely choice of ``auto`` before the flow is read.
 
-    The shear rate is the reference, else such that Δt is a tenth of its inverse, as users choose it.
+    The shear rate is the reference; without it, a tenth of 1/Δt, a usual choice of Δt.
     """
     numbers = [0.0]
     for injection in settings.injections:
@@ -233,7 +233,7 @@ def _read_flow(settings: Settings, time: float | str | None, source: FlowSource)
 
 
 def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables: str = "csv") -> Job:
-    """Put the particles that the settings ask for into a flow.
+    """Place the particles of the settings in a flow.
 
     Raises
     ------
@@ -303,7 +303,7 @@ def _start(settings: Settings, flow: Flow) -> float:
 
 
 def _steps(solution: Solution, start: float) -> int:
-    """Number of steps from the start to the end of the run."""
+    """Return the number of steps from the start to the end of the run."""
     return max(1, round((solution.endTime - start) / solution.deltaT))
 
 
@@ -318,7 +318,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         raise InputError(f"injection model {injection.name}: {error}") from error
 
     def values(own: NDArray[np.float64] | None, quantity: float | Distribution, key: str) -> Any:
-        """What the file of positions gives, or else what is drawn."""
+        """Return the values in the file of positions, or random ones."""
         return draw(quantity, p.size, _random(injection.name, key)) if own is None else own
 
     p.R[:] = 0.5 * values(given.get("d"), injection.sizeDistribution or 0.0, "size")
@@ -344,7 +344,7 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
 
 
 def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArray[np.float64]:
-    """λ_s, Pa, of particles with the shear moduli μ_s, Pa, and the largest viscous stress around them, Pa."""
+    """Return λ_s, Pa, for shear moduli μ_s, Pa, and the largest viscous stress around the particles, Pa."""
     if solid.poissonsRatio is not None:
         return np.asarray(lame_parameter(mu, solid.poissonsRatio))
     bulk = solid.bulkModulus
@@ -354,5 +354,5 @@ def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArr
 
 
 def _random(*names: str) -> np.random.Generator:
-    """Random numbers of an injection model or of one of its quantities; they depend on the names alone."""
+    """Return a generator for an injection model or one of its quantities; its seed depends on the names alone."""
     return np.random.default_rng([zlib.crc32(name.encode()) for name in names])

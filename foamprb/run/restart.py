@@ -33,7 +33,7 @@ log = logging.getLogger("foamprb")
 Sums: TypeAlias = list[list[float]]
 Fingerprint: TypeAlias = dict[str, str | Sums]
 
-# Of the settings: what is no physics, and what the cloud holds in the form in which it acts.
+# Settings without effect on the physics, and settings that the cloud's own fields represent.
 _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching")
 _PARTICLES = "particles at the start"
 _CLOUD, _FUNCTIONS = "particles/", "functions/"
@@ -43,7 +43,7 @@ _CHUNK = 1 << 18
 
 
 def fingerprint(settings: Settings, cloud: Cloud) -> Fingerprint:
-    """Return what decides the paths of a cloud, before its first step: texts and sums of arrays, by name."""
+    """Return texts and sums of arrays, by name, that determine the paths of a cloud before its first step."""
     texts: dict[str, Any] = {"solution/deltaT": cloud.dt}
     for field in fields(settings):
         if field.name not in _LEFT_OUT:
@@ -217,7 +217,7 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _sums(values: NDArray[Any], weights: NDArray[np.float64]) -> Sums:
-    """Return what tells an array from another: a checksum of integers, else sums of each column.
+    """Return a fingerprint of an array: a checksum of integers, or sums of each column.
 
     The last bits of a flow may depend on the processor on which it was reconstructed.
 
