@@ -354,5 +354,5 @@ def _lame(solid: Solid, mu: NDArray[np.float64], viscous_stress: float) -> NDArr
 
 
 def _random(*names: str) -> np.random.Generator:
-    """Return a generator for an injection model or one of its quantities; its seed depends on the names alone."""
+    """Return a generator whose seed depends on the names alone: of an injection model and a quantity."""
     return np.random.default_rng([zlib.crc32(name.encode()) for name in names])
