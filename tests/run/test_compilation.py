@@ -81,7 +81,8 @@ def test_no_process_outlives_an_error_in_the_input(two_processors, tmp_path, mon
         return started[0]
 
     monkeypatch.setattr("foamprb.run.compilation.subprocess.Popen", start)
-    shutil.copytree(PIPE, tmp_path / "pipe", ignore=shutil.ignore_patterns("postProcessing", "249"))
+    shutil.copytree(PIPE, tmp_path / "pipe", ignore=shutil.ignore_patterns("postProcessing"))
+    (tmp_path / "pipe/249/U.gz").write_bytes(b"no field")
     assert main(["run", "-case", str(tmp_path / "pipe")]) == 1
     assert "--> foamprb Error" in capsys.readouterr().err
     assert started[0].returncode is not None

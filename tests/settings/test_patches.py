@@ -53,7 +53,7 @@ def test_patches_of_a_constraint_type() -> None:
     for kind in ("cyclic", "cyclicAMI", "wedge"):
         pair = [patch("left", kind, "right"), patch("right", kind, "left")]
         assert match_patches([], pair) == [Cyclic()] * 2
-    with pytest.raises(InputError, match="the cyclic patch 'left' names no neighbourPatch"):
+    with pytest.raises(InputError, match="the cyclic patch 'left' has no neighbourPatch"):
         match_patches([], [patch("left", "cyclic")])
     for kind in ("cyclicAMI", "cyclicACMI"):
         with pytest.raises(InputError, match=f"cannot pass through 'left', a patch of type {kind}"):
@@ -80,7 +80,7 @@ def test_standard_wall_interaction(read: Reader) -> None:
     ]
     bounce = Rebound(e=0.97, mu=0.09)
     assert match_patches(settings.patches, patches) == [Escape(), bounce, Mirror(), Escape()]
-    with pytest.raises(InputError, match="names no neighbourPatch"):
+    with pytest.raises(InputError, match="has no neighbourPatch"):
         match_patches(settings.patches, [patch("left", "cyclic")])
 
 
