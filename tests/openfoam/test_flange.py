@@ -82,7 +82,7 @@ def test_tracks_lie_in_the_cells_that_vtk_sees_but_for_their_ends_on_openings(ca
     for _ in range(40):
         points.append(p.x[p.status == Status.ACTIVE])
         cloud.advance(50)
-    assert cloud.counts()[Status.FAILED] == 0
+    assert cloud.particles.counts()[Status.FAILED] == 0
     points.append(p.x[p.status != Status.ESCAPED])
     assert [x for x in np.concatenate(points) if locator.FindCell(x) < 0] == []
     # On a face a point is in a cell or not, as its last bits will, or as VTK cuts the face into triangles.

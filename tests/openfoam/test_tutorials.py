@@ -28,6 +28,6 @@ def test_particles_take_as_many_steps_as_openfoams(case, Ca):
     execute(job, "startTime")
     p = job.cloud.particles
     active = p.status == Status.ACTIVE
-    assert job.cloud.counts()[Status.FAILED] == 0
+    assert job.cloud.particles.counts()[Status.FAILED] == 0
     assert active.sum() > 0.9 * p.size
     assert p.substeps[active].mean() < 1.2
