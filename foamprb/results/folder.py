@@ -94,11 +94,15 @@ class ResultsFolder:
         regions = {folder.region for folder in found}
         if region and region not in regions:
             raise InputError(f"{case}: no results of region '{region}'. {suggestion(region, regions - {''})}")
-        if region or "" in regions:
+        if region:
             found = [folder for folder in found if folder.region == region]
         clouds = {folder.cloud for folder in found}
         if cloud is not None and cloud not in clouds:
             raise InputError(f"{case}: no results of a cloud '{cloud}'. {suggestion(cloud, clouds)}")
+        if cloud is not None:
+            found = [folder for folder in found if folder.cloud == cloud]
+        found = [folder for folder in found if folder.region == region] or found
+        clouds = {folder.cloud for folder in found}
         name = cloud or DEFAULT_CLOUD
         if name in clouds:
             found = [folder for folder in found if folder.cloud == name]

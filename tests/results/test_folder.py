@@ -28,6 +28,7 @@ def written(case, *places):
         (["air/softCloud"], {"region": "air"}, "air/softCloud"),
         (["air/cells"], {"cloud": "cells"}, "air/cells"),
         (["softCloud", "air/softCloud"], {}, "softCloud"),
+        (["softCloud", "air/cells"], {"cloud": "cells"}, "air/cells"),
         (["softCloud", "air/softCloud"], {"region": "air"}, "air/softCloud"),
         (["air/softCloud", "water/softCloud"], {"region": "water"}, "water/softCloud"),
     ],
