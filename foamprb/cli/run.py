@@ -57,7 +57,7 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         precompile=ranks is None and not arguments.dry_run,
         tables=arguments.tables,
     )
-    log_description(job.description)
+    log_description(job)
     if arguments.dry_run:
         log_dry_run(job)
         return 0

@@ -105,9 +105,9 @@ def compile_run(cloud: Cloud, compilation: Compilation | None, alone: bool) -> N
     context(first, cloud.flow, cloud.medium.mu, cloud.time)
     if compilation is not None:
         compilation.wait()
+    if not cloud.tracker.compiled:
+        log_compiling()
     if alone:
-        if not cloud.tracker.compiled:
-            log_compiling()
         cloud.tracker.compile(arguments)
 
 

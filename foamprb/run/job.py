@@ -152,8 +152,9 @@ def prepare(
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
         for note in flow.notes:
-            # Caveats are warnings of the description.
-            if not isinstance(note, Caveat):
+            if isinstance(note, Caveat):
+                log.warning("%s", note)
+            else:
                 log.info("    %s", note)
         return replace(assemble(settings, flow, threads, tables), compilation=compilation)
     except BaseException:

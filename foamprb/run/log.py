@@ -5,9 +5,8 @@ from __future__ import annotations
 import logging
 import math
 import time as clock
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
+from foamprb.flow.base import Caveat
 from foamprb.results.folder import FAILURES
 from foamprb.run.job import Job
 
@@ -37,8 +37,9 @@ _BETWEEN_LINES = 30.0
 """Time between two lines about the progress, s."""
 
 
-def log_description(description: Mapping[str, Any]) -> None:
-    """Log a run's selections and their numbers, as :func:`foamprb.run.description.describe` returns them."""
+def log_description(job: Job) -> None:
+    """Log the selections of a run, their numbers and warnings, from its description."""
+    description = job.description
     fluid, flow, models = (description[key] for key in ("fluid", "flow", "models"))
     log.info(
         "Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid["nu"], fluid["mu"], fluid["rho"]
@@ -77,8 +78,11 @@ def log_description(description: Mapping[str, Any]) -> None:
                 _log_range(name, injection[key])
     for name, kind in description["functions"].items():
         log.info("Selecting cloudFunction %s: %s", name, kind)
+    # Caveats were logged when the flow was read.
+    caveats = {str(note) for note in job.cloud.flow.notes if isinstance(note, Caveat)}
     for warning in description["warnings"]:
-        log.warning("%s", warning)
+        if warning not in caveats:
+            log.warning("%s", warning)
 
 
 def _log_range(name: str, ends: Sequence[float | None]) -> None:

@@ -100,7 +100,8 @@ def execute_until_signal(job: Job, start_from: StartFrom | None = None, ranks: R
         See :func:`execute`.
     """
     # Until the loop is compiled, signals act at once.
-    compile_run(job.cloud, job.compilation, alone=ranks is None)
+    if ranks is None:
+        compile_run(job.cloud, job.compilation, alone=True)
     with caught_signals() as caught:
         received = caught if ranks is None else ranks.signals
         try:

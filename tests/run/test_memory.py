@@ -26,7 +26,7 @@ def peak_of_run(case):
     # From here on the peak counts.
     Path("/proc/self/clear_refs").write_text("5")
     job = prepare(case, threads=1)
-    log_description(job.description)
+    log_description(job)
     execute(job, "startTime")
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(1024 * int(line.split()[1]) for line in lines if line.startswith("VmHWM"))

@@ -9,7 +9,11 @@ import shutil
 import pytest
 from paths import PIPE
 
+from foamprb import prepare
 from foamprb.cli import main
+from foamprb.flow.base import Caveat
+from foamprb.run import job as run_job
+from foamprb.run import log as run_log
 from foamprb.run.description import renew_record
 
 
@@ -73,3 +77,21 @@ def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):
     warned = [line.partition(" : ")[2] for line in log.splitlines() if "foamprb Warning" in line]
     assert found["warnings"]
     assert warned[: len(found["warnings"])] == found["warnings"]
+
+
+def test_caveat_of_the_flow_is_logged_once_and_recorded(case, monkeypatch):
+    read, logged = run_job.read_flow, []
+
+    def read_doubtful(*arguments):
+        flow = read(*arguments)
+        flow.notes = (*flow.notes, Caveat("The flow is doubtful."))
+        return flow
+
+    monkeypatch.setattr(run_job, "read_flow", read_doubtful)
+    for module in (run_job, run_log):
+        monkeypatch.setattr(module.log, "warning", lambda text, *words: logged.append(text % words))
+    job = prepare(case)
+    assert logged == ["The flow is doubtful."]
+    run_log.log_description(job)
+    assert logged.count("The flow is doubtful.") == 1
+    assert job.description["warnings"].count("The flow is doubtful.") == 1
