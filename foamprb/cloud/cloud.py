@@ -189,7 +189,7 @@ class Cloud:
         return self.flow_arrays(), steps if ready > steps else max(1, int(ready))
 
     def take_rebounds(self) -> NDArray[np.float64]:
-        """Return the rebounds since the last call, if the models have ``rebounds``, and forget them.
+        """Return the rebounds and passages since the last call, if the models have ``rebounds``.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""Contacts with walls: records of rebounds, and the normals of walls where particles ended.
+"""Contacts with patches: records of rebounds and passages, and the normals of walls where particles ended.
 
 The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled.
 """
@@ -6,7 +6,7 @@ The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,14 +19,17 @@ from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import walk_free as walk
 
-__all__ = ["CROWDED", "Rebounds", "contact_normals", "in_order", "note", "rebounds_of"]
+__all__ = ["CROWDED", "Rebounds", "contact_normals", "in_order", "note", "passages", "rebounds_of"]
 
 CROWDED = 2
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: the buffer of rebounds is full."""
 
 
 class Rebounds(NamedTuple):
-    """Records of n rebounds, in the order of their times."""
+    """Records of n rebounds, in the order of their times.
+
+    A passage of a coupled patch has two records, of the state before and of the state after it.
+    """
 
     number: NDArray[np.int64]
     """Numbers of the particles in the whole cloud, (n,)."""
@@ -45,15 +48,19 @@ class Rebounds(NamedTuple):
 
 
 def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:
-    """Record a rebound of the particle in lane i, before its velocity changes.
+    """Record the state of the particle in lane i at a patch; no-op without a buffer.
+
+    A rebound is recorded before the velocity changes, a passage of a coupled patch before and after it.
 
     Parameters
     ----------
     t, x
         Time, s, and position of its centre, m.
     n
-        Unit normal of the wall, into the fluid.
+        Unit normal of the wall, into the fluid; 0 at a coupled patch.
     """
+    if s.rebounds.shape[0] == 0:
+        return
     k = s.noted[0]
     if k >= s.rebounds.shape[0]:
         s.outgrown[0] = CROWDED
@@ -81,6 +88,19 @@ def rebounds_of(rows: NDArray[np.float64]) -> Rebounds:
     return Rebounds(
         whole[:, 0], whole[:, 1], rows[:, 2], rows[:, 3:6], rows[:, 6:9], rows[:, 9:12], rows[:, 12:]
     )
+
+
+def passages(rows: NDArray[np.float64], patches: Collection[int]) -> Iterator[tuple[Rebounds, Rebounds]]:
+    """Yield the passages of coupled patches in rows of :func:`note`: the states before, and those after.
+
+    Each part has at most one passage of a particle; the parts of a particle follow in time.
+    """
+    rows = rows[np.isin(rows[:, 1], list(patches))]
+    rows = rows[np.argsort(rows[:, 0], kind="stable")]
+    number = rows[:, 0]
+    turn = np.arange(len(rows)) - np.searchsorted(number, number)
+    for k in range(0, int(turn.max(initial=-1)) + 1, 2):
+        yield rebounds_of(rows[turn == k]), rebounds_of(rows[turn == k + 1])
 
 
 def contact_normals(flow: Any, p: Particles, rows: NDArray[Any], normals: NDArray[Any]) -> None:

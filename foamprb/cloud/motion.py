@@ -30,6 +30,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
+from foamprb.cloud.contact import note
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Status
@@ -58,6 +59,7 @@ _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
 _HALVINGS = 40
+_NO_NORMAL = (0.0, 0.0, 0.0)
 
 
 class PatchTable(NamedTuple):
@@ -97,10 +99,6 @@ def turn_along(_block: Any, _i: int, _turn: Tensor) -> None:
 
 def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
     """No-op: no further quantity of lane i is reflected by a wall of normal n."""
-
-
-def record_rebound(_s: Scratch, _i: int, _patch: int, _t: float, _x: Vector, _n: Vector) -> None:
-    """No-op: rebounds are not recorded."""
 
 
 def interrupted(s: Scratch) -> bool:
@@ -210,11 +208,12 @@ def clearance_of(flow: Any, s: Scratch, i: int) -> tuple[float, int, int]:
 
 
 def beyond(
-    flow: Any, s: Scratch, i: int, code: int, triangle: int, x0: Vector, x1: Vector
+    flow: Any, s: Scratch, i: int, patch: int, code: int, triangle: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, Vector, Tensor, Vector]:
     """Move the particle in lane i to the other side of a mirror or a coupled patch.
 
-    It meets the patch at x0 on its way to x1. All its vectors and tensors are mirrored or turned.
+    It meets the patch at x0 on its way to x1, at the time t. All its vectors and tensors are mirrored or
+    turned. At a coupled patch the states before and after are recorded.
 
     Returns
     -------
@@ -239,6 +238,7 @@ def beyond(
         block[at.mirrored * LANES + i] = 1.0
         Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
     else:
+        note(s, i, patch, t, x0, _NO_NORMAL)
         host, y0, turn = cross(flow, triangle, x0)
         s.host[i] = host
         Q = dot(Q, transpose(turn))
@@ -248,6 +248,8 @@ def beyond(
     block[at.renewed * LANES + i] = 1.0
     store3(block, at.v, i, dot_vector(turn, v))
     turn_along(block, i, turn)
+    if code != MIRROR:
+        note(s, i, patch, t, y0, _NO_NORMAL)
     m = dot_vector(turn, x0)
     shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
     return y0, moved(turn, shift, x1), turn, shift
@@ -332,11 +334,12 @@ def move_centre(
         if bounces > _MAX_BOUNCES:
             break
         if code in (MIRROR, CYCLIC):
-            x0, x1, turn, shift = beyond(flow, s, i, code, triangle, x0, x1)
+            t = block[at.t * LANES + i] + spent
+            x0, x1, turn, shift = beyond(flow, s, i, patch, code, triangle, t, x0, x1)
             start, ahead = moved(turn, shift, start), s.host[i]
             continue
         n = normal(flow, triangle, x0)
-        record_rebound(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
+        note(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
         v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
         store3(block, at.v, i, v)
         bounce_along(block, i, n)
@@ -346,9 +349,9 @@ def move_centre(
 
 
 def move_back(
-    flow: Any, patches: PatchTable, s: Scratch, i: int, x0: Vector, x1: Vector
+    flow: Any, patches: PatchTable, s: Scratch, i: int, t: float, x0: Vector, x1: Vector
 ) -> tuple[Vector, bool]:
-    """Move the centre from x0 back to x1, through mirrors and coupled patches.
+    """Move the centre from x0 back to x1 at the time t, through mirrors and coupled patches.
 
     A patch of another kind that lies between, by round-off, does not stop it. Returns the place, and whether
     the centre went there.
@@ -363,7 +366,7 @@ def move_back(
         code = patches.code[patch]
         if code not in (MIRROR, CYCLIC):
             return x1, True
-        x0, x1, _, _ = beyond(flow, s, i, code, triangle, between(x0, x1, fraction), x1)
+        x0, x1, _, _ = beyond(flow, s, i, patch, code, triangle, t, between(x0, x1, fraction), x1)
     return x0, True
 
 
@@ -390,7 +393,7 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: 
     if before > 0.0:
         f = before / (before - after) if before < math.inf else 1.0
     if patches.code[patch] == STICK:
-        contact, _ = move_back(flow, patches, s, i, x, between(start, x, f))
+        contact, _ = move_back(flow, patches, s, i, t + spent, x, between(start, x, f))
         store3(block, at.x, i, contact)
         settle(s, i, patch, STICK)
         return f
@@ -398,14 +401,14 @@ def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: 
     v = load3(block, at.v, i)
     # A body that rests on the wall or slides along it has bounced before.
     if before > _TOUCH * block[at.R * LANES + i]:
-        record_rebound(s, i, patch, t + f * spent, between(start, x, f), n)
+        note(s, i, patch, t + f * spent, between(start, x, f), n)
     store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
     bounce_along(block, i, n)
     # The motion towards the wall after the contact is undone: else a body at rest on the wall would sink in.
     beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
     back = -(1.0 - f) * min(beyond, 0.0)
     place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
-    place, went = move_back(flow, patches, s, i, x, place)
+    place, went = move_back(flow, patches, s, i, t + spent, x, place)
     if went:
         store3(block, at.x, i, place)
         block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
@@ -452,5 +455,5 @@ def longest_of(p: Particles) -> float:
     return longest
 
 
-RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, last_inside, move_back, meets)
+RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, note, last_inside, move_back, meets)
 """Long functions that few steps call, compiled as separate functions to keep the loops short."""

@@ -24,7 +24,7 @@ from foamprb.body.rosenbrock import (
 from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.block import Medium, Scratch, new_scratch
-from foamprb.cloud.contact import CROWDED, in_order, note
+from foamprb.cloud.contact import CROWDED, in_order
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.base import track_share
@@ -98,7 +98,7 @@ class Models:
     surroundings: tuple[Surrounding, ...] = ()
     """Models that change the fluid at a particle, in this order."""
     rebounds: bool = False
-    """Whether rebounds are recorded (:meth:`Tracker.take_rebounds`)."""
+    """Whether rebounds, and passages of coupled patches, are recorded (:meth:`Tracker.take_rebounds`)."""
     stride: int = 1
     """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt. No step
     goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
@@ -151,8 +151,6 @@ class Tracker:
             bindings["strain_by"] = strain_in_frame
         if tense:
             bindings["interface"] = laplace_stress
-        if models.rebounds:
-            bindings["record_rebound"] = note
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
         bindings["prefetch_rows"] = layout.prefetch
@@ -239,9 +237,11 @@ class Tracker:
         arguments |= {"patches": self.table, "medium": self.medium, "s": scratch, "block": scratch.block}
         arguments |= {"M": scratch.matrix}
         arguments |= {"p": empty(0), "members": np.empty(0, dtype=np.int64)}
-        arguments |= dict.fromkeys(("i", "code", "triangle", "ahead", "step", "last", "kind"), np.int64(0))
+        arguments |= dict.fromkeys(
+            ("i", "patch", "code", "triangle", "ahead", "step", "last", "kind"), np.int64(0)
+        )
         arguments |= dict.fromkeys(("goal", "x0", "x1"), vector)
-        arguments |= dict.fromkeys(("tolerance", "allowed", "t_end", "h", "dt", "start"), 0.0)
+        arguments |= dict.fromkeys(("tolerance", "allowed", "t", "t_end", "h", "dt", "start"), 0.0)
         arguments |= {"held": False}
         compile_part(function, arguments, self.bindings, self.separate)
 
@@ -327,7 +327,7 @@ class Tracker:
         return outcome
 
     def take_rebounds(self) -> NDArray[np.float64]:
-        """Return the rebounds since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
+        """Return the records since the last call, as :func:`foamprb.cloud.contact.in_order` does."""
         found, self.rebounds = self.rebounds, []
         return in_order(found)
 

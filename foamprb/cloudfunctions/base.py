@@ -8,7 +8,7 @@ to the run, so that a checkpoint can save it. A new function is one file with su
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeAlias
@@ -17,7 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.contact import Rebounds, passages
 from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts
+from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Particles, Status
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
 from foamprb.results.tables import Column
@@ -34,6 +36,8 @@ __all__ = [
     "columns",
     "masses",
     "names_of",
+    "store",
+    "taylor_of",
 ]
 
 Rows: TypeAlias = NDArray[np.int64]
@@ -62,6 +66,10 @@ class ObservedCloud:
     def time(self) -> float:
         """Time of the cloud, s."""
         return self.cloud.time
+
+    def passages(self, rows: NDArray[np.float64]) -> Iterator[tuple[Rebounds, Rebounds]]:
+        """Yield the passages of coupled patches among records, see :func:`foamprb.cloud.contact.passages`."""
+        return passages(rows, [k for k, i in enumerate(self.cloud.interactions) if i.code == CYCLIC])
 
     def contexts(self, rows: Rows) -> Iterator[Context]:
         """Yield the arguments of the measures for particles of any status.
@@ -111,12 +119,15 @@ class CloudFunction:
         """Write the data into the function's own folder, at each write time."""
         raise NotImplementedError
 
-    def needs_rebounds(self, bouncing: Collection[str] | None) -> bool:  # noqa: ARG002
-        """Return whether it needs the rebounds from these patches; None if they are not known yet."""
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
+        """Return whether it needs the records of rebounds or passages, by the interactions of the patches."""
         return False
 
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
-        """Record rebounds, which :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` returned."""
+        """Record rebounds and passages, which :meth:`foamprb.cloud.cloud.Cloud.take_rebounds` returned.
+
+        The next sample follows.
+        """
 
 
 @dataclass(frozen=True)
@@ -135,7 +146,7 @@ class SampledFunction(CloudFunction):
         raise NotImplementedError
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
-        """Add a sample: ``memory`` has the values and times ``t`` of the last, ``now`` the present values.
+        """Add a sample: ``memory`` has the values and times ``t`` of the last, ``now`` those of the present.
 
         It may change ``now``, which is stored afterwards.
         """
@@ -152,10 +163,15 @@ class SampledFunction(CloudFunction):
         """Add a sample of the particles that move, or that have ended since the last one."""
         p = cloud.particles
         rows = np.flatnonzero(~memory["closed"] & (p.status != Status.PENDING))
-        now = self.observe(cloud, rows)
+        now = {**self.observe(cloud, rows), "t": p.t[rows]}
         self.add(memory, cloud, rows, now)
-        for name, values in {**now, "t": p.t[rows], "closed": p.status[rows] > Status.ACTIVE}.items():
-            memory[name][rows] = values
+        store(memory, rows, {**now, "closed": p.status[rows] > Status.ACTIVE})
+
+
+def store(memory: Memory, rows: Rows, values: Memory) -> None:
+    """Store values of the particles of some rows."""
+    for name, array in values.items():
+        memory[name][rows] = array
 
 
 def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:
@@ -163,6 +179,12 @@ def append(memory: Memory, name: str, lines: Any) -> NDArray[np.float64]:
     table = memory[name]
     memory[name] = np.concatenate([table, np.reshape(lines, (-1, table.shape[1]))])
     return memory[name]
+
+
+def taylor_of(cloud: ObservedCloud, rows: Rows, F: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return Taylor's D of particles with the deformation gradients F, (n, 9)."""
+    p = cloud.particles.take(rows)._replace(F=np.ascontiguousarray(F))
+    return cloud.collect_of(p, MEASURES["taylorDeformation"].value)[0]
 
 
 def masses(p: Particles, rows: Rows) -> NDArray[np.float64]:

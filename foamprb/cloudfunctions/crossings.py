@@ -1,16 +1,18 @@
-"""Where and when particles cross a plane between two samples."""
+"""Place and time at which particles cross a plane between two samples."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.state import Particles
-from foamprb.cloudfunctions.base import Memory, Rows
+from foamprb.cloud.contact import Rebounds
+from foamprb.cloud.patches import CYCLIC, Interaction
+from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, store
 
-__all__ = ["Crossings", "crossings"]
+__all__ = ["Crossings", "PlaneFunction", "crossings"]
 
 Floats = NDArray[np.float64]
 
@@ -32,29 +34,55 @@ class Crossings(NamedTuple):
     """1 along the normal, −1 against it, (n,)."""
 
 
-def crossings(memory: Memory, p: Particles, rows: Rows, origin: Any, normal: Any) -> Crossings:
+class PlaneFunction(SampledFunction):
+    """Cloud function that finds the particles that cross a plane.
+
+    A passage of a coupled patch is no crossing: the path ends before it and begins anew after it.
+    """
+
+    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
+        """Return positions, velocities and shapes."""
+        p = cloud.particles
+        return {"x": p.x[rows], "v": p.v[rows], "F": p.F[rows]}
+
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
+        """Return whether there are coupled patches."""
+        return any(interaction.code == CYCLIC for interaction in interactions.values())
+
+    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Add a sample before each passage, and store the one after it."""
+        for before, after in cloud.passages(rows):
+            self.add(memory, cloud, before.number, _sample(before))
+            store(memory, after.number, _sample(after))
+
+
+def _sample(met: Rebounds) -> Memory:
+    return {"t": met.t, "x": met.x, "v": met.v, "F": met.F}
+
+
+def crossings(memory: Memory, now: Memory, rows: Rows, origin: Any, normal: Any) -> Crossings:
     """Find the particles that have changed sides of a plane since the last sample.
 
     Parameters
     ----------
     memory
         ``x``, ``v`` and ``t`` of all particles at the last sample.
-    p, rows
-        The particles now, and the rows to be tested.
+    now, rows
+        The same of the particles to be tested now, and their rows.
     origin, normal
         A point of the plane, m, and its unit normal.
 
     Place and time follow from the cubic through positions and velocities at both samples.
     """
     e = np.asarray(normal)
-    heights = [(x - origin) @ e for x in (memory["x"][rows], p.x[rows])]
+    heights = [(x - origin) @ e for x in (memory["x"][rows], now["x"])]
     among = (heights[0] < 0.0) != (heights[1] < 0.0)
     at = rows[among]
-    h = p.t[at] - memory["t"][at]
-    before = memory["x"][at]
+    h = now["t"][among] - memory["t"][at]
+    before, after = memory["x"][at], now["x"][among]
     # Particles without a step have no velocity.
-    way = np.where(np.isfinite(memory["v"][at]), h[:, None] * memory["v"][at], p.x[at] - before)
-    ends = [(before, way), (p.x[at], h[:, None] * p.v[at])]
+    way = np.where(np.isfinite(memory["v"][at]), h[:, None] * memory["v"][at], after - before)
+    ends = [(before, way), (after, h[:, None] * now["v"][among])]
     s = _root(*((x - origin) @ e for x in (ends[0][0], ends[1][0])), *(v @ e for _, v in ends))
     x = _hermite(s[:, None], ends[0][0], ends[1][0], ends[0][1], ends[1][1])
     sense = np.where(heights[1][among] < 0.0, -1.0, 1.0)

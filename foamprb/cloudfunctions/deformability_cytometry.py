@@ -15,13 +15,12 @@ from foamprb.cloudfunctions.base import (
     Memory,
     ObservedCloud,
     Rows,
-    SampledFunction,
     SampleInterval,
     append,
     columns,
     names_of,
 )
-from foamprb.cloudfunctions.crossings import crossings
+from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
 from foamprb.dictionary.constraints import Meaning, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
@@ -71,7 +70,7 @@ def outline(B: Floats, view: Floats) -> Outline:
 
 
 @dataclass(frozen=True)
-class DeformabilityCytometry(SampledFunction):
+class DeformabilityCytometry(PlaneFunction):
     """Outline in a camera of each particle that crosses a plane: ``cytometry.csv``.
 
     Area A and perimeter P of the shadow along ``view``, its semi-axes and the deformation 1 − 2√(πA)/P, at
@@ -89,21 +88,16 @@ class DeformabilityCytometry(SampledFunction):
             if not any(getattr(self, name)):
                 raise InputError(f"has a {name} (0 0 0)")
 
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return positions, velocities and shapes."""
-        p = cloud.particles
-        return {"x": p.x[rows], "v": p.v[rows], "F": p.F[rows]}
-
     def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return an empty table."""
         return {"seen": np.empty((0, 11))}
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
-        found = crossings(memory, p, rows, np.array(self.origin), _unit(self.normal))
+        found = crossings(memory, now, rows, np.array(self.origin), _unit(self.normal))
         at, s = found.rows, found.share[:, None]
-        F = ((1.0 - s) * memory["F"][at] + s * p.F[at]).reshape(-1, 3, 3)
+        F = ((1.0 - s) * memory["F"][at] + s * now["F"][found.among]).reshape(-1, 3, 3)
         seen = outline(p.R[at, None, None] ** 2 * F @ F.transpose(0, 2, 1), _unit(self.view))
         new = np.column_stack(
             [

@@ -137,9 +137,9 @@ class Haemolysis(SampledFunction):
         """Return integrals of zero and an empty table."""
         return {"dose": np.zeros(cloud.particles.size), "history": np.empty((0, 4))}
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
         """Add the time since the last sample to the integrals."""
-        h, before = cloud.particles.t[rows] - memory["t"][rows], memory["rate"][rows]
+        h, before = now["t"] - memory["t"][rows], memory["rate"][rows]
         # The flow is unknown at a particle that the mesh has lost.
         now["rate"] = np.where(np.isfinite(now["rate"]), now["rate"], before)
         memory["dose"][rows] += 0.5 * h * (before + now["rate"])

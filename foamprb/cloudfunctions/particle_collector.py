@@ -13,13 +13,13 @@ from foamprb.cloudfunctions.base import (
     Memory,
     ObservedCloud,
     Rows,
-    SampledFunction,
     SampleInterval,
     append,
     masses,
     names_of,
+    taylor_of,
 )
-from foamprb.cloudfunctions.crossings import crossings
+from foamprb.cloudfunctions.crossings import PlaneFunction, crossings
 from foamprb.dictionary.constraints import Meaning, Only, Positive, Vector3
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
@@ -28,7 +28,7 @@ __all__ = ["ParticleCollector"]
 
 
 @dataclass(frozen=True)
-class ParticleCollector(SampledFunction):
+class ParticleCollector(PlaneFunction):
     """Number and mass of the particles that cross a plane: ``collector.csv``; each in ``crossings.csv``.
 
     A crossing is a change of sides between two samples. Its place and time follow from the cubic through the
@@ -53,11 +53,6 @@ class ParticleCollector(SampledFunction):
         if not any(self.normal):
             raise InputError("has a normal (0 0 0)")
 
-    def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return positions, velocities and Taylor's D."""
-        p = cloud.particles
-        return {"x": p.x[rows], "v": p.v[rows], "D": cloud.measure(rows, "taylorDeformation")[0]}
-
     def initial(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return empty tables."""
         written = np.zeros(1, dtype=np.int64)
@@ -67,9 +62,10 @@ class ParticleCollector(SampledFunction):
         """Add the particles that have changed sides since the last sample."""
         p = cloud.particles
         e = np.array(self.normal) / math.hypot(*self.normal)
-        found = crossings(memory, p, rows, np.array(self.origin), e)
+        found = crossings(memory, now, rows, np.array(self.origin), e)
         at, x = found.rows, found.x
-        D = memory["D"][at] + found.share * (now["D"][found.among] - memory["D"][at])
+        before, after = (taylor_of(cloud, at, F) for F in (memory["F"][at], now["F"][found.among]))
+        D = before + found.share * (after - before)
         new = np.column_stack([at, found.time, x, found.sense, D, masses(p, at)])
         if self.radius is not None:
             aside = x - self.origin - ((x - self.origin) @ e)[:, None] * e

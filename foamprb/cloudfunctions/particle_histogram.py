@@ -72,9 +72,9 @@ class ParticleHistogram(SampledFunction):
         (D,) = cloud.measure(np.arange(n), "taylorDeformation")
         return {"maxD": D, "sumD": np.zeros(n), "sumShearRate": np.zeros(n)}
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
         """Add the time since the last sample to the integrals."""
-        h = cloud.particles.t[rows] - memory["t"][rows]
+        h = now["t"] - memory["t"][rows]
         D, rate = memory["D"][rows], memory["shearRate"][rows]
         # The flow is unknown at a particle that the mesh has lost.
         now["shearRate"] = np.where(np.isfinite(now["shearRate"]), now["shearRate"], rate)

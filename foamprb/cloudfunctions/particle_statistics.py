@@ -56,7 +56,7 @@ class ParticleStatistics(SampledFunction):
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the sums of the cells."""
         n = _mesh(cloud).n_cells
-        half = 0.5 * (cloud.particles.t[rows] - memory["t"][rows])
+        half = 0.5 * (now["t"] - memory["t"][rows])
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
         for cell, D in ((memory["cell"][rows], memory["D"][rows]), (now["cell"], now["D"])):

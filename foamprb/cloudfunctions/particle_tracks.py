@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.cloud.measures import MEASURES
+from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunction, Memory, ObservedCloud, Rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
@@ -17,7 +20,7 @@ from foamprb.results.vtk import Tracks, write_tracks
 __all__ = ["ParticleTracks"]
 
 _TRACKED = ("semiAxes", "taylorDeformation", "shearRate")
-_POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate")
+_POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate", "begins")
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,8 @@ class ParticleTracks(CloudFunction):
 
     A path begins at the release, has a point every ``trackInterval`` steps and at the write times, and ends
     with the particle. It has at most ``maxSamples`` points. At most ``maxTracks`` particles are tracked,
-    evenly spread over their numbers.
+    evenly spread over their numbers. At a coupled patch a path ends, and a further one of the same particle
+    begins at the neighbour.
     """
 
     trackInterval: Annotated[int, AtLeastOne, Meaning("steps between two points")]
@@ -50,8 +54,25 @@ class ParticleTracks(CloudFunction):
             "count": np.zeros(tracks, dtype=np.int64),
             "points": np.zeros((tracks, min(self.maxSamples, 16), len(_POINT))),
         }
-        self._append(memory, cloud, np.arange(tracks))
+        self._append(memory, np.arange(tracks), self._points(cloud, memory["row"]))
         return memory
+
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
+        """Return whether there are coupled patches."""
+        return any(interaction.code == CYCLIC for interaction in interactions.values())
+
+    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Add the points before and after each passage of a coupled patch."""
+        tracked = rows[np.isin(rows[:, 0], memory["row"])]
+        for passage in cloud.passages(tracked):
+            for met, begins in zip(passage, (0.0, 1.0), strict=True):
+                p = cloud.particles.take(met.number)._replace(F=met.F)
+                axes, D = cloud.collect_of(p, *(MEASURES[name].value for name in _TRACKED[:2]))
+                tracks = np.searchsorted(memory["row"], met.number)
+                # The flow may have changed since: the shear rate is that of the point before.
+                rate = memory["points"][tracks, memory["count"][tracks] - 1, 11]
+                points = [met.x, met.t, met.v, axes, D, rate, np.full(p.size, begins)]
+                self._append(memory, tracks, np.column_stack(points))
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
         """Add a point to the path of every particle that has moved since."""
@@ -59,32 +80,40 @@ class ParticleTracks(CloudFunction):
         last = memory["points"][np.arange(len(status)), memory["count"] - 1, 3]
         moved = cloud.particles.t[memory["row"]] > last
         tracks = np.flatnonzero(~memory["closed"] & (status != Status.PENDING) & moved)
-        self._append(memory, cloud, tracks[memory["count"][tracks] < self.maxSamples])
+        self._append(memory, tracks, self._points(cloud, memory["row"][tracks]))
         memory["closed"] |= status > Status.ACTIVE
 
-    def _append(self, memory: Memory, cloud: ObservedCloud, tracks: Rows) -> None:
+    def _points(self, cloud: ObservedCloud, rows: Rows) -> NDArray[np.float64]:
+        p = cloud.particles
+        point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED), np.zeros(len(rows))]
+        return np.column_stack(point)
+
+    def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
+        fits = memory["count"][tracks] < self.maxSamples
+        tracks, points = tracks[fits], points[fits]
         at = memory["count"][tracks]
         room = memory["points"].shape[1]
         if len(at) and at.max() >= room:
             more = np.zeros((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
             memory["points"] = np.concatenate([memory["points"], more], axis=1)
-        p, rows = cloud.particles, memory["row"][tracks]
-        point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED)]
-        memory["points"][tracks, at] = np.column_stack(point)
+        memory["points"][tracks, at] = points
         memory["count"][tracks] += 1
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the paths of the particles that have moved."""
         p = cloud.particles
         tracks = np.flatnonzero((memory["count"] > 1) & (p.status[memory["row"]] != Status.PENDING))
-        count, rows = memory["count"][tracks], memory["row"][tracks]
+        count = memory["count"][tracks]
         filled = np.arange(memory["points"].shape[1]) < count[:, None]
         points = memory["points"][tracks][filled]
+        first = np.cumsum(count) - count
+        start = np.union1d(first, np.flatnonzero(points[:, 12])).astype(np.int64)
+        rows = memory["row"][tracks][np.searchsorted(first, start, side="right") - 1]
         write_tracks(
             folder / "tracks.vtp",
             Tracks(
                 points[:, :3].copy(),
-                np.concatenate([[0], np.cumsum(count)]),
+                np.append(start, len(points)),
                 {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
                  "taylorDeformation": points[:, 10], "shearRate": points[:, 11]},
                 {"origId": rows, "d": 2.0 * p.R[rows], "Ca": p.Ca[rows], "injector": p.injector[rows],

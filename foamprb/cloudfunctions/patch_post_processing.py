@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.contact import Rebounds, in_order, rebounds_of
 from foamprb.cloud.measures import MEASURES
-from foamprb.cloud.patches import REBOUND
+from foamprb.cloud.patches import REBOUND, Interaction
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
@@ -67,9 +67,9 @@ class PatchPostProcessing(CloudFunction):
             )
         return {"rebounds": in_order([])} if bouncing else {}
 
-    def needs_rebounds(self, bouncing: Collection[str] | None) -> bool:
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
         """Return whether particles bounce off one of the patches."""
-        return bouncing is None or not set(bouncing).isdisjoint(self.patches)
+        return any(i.code == REBOUND for name, i in interactions.items() if name in self.patches)
 
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Record the rebounds from these patches."""

@@ -67,6 +67,7 @@ class CloudFunctions:
 
     def sample(self) -> None:
         """Let the functions that are due at the present step record a sample."""
+        self._record_rebounds()
         step = self._cloud.cloud.step
         for name, function in self.functions.items():
             if function.interval and step % function.interval == 0:

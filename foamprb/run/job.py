@@ -24,7 +24,6 @@ from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, r
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
-from foamprb.cloud.patches import REBOUND, Rebound
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
@@ -167,10 +166,6 @@ def _compile(settings: Settings, rotating: bool) -> Compilation:
     """Begin to compile the loop that the settings select, as far as they determine it."""
     scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
-    # The patches are not known before the mesh is read.
-    bounce = any(isinstance(rule.interaction, Rebound) for rule in settings.patches)
-    seen = any(function.needs_rebounds(None) for function in settings.functions.values())
-    models = replace(models, rebounds=bounce and seen)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
     tense = any(injection.solid.surfaceTension != 0.0 for injection in settings.injections)
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
@@ -253,8 +248,8 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
         raise InputError(f"{settings.file}: one cloud has one type of solid, not {', '.join(solids)}.")
     solution = settings.solution
     models = _models(settings, solution.integrationSchemes.shape, isinstance(flow, RotatingFlow))
-    bouncing = {patch.name for patch, i in zip(flow.patches, interactions, strict=True) if i.code == REBOUND}
-    needed = any(function.needs_rebounds(bouncing) for function in settings.functions.values())
+    by_name = {patch.name: i for patch, i in zip(flow.patches, interactions, strict=True)}
+    needed = any(function.needs_rebounds(by_name) for function in settings.functions.values())
     models = replace(models, rebounds=needed)
     try:
         cloud = Cloud(

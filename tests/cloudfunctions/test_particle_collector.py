@@ -6,14 +6,21 @@ import re
 
 import numpy as np
 import pytest
-from observing import MEAN, RADIUS, WATER, D, column, observe, observed, pipe_cloud, table
+import pyvista
+from mesh_shapes import cyclic_row
+from observing import MEAN, RADIUS, WATER, D, column, go_on, observe, observed, pipe_cloud, table
 
 from foamprb import analytic
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.patches import Cyclic, Rebound
 from foamprb.cloud.state import Status, spheres
+from foamprb.cloud.tracker import Models
+from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
+from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
+from foamprb.flow.meshflow import MeshFlow
 
 
 def collector(at=0.01, **options):
@@ -129,3 +136,49 @@ def test_counts_may_begin_anew_at_each_writing(tmp_path):
 def test_a_plane_needs_a_normal():
     with pytest.raises(InputError, match=re.escape("normal (0 0 0)")):
         ParticleCollector("plane", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("every", [1, 7, 400])
+def test_passages_of_coupled_patches_are_no_crossings(every, tmp_path):
+    """Straight through periods of 1 m at 4 m/s: one crossing per period, for any time between samples."""
+    mesh = cyclic_row(0.0, 1)
+    u = np.broadcast_to([4.0, 0.0, 0.0], mesh.nodes.shape).copy()
+    flow = MeshFlow(mesh, u, np.zeros((len(u), 3, 3)))
+    p = spheres([[0.25, 0.5, 0.5], [0.6, 0.4, 0.4]], d=1e-3, rho=1e3, mu=1.0)
+    p.v[:] = [4.0, 0.0, 0.0]
+    walls = [Cyclic() if patch.neighbour else Rebound() for patch in flow.patches]
+    cloud = Cloud(p, flow, WATER, walls, 1e-3, Models(integrator="paper", rebounds=True))
+    plane = (0.5, 0.0, 0.0), (1.0, 0.0, 0.0)
+    functions = CloudFunctions(
+        {
+            "plane": ParticleCollector(
+                "plane", *plane, sampleInterval=every, negateParcelsOppositeNormal=True
+            ),
+            "camera": DeformabilityCytometry(*plane, (0.0, 1.0, 0.0), sampleInterval=every),
+            "tracks": ParticleTracks(every, 1000),
+        },
+        observed(cloud),
+    )
+    go_on(cloud, functions, tmp_path, (800,))
+    expected = [(0, (n + 0.25) / 4.0) for n in range(4) if n + 0.25 < 3.2] + [
+        (1, (n + 0.9) / 4.0) for n in range(3)
+    ]
+    for file in ("plane/crossings.csv", "camera/cytometry.csv"):
+        rows = table(tmp_path / file)
+        found = sorted(zip(column(rows, "id").astype(int), column(rows, "t"), strict=True))
+        np.testing.assert_allclose(found, expected, rtol=1e-6)
+        assert set(column(rows, "direction")) == {1}
+    totals = table(tmp_path / "plane/collector.csv")
+    assert sum(float(row["mass"]) for row in totals) == pytest.approx(
+        len(expected) * 1e3 * np.pi / 6.0 * 1e-9
+    )
+    tracks = pyvista.read(tmp_path / "tracks/tracks.vtp")
+    offsets = tracks.lines
+    lengths = []
+    while len(offsets):
+        x = tracks.points[offsets[1 : offsets[0] + 1], 0]
+        assert (np.diff(x) >= 0.0).all()
+        lengths.append(x[-1] - x[0])
+        offsets = offsets[offsets[0] + 1 :]
+    assert len(lengths) == 4 + 4
+    assert sum(lengths) == pytest.approx(2 * 3.2)

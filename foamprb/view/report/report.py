@@ -306,16 +306,18 @@ def _along_paths(given: _Given) -> PageSection:
         text = "<p>The run did not have the cloud function particleTracks, which records paths.</p>"
         return PageSection("paths", title, text)
     ids = paths.tracks["origId"]
-    chosen = given.paths or [int(ids[k]) for k in spread(len(ids), _PATHS)]
+    # A path through a coupled patch has several parts.
+    tracked = np.unique(ids)
+    chosen = given.paths or [int(tracked[k]) for k in spread(len(tracked), _PATHS)]
     if missing := [number for number in chosen if number not in ids]:
         raise InputError(
-            f"-paths: particleTracks has no path of particle {missing[0]}; it has {len(ids)} paths, among "
-            f"them of {', '.join(map(str, ids[:5]))}."
+            f"-paths: particleTracks has no path of particle {missing[0]}; it has {len(tracked)} paths, "
+            f"among them of {', '.join(map(str, tracked[:5]))}."
         )
     lines, rates = [], []
     for number in chosen:
-        k = int(np.flatnonzero(ids == number)[0])
-        t, D, rate = (values[paths.start[k] : paths.start[k + 1]] for values in paths.values.values())
+        own = np.repeat(ids == number, np.diff(paths.start))
+        t, D, rate = (values[own] for values in paths.values.values())
         lines.append((f"particle {number}", t - t[0], D))
         rates.append((f"particle {number}", t - t[0], rate))
     which = "chosen by -paths" if given.paths else "evenly spread over their numbers; -paths chooses others"

@@ -188,7 +188,10 @@ export class Paths {
     this.lines.frustumCulled = false;
     this.lines.renderOrder = 3;
     this.recorded = new Map();
-    if (data.paths) data.paths.bodies.forEach((body, k) => this.recorded.set(body, k));
+    if (data.paths) {
+      // A path through a coupled patch has several parts.
+      data.paths.bodies.forEach((body, k) => this.recorded.set(body, [...(this.recorded.get(body) ?? []), k]));
+    }
   }
 
   // Draw the paths of some bodies.
@@ -201,9 +204,11 @@ export class Paths {
       when.push(time, time);
     };
     for (const body of bodies) {
-      const k = this.recorded.get(body);
-      if (k !== undefined) {
-        for (let i = paths.start[k] + 1; i < paths.start[k + 1]; i++) add(paths.points, i - 1, paths.points, i, paths.times[i]);
+      const parts = this.recorded.get(body);
+      if (parts) {
+        for (const k of parts) {
+          for (let i = paths.start[k] + 1; i < paths.start[k + 1]; i++) add(paths.points, i - 1, paths.points, i, paths.times[i]);
+        }
       } else {
         for (let t = 1; t < m; t++) {
           const i = n * (t - 1) + body, j = n * t + body;
