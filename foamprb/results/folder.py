@@ -119,8 +119,13 @@ class ResultsFolder:
 
     @property
     def state(self) -> Path:
-        """ParaView's state, which shows the bodies."""
+        """State of ``foamprb paraview``, which shows the bodies."""
         return self.path / f"{self.cloud}.py"
+
+    @property
+    def walls(self) -> Path:
+        """Walls that the state shows."""
+        return self.path / "walls.vtp"
 
     @property
     def record(self) -> Path:

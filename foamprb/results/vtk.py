@@ -319,6 +319,21 @@ def write_tracks(path: Path, tracks: Tracks) -> None:
     _write_xml(path, writer)
 
 
+def write_triangles(path: Path, corners: NDArray[np.float64]) -> None:
+    """Write n triangles, (n, 3, 3), m, as VTK PolyData, in one step.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    data = _points(corners.reshape(-1, 3), {})
+    data.SetPolys(_cells(3 * np.arange(len(corners) + 1, dtype=np.int64)))
+    writer = vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    _write_xml(path, writer)
+
+
 def poly_data(snapshot: PointCloud) -> vtkPolyData:
     """Return a cloud as the PolyData of :func:`write_snapshot`; it shares the memory of the arrays."""
     data = _points(snapshot.points, snapshot.arrays)

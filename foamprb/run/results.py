@@ -25,7 +25,6 @@ from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoint, Checkpoints
 from foamprb.results.folder import FAILURES, FATES, KINDS
 from foamprb.results.manifest import Manifest
-from foamprb.results.paraview_state import write_state
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, write_table
 from foamprb.run.description import renew_record, write_record
@@ -244,10 +243,6 @@ class Results:
         self._job.functions.write(self._job.folder.path)
         return [file for file, time in _times_of_change(folders).items() if before.get(file) != time]
 
-    def _descriptions(self) -> tuple[Path, ...]:
-        """Return the files that a run writes when it begins: its record, and ParaView's state."""
-        return self._job.folder.record, self._job.folder.state
-
     def _last_tables(self) -> list[Path]:
         """Return the tables that a run writes at its end, of every kind."""
         return [self._job.folder.table(name, kind) for name in (FATES, FAILURES) for kind in KINDS]
@@ -281,9 +276,8 @@ class Results:
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
         lists = [self._job.folder.pvd, *self._last_tables()]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
-        self._manifest.expect(self._descriptions())
+        self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
-        write_state(self._job.folder.state, self._job.settings.name)
 
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
@@ -313,7 +307,7 @@ class Results:
             if any(folder in file.parents for folder in functions) and file.suffix not in self._other_kinds()
         ]
         kept = {
-            *self._descriptions(),
+            self._job.folder.record,
             self._job.folder.pvd,
             *snapshots,
             *tables,

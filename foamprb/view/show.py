@@ -23,6 +23,7 @@ from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
+from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
 from foamprb.view.results import Run, open_run
 from foamprb.view.scene import (
@@ -249,17 +250,20 @@ def picture_of(
 
 
 def start_paraview(case: Path, cloud: str | None, region: str) -> int:
-    """Start ParaView with the state file that the run has written; return the exit status.
+    """Write a state file of the scene, and start ParaView with it; return the exit status.
 
     Raises
     ------
     InputError
-        If ParaView is not on PATH, or there is no display or no state file.
+        If ParaView is not on PATH, or there is no display; see :func:`make_scene`.
+    OSError
+        If the state cannot be written.
     """
-    run = open_run(case, cloud, region)
+    request = Request(case, cloud, FlowSource(region=region) if region else None)
+    run = _run_of(request)
+    write_state(run.results, make_scene(request, run, range(len(run.entries))))
     state = run.results.state
-    if not state.exists():
-        raise InputError(f"{state}: missing. It is written by: foamprb run.")
+    log.info("State: %s", state)
     program = shutil.which("paraview")
     if program is None:
         raise InputError("no paraview on PATH. On Debian: apt-get install paraview python3-paraview.")

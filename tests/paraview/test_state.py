@@ -13,10 +13,13 @@ from PIL import Image
 from pvpython import pvpython
 from view_run import clouds, motion, with_orientation, write_run
 
+from foamprb.cli import main
 from foamprb.results.folder import ResultsFolder
-from foamprb.results.paraview_state import write_state
 from foamprb.results.pvd import Series
-from foamprb.results.vtk import PointCloud
+from foamprb.results.vtk import PointCloud, Tracks, write_tracks
+from foamprb.view.paraview import write_state
+from foamprb.view.results import open_run
+from foamprb.view.show import Request, make_scene
 
 pytestmark = [
     pytest.mark.paraview,
@@ -33,29 +36,46 @@ def run_state(folder: Path, state: Path, more: str) -> str:
     return done.stdout
 
 
-def test_the_state_shows_every_body_at_the_last_time(tmp_path: Path) -> None:
-    moved = motion(6, 3)
-    folder = write_run(tmp_path, moved, mesh=False)
-    write_state(folder / "softCloud.py", "softCloud")
-    said = run_state(
-        tmp_path,
-        folder / "softCloud.py",
-        f"simple.SaveData({str(tmp_path / 'bodies.vtp')!r}, simple.FindSource('bodies'))\n"
-        f"simple.SaveScreenshot({str(tmp_path / 'shot.png')!r}, simple.GetActiveView())\n"
-        "print('factor', simple.FindSource('bodies').ScaleFactor)\n"
-        "print('said', simple.FindSource('enlargement').Text)\n",
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="xvfb-run is not on PATH")
+def test_the_command_shows_the_bodies_of_the_busiest_time(tmp_path, monkeypatch) -> None:
+    """ParaView runs the state without ``__file__``; some bodies leave before the last time."""
+    moved = motion(6, 4)
+    folder = write_run(tmp_path / "case", moved)
+    (folder / "t").mkdir()
+    write_tracks(
+        folder / "t/tracks.vtp",
+        Tracks(moved.x[:, 0], np.array([0, 4]), {"time": moved.times}, {"origId": np.zeros(1)}),
     )
-    factor = float(said.split("factor ")[1].split()[0])
-    assert f"bodies drawn {factor:.3g} times larger" in said
-    assert factor == pytest.approx(
-        max(1.0, 0.01 * np.ptp(moved.x[-1], axis=0).max() / moved.radius.max()), rel=0.01
+    program = tmp_path / "paraview"
+    program.write_text(
+        f"""#!/bin/sh
+cat >> "${{1#--script=}}" << 'END'
+simple.SaveData({str(tmp_path / "bodies.vtp")!r}, bodies)
+simple.SaveScreenshot({str(tmp_path / "shot.png")!r}, view, ImageResolution=[600, 450])
+import os
+os._exit(7)
+END
+exec xvfb-run -a {shutil.which("paraview")} --dr "$1"
+"""
     )
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    monkeypatch.setattr("foamprb.view.show.has_display", lambda: True)
+    assert main(["paraview", "-case", str(tmp_path / "case")]) == 7
+    scene = make_scene(Request(tmp_path / "case"), open_run(tmp_path / "case"), range(4))
+    assert (
+        f"TIME = {moved.times[2]}\nENLARGEMENT = {scene.enlargement}\n"
+        in (folder / "softCloud.py").read_text()
+    )
+    shown = scene.bodies.shown[scene.first]
     bodies = pyvista.read(tmp_path / "bodies.vtp").split_bodies()
-    assert len(bodies) == 6
+    assert len(bodies) == shown.sum()
     middles = np.array([np.array(body.bounds).reshape(3, 2).mean(axis=1) for body in bodies])
-    away = np.linalg.norm(middles[:, None] - moved.x[-1][None], axis=2).min(axis=1)
-    assert away.max() < 0.2 * factor * moved.radius.max()
-    assert (tmp_path / "shot.png").stat().st_size > 5000
+    places = scene.bodies.x[scene.first, shown]
+    assert np.linalg.norm(middles[:, None] - places, axis=2).min(axis=1).max() < 1e-5
+    picture = np.asarray(Image.open(tmp_path / "shot.png").convert("RGB"), dtype=float)
+    coloured = np.ptp(picture[:330, :400], axis=2) > 60.0
+    assert 0.001 < coloured.mean() < 0.5
 
 
 def larger(cloud: PointCloud, factor: float) -> PointCloud:
@@ -65,13 +85,14 @@ def larger(cloud: PointCloud, factor: float) -> PointCloud:
 
 def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path) -> None:
     """Many bodies are drawn by the graphics card from their semi-axes and orientation."""
-    series = Series(ResultsFolder(tmp_path / "run", "softCloud"))
+    series = Series(ResultsFolder(tmp_path / "run/postProcessing/softCloud", "softCloud"))
     for cloud in clouds(motion(6, 3)):
         series.append(with_orientation(larger(cloud, 6.0)))
-    state = tmp_path / "run/softCloud.py"
+    state = tmp_path / "run/postProcessing/softCloud/softCloud.py"
     bodies = []
     for many in (20000, 0):
-        write_state(state, "softCloud")
+        run = open_run(tmp_path / "run")
+        write_state(run.results, make_scene(Request(tmp_path / "run"), run, range(3)))
         state.write_text(state.read_text().replace("MANY = 20000", f"MANY = {many}"))
         shot = tmp_path / f"{many}.png"
         drawn = run_state(

@@ -127,8 +127,7 @@ def test_leftovers_of_a_killed_run_are_removed(option, stopped, truth):
 def test_stopped_run_lists_its_files(stopped):
     folder = folder_of(stopped)
     assert {file.relative_to(folder).as_posix() for file in Manifest.read(folder).files} == {
-        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "run.json", "softCloud.py",
-        "softCloud.pvd",
+        "checkpoint/0.002.checkpoint", "checkpoint/0.003.checkpoint", "run.json", "softCloud.pvd",
         "softCloud_000000.vtp", "softCloud_000001.vtp", "softCloud_000002.vtp", "softCloud_000003.vtp",
     }  # fmt: skip
 
