@@ -37,6 +37,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--tables", choices=("csv", "parquet"), default="csv", help="kind of tables: text or Parquet [csv]"
     )
+    parser.add_argument(
+        "--outsideLibs", action="store_true", help="run also Python files of libs outside the case"
+    )
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 
 
@@ -56,6 +59,7 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         source_of(arguments),
         precompile=ranks is None and not arguments.dry_run,
         tables=arguments.tables,
+        outside_libs=arguments.outsideLibs,
     )
     log_description(job)
     if arguments.dry_run:

@@ -6,14 +6,14 @@ import fcntl
 import os
 import re
 import secrets
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from foamprb.errors import InputError
 
 _TOKEN_BYTES = 4
-_TEMPORARY = re.compile(rf"\..+\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
+_TEMPORARY = re.compile(rf"\.(.+)\.[0-9a-f]{{{2 * _TOKEN_BYTES}}}\.tmp")
 
 
 @contextmanager
@@ -76,11 +76,12 @@ def drop_cache(path: Path) -> None:
             os.close(descriptor)
 
 
-def remove_unfinished(folder: Path) -> None:
-    """Remove the temporary files that killed processes left in a folder, if the folder exists."""
-    for file in tuple(folder.iterdir()) if folder.is_dir() else ():
-        if _TEMPORARY.fullmatch(file.name):
-            file.unlink(missing_ok=True)
+def remove_unfinished(files: Collection[Path]) -> None:
+    """Remove the temporary files that killed processes left of some files."""
+    for folder in {file.parent for file in files}:
+        for file in tuple(folder.iterdir()) if folder.is_dir() else ():
+            if (found := _TEMPORARY.fullmatch(file.name)) and folder / found[1] in files:
+                file.unlink(missing_ok=True)
 
 
 @contextmanager

@@ -23,7 +23,7 @@ import xxhash
 from numpy.typing import NDArray
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, drop_cache, remove_unfinished
+from foamprb.results.atomic import atomic_write, drop_cache
 
 log = logging.getLogger("foamprb")
 
@@ -63,7 +63,6 @@ class Checkpoints:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        remove_unfinished(folder)
 
     def files(self) -> dict[float, Path]:
         """Return the files by their times, s, damaged or not, in order of time."""

@@ -53,6 +53,7 @@ class Manifest:
         if manifest.path.exists():
             try:
                 manifest.files = {folder / name for name in _names(json.loads(manifest.path.read_bytes()))}
+                _refuse_links(folder, manifest.files)
             except (OSError, ValueError, RecursionError) as error:
                 raise InputError(f"{manifest.path} is damaged: {error}") from error
         return manifest
@@ -64,11 +65,18 @@ class Manifest:
 
         Raises
         ------
+        InputError
+            If a folder on the way to a file is a link.
         OSError
             If the manifest cannot be written.
         """
+        files = frozenset(files)
+        try:
+            _refuse_links(self.folder, files)
+        except ValueError as error:
+            raise InputError(f"{self.folder}: results would be written elsewhere: {error}") from error
         self.files -= {file for file in self._expected if not file.exists()}
-        self._expected = frozenset(files)
+        self._expected = files
         self.files |= self._expected
         names = sorted(file.relative_to(self.folder).as_posix() for file in self.files)
         content = {"format": FORMAT, "files": names, "sha256": _digest(names)}
@@ -88,6 +96,13 @@ class Manifest:
             for parent in file.relative_to(self.folder).parents[:-1]:
                 with suppress(OSError):
                     (self.folder / parent).rmdir()
+
+
+def _refuse_links(folder: Path, files: Iterable[Path]) -> None:
+    """Raise ValueError if a folder between the run's folder and a file is a link, which leads elsewhere."""
+    for parent in {parent for file in files for parent in file.relative_to(folder).parents[:-1]}:
+        if (folder / parent).is_symlink():
+            raise ValueError(f"the folder '{parent}' is a link.")
 
 
 def _names(content: Any) -> list[str]:

@@ -109,6 +109,7 @@ def prepare(
     source: FlowSource | None = None,
     precompile: bool = False,
     tables: str = "csv",
+    outside_libs: bool = False,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -129,6 +130,8 @@ def prepare(
         Whether to compile the loop in a second process meanwhile, if it is not in the cache.
     tables
         ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
+    outside_libs
+        Whether Python files of ``libs`` may lie outside the case.
 
     Raises
     ------
@@ -141,7 +144,7 @@ def prepare(
     check_region(case, source)
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
-    settings = read_settings(case, dictionary, source.region, single)
+    settings = read_settings(case, dictionary, source.region, single, outside_libs)
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative)

@@ -270,11 +270,11 @@ class Results:
                 read_pvd(self._job.folder.pvd)
             except InputError as error:
                 log.warning("%s It is replaced.", error)
-        self._remove_unfinished(manifest)
+        remove_unfinished({*manifest.files, manifest.path})
         # Checkpoints first: after an interrupted removal they would resemble an unfinished run.
         files = sorted(manifest.files)
         checkpoints = [file for file in files if file.parent == self._checkpoints.folder]
-        lists = [self._job.folder.pvd, *self._last_tables()]
+        lists = [file for file in (self._job.folder.pvd, *self._last_tables()) if file in manifest.files]
         manifest.remove([*checkpoints, *lists, *files, manifest.path])
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
@@ -294,9 +294,8 @@ class Results:
         except InputError as error:
             log.warning("%s It is made anew; files of later times may remain.", error)
             manifest = Manifest(job.folder.path)
-        self._remove_unfinished(manifest)
-        for table in self._last_tables():
-            table.unlink(missing_ok=True)
+        remove_unfinished({*manifest.files, manifest.path})
+        manifest.remove(file for file in self._last_tables() if file in manifest.files)
         self._series.relist(entries)
         renew_record(job.folder.record, job.description)
         snapshots = [file for entry in entries for file in files_of(job.folder.path / entry.file)]
@@ -315,12 +314,6 @@ class Results:
         }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
-
-    def _remove_unfinished(self, manifest: Manifest) -> None:
-        """Remove unfinished files of killed runs."""
-        folders = {file.parent for file in manifest.files}
-        for folder in {self._job.folder.path, *self._function_folders(), *folders}:
-            remove_unfinished(folder)
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import importlib.util
+import logging
 import sys
 import traceback
 from collections.abc import Iterable
@@ -15,12 +16,30 @@ from foamprb.body.material import MATERIALS
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 
+log = logging.getLogger("foamprb")
+
 _loaded: dict[Path, tuple[str, tuple[str, ...]]] = {}
 
 
 def loaded_libs() -> tuple[Path, ...]:
     """Return the files whose solids are loaded."""
     return tuple(path for path, (digest, _) in _loaded.items() if digest)
+
+
+def require_inside(files: Iterable[Path], case: Path) -> None:
+    """Refuse Python files outside a case.
+
+    Raises
+    ------
+    InputError
+        If one of them lies elsewhere, or a link leads there.
+    """
+    for file in files:
+        if not file.resolve().is_relative_to(case.resolve()):
+            raise InputError(
+                f"{file} of libs lies outside the case. It is not run. If you trust it, add the option "
+                "-outsideLibs."
+            )
 
 
 def load_libs(files: Iterable[Path]) -> None:
@@ -42,6 +61,7 @@ def load_libs(files: Iterable[Path]) -> None:
         for name in names:
             MATERIALS.pop(name, None)
         known = set(MATERIALS)
+        log.info("Running the Python file %s of libs", path)
         try:
             _run(path, digest)
         finally:

@@ -26,7 +26,7 @@ from foamprb.errors import InputError
 from foamprb.results.folder import fault_of_function, fault_of_word
 from foamprb.settings.fluid import ConstantProperties, Fluid, of_region, read_fluid, read_gravity
 from foamprb.settings.injections import InjectionSettings, read_injections
-from foamprb.settings.libs import load_libs
+from foamprb.settings.libs import load_libs, require_inside
 from foamprb.settings.patches import INTERACTION_MODELS, Rule, Touching, read_patch_interaction
 from foamprb.settings.solution import Solution, read_solution
 
@@ -112,7 +112,9 @@ class CloudProperties:
     libs: Annotated[
         Files | None,
         Meaning(
-            "Python files, in `constant` or absolute, that add [solids](models/materials.md)", "", "none"
+            "Python files of the case that add [solids](models/materials.md); others with `-outsideLibs`",
+            "",
+            "none",
         ),
     ] = None
 
@@ -142,7 +144,11 @@ class Settings:
 
 
 def read_settings(
-    case: Path, dictionary: Path | None = None, region: str = "", time: float | str = "latestTime"
+    case: Path,
+    dictionary: Path | None = None,
+    region: str = "",
+    time: float | str = "latestTime",
+    outside_libs: bool = False,
 ) -> Settings:
     """Read and validate the settings of a cloud.
 
@@ -158,6 +164,8 @@ def read_settings(
         Region of the mesh: its files in ``constant/REGION`` go before the files in ``constant``.
     time
         Time of the flow, at which the field ``rho`` is read.
+    outside_libs
+        Whether Python files of ``libs`` may lie outside the case.
 
     Raises
     ------
@@ -176,7 +184,10 @@ def read_settings(
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         # Other entries may name solids from these files.
-        load_libs(read_entry(root, "libs", Files))
+        files = read_entry(root, "libs", Files)
+        if not outside_libs:
+            require_inside(files, case)
+        load_libs(files)
     mistakes = Mistakes()
     with mistakes:
         read_entries(CloudProperties, root)

@@ -94,7 +94,7 @@ def test_killed_process_keeps_old_file(tmp_path: Path, name: str) -> None:
     assert path.read_text() == "old"
     assert len(list(tmp_path.iterdir())) == 2
 
-    remove_unfinished(tmp_path)
+    remove_unfinished([path])
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -110,13 +110,13 @@ def wait_for_megabyte(folder: Path, writer: subprocess.Popen[bytes]) -> None:
 
 def test_remove_unfinished_takes_temporary_files_only(tmp_path: Path) -> None:
     kept = [
-        tmp_path / name for name in ("a.pvd", ".a.pvd", ".b.pvd.0.tmp", "a.pvd.0123abcd.tmp", ".bashrc.tmp")
+        tmp_path / name
+        for name in ("a.pvd", ".a.pvd", ".a.pvd.0.tmp", "a.pvd.0123abcd.tmp", ".b.pvd.0123abcd.tmp")
     ]
     for file in (*kept, tmp_path / ".a.pvd.0123abcd.tmp"):
         file.touch()
-    remove_unfinished(tmp_path)
+    remove_unfinished([tmp_path / "a.pvd", tmp_path / "absent/a.pvd"])
     assert sorted(tmp_path.iterdir()) == sorted(kept)
-    remove_unfinished(tmp_path / "absent")
 
 
 def test_full_disk_names_the_file(tmp_path: Path) -> None:

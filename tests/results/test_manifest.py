@@ -103,3 +103,20 @@ def test_manifest_lists_no_file_outside_its_folder(tmp_path: Path, name: str) ->
     Manifest(tmp_path).path.write_text(json.dumps(content))
     with pytest.raises(InputError, match="which is not in its folder"):
         Manifest.read(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["x/thesis.tex", "deep/x/thesis.tex"])
+def test_nothing_beneath_a_link_is_listed(tmp_path: Path, name: str) -> None:
+    """Else a downloaded case could name files elsewhere, which the next run would remove."""
+    folder, elsewhere = tmp_path / "run", tmp_path / "elsewhere"
+    files(elsewhere, "thesis.tex")
+    link = folder / Path(name).parent
+    link.parent.mkdir(parents=True)
+    link.symlink_to(elsewhere)
+    content = {"format": 1, "files": [name], "sha256": sha256(name.encode()).hexdigest()}
+    Manifest(folder).path.write_text(json.dumps(content))
+    with pytest.raises(InputError, match=f"the folder '{Path(name).parent}' is a link"):
+        Manifest.read(folder)
+    with pytest.raises(InputError, match="results would be written elsewhere"):
+        Manifest(folder).expect([folder / name])
+    assert (elsewhere / "thesis.tex").exists()

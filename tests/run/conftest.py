@@ -17,7 +17,7 @@ def truth(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     case = short_case(tmp_path_factory.mktemp("truth"))
     assert main(["run", "-case", str(case), "-threads", "2"]) == 0
     found = results(case)
-    assert len(found) == 13
+    assert len(found) == 12
     assert b",stuck,wall," in found["fates.csv"]
     return found
 

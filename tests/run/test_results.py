@@ -65,9 +65,9 @@ def test_a_file_is_listed_before_it_is_written(case, monkeypatch):
 
     monkeypatch.setattr(Path, "replace", listed)
     run(case)
-    # Manifest, record and state; manifest, cloud and list at the start; these and a checkpoint at six times;
+    # Manifest and record; manifest, cloud and list at the start; these and a checkpoint at six times;
     # manifest and table.
-    assert len(seen) == 3 + 3 + 4 * 6 + 2
+    assert len(seen) == 2 + 3 + 4 * 6 + 2
 
 
 def test_new_run_removes_listed_files_only(case, truth):
@@ -78,6 +78,7 @@ def test_new_run_removes_listed_files_only(case, truth):
     own = [
         "softCloud_mine.vtp", "softCloud_000099.vtp", "other_000007.vtp", "paths/notes.txt", "failed.txt",
         "softCloud_000042/0.vtp", "checkpoint/mine", ".hidden.0.tmp",
+        "failed.csv", ".notes.0123abcd.tmp",
     ]  # fmt: skip
     for name in own:
         (folder / name).parent.mkdir(exist_ok=True)
@@ -109,7 +110,7 @@ def leave_behind(case: Path) -> None:
     folder = folder_of(case)
     left = ["softCloud_000004.pvtp", "softCloud_000004/0.vtp", "softCloud_000004/1.vtp"]
     Manifest(folder, Manifest.read(folder).files).expect([folder / name for name in left])
-    for name in (*left, "softCloud_000004/.2.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
+    for name in (*left, "softCloud_000004/.1.vtp.0123abcd.tmp", ".softCloud.pvd.0123abcd.tmp"):
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).touch()
     series = Series(ResultsFolder(folder, "softCloud"))

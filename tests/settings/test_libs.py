@@ -157,6 +157,7 @@ def test_run_with_a_users_solid_and_shape(tmp_path, capsys):
     )
     assert main(["run", "-case", str(case)]) == 0
     log = capsys.readouterr().out
+    assert f"Running the Python file {case / 'constant/rubber.py'} of libs" in log
     assert "Selecting solid fung" in log
     assert "gravity, pressureGradient, virtualMass (Cvm 0.5)" in log
     rows = [row for row in fates(case) if row["fate"] == "active" and float(row["Ca"]) < 1e-3]
@@ -164,6 +165,22 @@ def test_run_with_a_users_solid_and_shape(tmp_path, capsys):
     assert len(rows) == 1
     np.testing.assert_allclose(float(rows[0]["a"]) / float(rows[0]["c"]), 2.0, rtol=1e-3)
     assert foamprb.add_material is add_material
+
+
+@pytest.mark.parametrize("link", [False, True])
+def test_a_file_outside_the_case_is_run_by_an_option_only(link, tmp_path, capsys):
+    case = copy_of_pipe(tmp_path)
+    rubber = tmp_path / "rubber.py"
+    rubber.write_text(f"from pathlib import Path\nPath({str(tmp_path / 'ran')!r}).touch()\n")
+    named = case / "constant/rubber.py" if link else rubber
+    if link:
+        named.symlink_to(rubber)
+    edit(case, r"^solution", f'libs ("{named}");\nsolution')
+    assert main(["run", "-case", str(case), "-dry-run"]) == 1
+    assert f"{named} of libs lies outside the case" in capsys.readouterr().err
+    assert not (tmp_path / "ran").exists()
+    assert main(["run", "-case", str(case), "-dry-run", "-outsideLibs"]) == 0
+    assert (tmp_path / "ran").exists()
 
 
 def test_compiled_solid_is_found_again_by_the_next_process(tmp_path):

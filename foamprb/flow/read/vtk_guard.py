@@ -99,7 +99,7 @@ def _ask(path: Path, step: int | None) -> int:
     """Return the signal that ended the fork that read the file, or 0."""
     global _server
     if _server is None or _server.poll() is not None:
-        command = [sys.executable, "-W", "ignore", "-m", "foamprb.flow.read.vtk_guard"]
+        command = [sys.executable, "-P", "-W", "ignore", "-m", "foamprb.flow.read.vtk_guard"]
         _server = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
         )

@@ -98,3 +98,15 @@ def test_nothing_is_left_of_the_process_that_reads_first(tmp_path):
     assert done.stderr == ""
     with pytest.raises(ProcessLookupError):
         os.kill(int(done.stdout), 0)
+
+
+def test_modules_in_the_current_folder_are_not_imported(tmp_path, monkeypatch):
+    """A foreign case may contain any file; helper processes do not import it."""
+    pyvista.Sphere().save(tmp_path / "sphere.vtp")
+    for name in ("numpy", "pyvista", "random", "foamprb"):
+        (tmp_path / f"{name}.py").write_text(f"from pathlib import Path\nPath({name!r}).touch()\n")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(vtk_guard, "_server", None)
+    require_survival(tmp_path / "sphere.vtp")
+    vtk_guard._end(vtk_guard._server)
+    assert not [name for name in ("numpy", "pyvista", "random", "foamprb") if (tmp_path / name).exists()]
