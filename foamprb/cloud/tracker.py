@@ -36,8 +36,8 @@ from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
-from foamprb.compile.link import compile_part, is_compiled, link, read_by
-from foamprb.errors import InputError
+from foamprb.compile.link import compile_part, is_compiled, link, linked, read_by
+from foamprb.errors import InputError, closest
 from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Patch
 from foamprb.flow.meshflow import LONG
@@ -434,6 +434,21 @@ def check(models: Models, tense: bool) -> None:
         reason = model.refuses(integrator.inertia, integrator.name)
         if reason:
             raise InputError(reason)
+        _check_names(model)
+
+
+def _check_names(model: Surrounding) -> None:
+    """Raise NameError if a model binds a name that no loop reads, and whose function no loop would call."""
+    bound, known = set[str](), set[str]()
+    for integrator in INTEGRATORS.values():
+        around = surroundings.compose(integrator.layout, [model], integrator.inertia)
+        functions = linked(track_share, {**integrator.bindings, **around, "track": integrator.track})
+        bound.update(model.bindings(integrator.inertia))
+        known.update(*(function.__globals__ for function in functions))
+    for name in sorted(bound - known):
+        meant = closest(name, known)
+        question = f". Did you mean {meant}?" if meant else ""
+        raise NameError(f"{type(model).__name__} binds {name}, a name that no loop reads{question}")
 
 
 def _patch_table(interactions: Sequence[Interaction]) -> PatchTable:

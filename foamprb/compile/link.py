@@ -36,7 +36,7 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["compile_part", "is_compiled", "link", "read_by", "traced"]
+__all__ = ["compile_part", "is_compiled", "link", "linked", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -103,18 +103,22 @@ def link(
 
 def read_by(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> dict[str, Any]:
     """Return the bindings whose names ``entry`` or a function linked with it reads."""
-    found: set[str] = set()
+    found = {name for function in linked(entry, bindings) for name in _global_names(function.__code__)}
+    return {name: value for name, value in bindings.items() if name in found}
+
+
+def linked(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> Collection[Callable[..., Any]]:
+    """Return ``entry`` and the functions that are linked with it."""
     reached = {entry}
     pending = [entry]
     while pending:
         function = pending.pop()
         for name in _global_names(function.__code__):
-            found.add(name)
             value = bindings.get(name, function.__globals__.get(name))
             if _is_linked(value) and value not in reached:
                 reached.add(value)
                 pending.append(value)
-    return {name: value for name, value in bindings.items() if name in found}
+    return reached
 
 
 def traced(stage: Callable[..., Any]) -> Callable[..., Any]:

@@ -12,12 +12,10 @@ import pytest
 import foamprb
 from foamprb.cloud.block import Medium
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.tracker import Models, Tracker
-from foamprb.compile.link import read_by
+from foamprb.cloud.surroundings.dispersion import Dispersion
+from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
+from foamprb.cloud.tracker import Models, Tracker, check
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.series import SeriesFlow
-
-AIR = Medium(1.8e-5, 1.2, (0.0, 0.0, 0.0))
 
 
 def test_the_tolerance_is_the_one_that_the_manual_tells():
@@ -58,22 +56,13 @@ def test_precompilation_has_an_example_of_each_argument(integrator, monkeypatch)
             assert types[name] == expected[name], name
 
 
-@pytest.mark.parametrize("kind", [MeshFlow, SeriesFlow])
-def test_every_name_that_a_model_binds_is_read_by_some_loop(kind, monkeypatch):
-    """A tracker drops the names that its own loop does not read, a misspelt one too."""
-    offered, read = set(), set()
+class Misspelt(foamprb.FaxenCorrection):
+    def bindings(self, _inertia):
+        return {"turn_alongg": self.update}
 
-    def select(entry, bindings):
-        found = read_by(entry, bindings)
-        offered.update(bindings)
-        read.update(found)
-        return found
 
-    monkeypatch.setattr("foamprb.cloud.tracker.read_by", select)
-    monkeypatch.setattr("foamprb.cloud.tracker.link", lambda *_: None)
-    around = foamprb.FaxenCorrection(), foamprb.WallLift(), foamprb.BrownianMotion(T=300.0)
-    for integrator in INTEGRATORS:
-        for shaped in (False, True):
-            models = Models(integrator=integrator, surroundings=around, rebounds=True)
-            Tracker(models, kind.kernels, AIR, [], 1e-3, 0.0, shaped=shaped, tense=True)
-    assert offered - read == {"turbulence", "rotation_at"} & offered
+def test_name_that_no_loop_reads_is_refused():
+    everything = foamprb.FaxenCorrection(), foamprb.WallLift(), foamprb.BrownianMotion(T=300.0), Dispersion()
+    check(Models(integrator="stokes", surroundings=(*everything, RotatingFrames())), tense=False)
+    with pytest.raises(NameError, match=r"Misspelt binds turn_alongg, .*Did you mean turn_along"):
+        check(Models(integrator="stokes", surroundings=(Misspelt(),)), tense=False)

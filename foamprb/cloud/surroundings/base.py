@@ -15,7 +15,16 @@ from foamprb.cloud.state import Particles
 from foamprb.dictionary.constraints import Bounds, Meaning
 from foamprb.flow.base import Flow, Patch
 
-__all__ = ["Seed", "Surrounding", "add3", "add9", "resistances", "volume_at_rest"]
+__all__ = [
+    "Seed",
+    "Surrounding",
+    "add3",
+    "add9",
+    "hindrance_by_walls",
+    "resistances",
+    "thermal_force",
+    "volume_at_rest",
+]
 
 Seed = Annotated[
     int,
@@ -109,6 +118,16 @@ def _written(value: Any) -> str:
     if isinstance(value, str):
         return value
     return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"
+
+
+def hindrance_by_walls(_block: Any, _i: int) -> Tensor:
+    """Return zero: no walls; ``wallLift`` binds its own function."""
+    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+
+
+def thermal_force(_block: Any, _i: int) -> Vector:
+    """Return zero: no molecules; ``BrownianMotion`` binds its own function."""
+    return 0.0, 0.0, 0.0
 
 
 def resistances(block: Any, i: int) -> Vector:

@@ -24,7 +24,6 @@ from foamprb.body.brownian import (
     shape_resistance,
 )
 from foamprb.body.tensor import (
-    Tensor,
     Vector,
     dot_vector,
     from_frame,
@@ -53,6 +52,7 @@ from foamprb.cloud.surroundings.base import (
     Surrounding,
     add3,
     add9,
+    hindrance_by_walls,
     resistances,
     volume_at_rest,
 )
@@ -87,11 +87,6 @@ class BrownianRows(NamedTuple):
 
 
 thermal = offsets(BrownianRows)
-
-
-def hindrance_by_walls(_block: Any, _i: int) -> Tensor:
-    """Return zero: no walls; ``wallLift`` binds its own function."""
-    return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
 def draw(_flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any) -> None:

@@ -67,7 +67,14 @@ from foamprb.cloud.elastic import incompressible_stress
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
-from foamprb.cloud.surroundings.base import Surrounding, add3, add9, resistances, volume_at_rest
+from foamprb.cloud.surroundings.base import (
+    Surrounding,
+    add3,
+    add9,
+    resistances,
+    thermal_force,
+    volume_at_rest,
+)
 from foamprb.compile.link import link, read_by
 from foamprb.dictionary.constraints import Bounds, Meaning, Positive, Words
 from foamprb.errors import InputError, suggestion
@@ -398,11 +405,6 @@ def hindered_axes(block: Any, i: int, _Q: Tensor) -> Tensor:
     return load9(block, near.drag_frame, i)
 
 
-def no_thermal_force(_block: Any, _i: int) -> Vector:
-    """Return zero: no Brownian motion."""
-    return 0.0, 0.0, 0.0
-
-
 def hindrance_of(block: Any, i: int, n: Vector, h: float, gap: float) -> Tensor:
     """Return W of one wall, in the particle frame."""
     return hindrance(resistances(block, i), dot_vector(load9(block, at.Q, i), n), h, gap)
@@ -454,7 +456,6 @@ body_response: Callable[..., Tensor] = response_to_gradient
 load_of: Callable[..., Vector] = balanced_load
 before_lift: Callable[..., None] = strain_by_load
 after_lift: Callable[..., None] = hinder_load
-thermal_force: Callable[..., Vector] = no_thermal_force
 
 
 _OF_INERTIA: Mapping[str, Callable[..., Any]] = {
