@@ -22,7 +22,6 @@ from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.compile.link import link, read_by
 from foamprb.errors import FailedParticlesWarning, InputError
-from foamprb.flow.analytic import gap_free
 from foamprb.flow.base import Flow
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
@@ -216,12 +215,10 @@ class Cloud:
         -------
         Normals, (n, 3); NaN where no wall is found.
         """
-        bindings = dict(self.flow.kernels)
-        if self.models.touching == "centre":
-            bindings["gap"] = gap_free
         normals = np.empty((len(rows), 3))
         self._grow_reach()
-        kernel = link(contact_normals, read_by(contact_normals, bindings))
+        bindings = read_by(contact_normals, self.flow.kernels | self.tracker.bindings)
+        kernel = link(contact_normals, bindings, self.tracker.separate)
         kernel(self.flow_arrays(), self.particles, rows, normals)
         return normals
 

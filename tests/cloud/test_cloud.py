@@ -18,8 +18,8 @@ from foamprb.cloud.motion import PatchTable
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloud.state import Reason, Status, spheres
 from foamprb.cloud.tracker import Models, Outcome
-from foamprb.flow.analytic import walk_free
 from foamprb.flow.mesh.mesh import build_mesh
+from foamprb.flow.meshflow import LONG
 from foamprb.flow.series import SeriesFlow
 
 AIR = Medium(1.208 * 1.491e-5, 1.208, (0.0, -9.81, 0.0))
@@ -31,12 +31,8 @@ def walk_fails(flow, host, x0, x1):
     return host, 0.0, -2, -1
 
 
-def recover_everywhere(flow, x):
-    return 0
-
-
-def recover_nowhere(flow, x):
-    return -1
+def recover_above(flow, x):
+    return 0 if x[2] >= 0.0 else -1
 
 
 PAPER = Models(integrator="paper")
@@ -220,27 +216,34 @@ class TestBookkeeping:
         np.testing.assert_allclose(cloud.particles.F, reference.particles.F, atol=1e-15)
         np.testing.assert_allclose(cloud.particles.A, reference.particles.A, rtol=1e-12, atol=1e-9)
 
+    def test_normals_of_walls_are_found_with_the_compiled_parts_of_the_loop(self, monkeypatch):
+        """Inlined, the long kernels would take 40 s to compile."""
+        cloud, separate = pipe_cloud(0.5), []
+        monkeypatch.setattr("foamprb.cloud.cloud.link", lambda *given: separate.extend(given[2]) or print)
+        cloud.contact_normals(np.array([0]))
+        assert {*LONG} <= {*separate}
+
     def test_failed_walk_is_recovered_by_the_tree_and_counted(self):
-        cloud = self.with_walks_that_fail(recover_everywhere)
+        cloud = self.in_shear(0.0, walk=walk_fails, recover=recover_above)
         cloud.advance(7)
         assert cloud.recovered == 7
         assert cloud.particles.status[0] == Status.ACTIVE
-        reference = self.with_walks_that_fail(recover_everywhere, walk_free)
+        reference = self.in_shear(0.0)
         reference.advance(7)
         np.testing.assert_array_equal(cloud.particles.x, reference.particles.x)
 
     def test_particle_outside_the_tree_fails_with_reason_and_place(self):
-        cloud = self.with_walks_that_fail(recover_nowhere)
+        cloud = self.in_shear(-1e-3, walk=walk_fails, recover=recover_above)
         Stepper(cloud).advance(7)
         p = cloud.particles
         assert (p.status[0], p.reason[0]) == (Status.FAILED, Reason.LOST)
         assert np.isfinite(p.x).all()
         assert p.t[0] == pytest.approx(cloud.dt)
 
-    def with_walks_that_fail(self, recover, walk=None):
+    def in_shear(self, z, **kernels):
         flow = analytic.shear(100.0)
-        flow.kernels = {**flow.kernels, "walk": walk or walk_fails, "recover": recover}
-        p = spheres([[0.0, 1e-3, 0.0]], d=D, rho=2560.0, mu=modulus(0.1))
+        flow.kernels = {**flow.kernels, **kernels}
+        p = spheres([[0.0, 1e-3, z]], d=D, rho=2560.0, mu=modulus(0.1))
         return Cloud(p, flow, AIR, (), 2e-5, PAPER)
 
 
