@@ -9,7 +9,7 @@ From a case to its results, as ``foamprb run`` goes:
     execute             advance a job's cloud to its end time and write the results
     open_run            the results of a run: tables, snapshots, paths
     InputError          a mistake in the input; its message says where, and what is allowed
-    RunStopped          a run that ended early; its message says why, and how to go on
+    RunStopped          a run that ended early; its message gives the reason, and how to continue
 
 Flows:
 

@@ -32,23 +32,17 @@ class RunInterrupted(RunStopped):
         Number of the signal.
     """
 
-    def __init__(self, message: str, signal: int) -> None:
+    def __init__(self, message: str, signal: int = 0) -> None:
         super().__init__(message)
         self.signal = signal
-
-    def __reduce__(self) -> tuple[type[RunInterrupted], tuple[str, int]]:
-        return RunInterrupted, (str(self), self.signal)
 
 
 class RankError(Exception):
     """Error on one of the processes of a parallel run; ``trace`` is its traceback as text."""
 
-    def __init__(self, message: str, trace: str) -> None:
+    def __init__(self, message: str, trace: str = "") -> None:
         super().__init__(message)
         self.trace = trace
-
-    def __reduce__(self) -> tuple[type[RankError], tuple[str, str]]:
-        return RankError, (str(self), self.trace)
 
 
 def closest(found: str, allowed: Iterable[str]) -> str | None:

@@ -8,7 +8,7 @@ import resource
 from contextlib import suppress
 from pathlib import Path
 
-__all__ = ["OutOfMemory", "forget", "memory", "ran_out", "require", "require_start", "spoken", "wants"]
+__all__ = ["OutOfMemory", "announce", "forget", "memory", "ran_out", "require", "require_start", "size_text"]
 
 START = 1e9
 """Address space of a run with few particles and cells, bytes; at most a third of it is used.
@@ -16,7 +16,7 @@ START = 1e9
 With much less the libraries cannot be loaded, and may fail in unpredictable ways.
 """
 
-_wanted: dict[str, tuple[int, float]] = {}
+_announced: dict[str, tuple[int, float]] = {}
 """Announced needs: a number, and bytes of each, by name."""
 
 
@@ -31,7 +31,7 @@ def memory() -> float:
     return min(found)
 
 
-def wants(what: str, number: int, each: float) -> None:
+def announce(what: str, number: int, each: float) -> None:
     """Announce a need for memory, so that a message can name it on exhaustion.
 
     Parameters
@@ -43,12 +43,12 @@ def wants(what: str, number: int, each: float) -> None:
     each
         Bytes for each of them in total.
     """
-    _wanted[what] = number, each
+    _announced[what] = number, each
 
 
 def forget() -> None:
     """Forget announced needs, at the start of another command."""
-    _wanted.clear()
+    _announced.clear()
 
 
 def require_start() -> None:
@@ -56,8 +56,8 @@ def require_start() -> None:
     limit = _limit(resource.RLIMIT_AS)
     if 0.0 < limit < START:
         raise OutOfMemory(
-            f"not enough memory for the program itself: needs about {spoken(START)}, and this process may "
-            f"take {spoken(limit)} (ulimit -v)."
+            f"not enough memory for the program itself: needs about {size_text(START)}, and this process may "
+            f"take {size_text(limit)} (ulimit -v)."
         )
 
 
@@ -66,8 +66,10 @@ def require(size: float) -> None:
 
     A library that fails to allocate memory may end the process itself, without a message.
     """
-    limit = _limit(resource.RLIMIT_AS)
-    if limit and size > limit - _taken():
+    limit, taken = _limit(resource.RLIMIT_AS), 0.0
+    with suppress(OSError):
+        taken = float(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    if limit and size > limit - taken:
         raise OutOfMemory(_message())
 
 
@@ -77,14 +79,14 @@ def ran_out(error: BaseException | None) -> OutOfMemory | None:
     while error is not None and error not in seen:
         if isinstance(error, OutOfMemory):
             return error
-        if _is_of_memory(error):
+        if _is_memory_error(error):
             return OutOfMemory(_message())
         seen.append(error)
         error = error.__cause__ or error.__context__
     return None
 
 
-def spoken(size: float) -> str:
+def size_text(size: float) -> str:
     """Return a size in bytes as text with a unit."""
     for unit, factor in (("TB", 1e12), ("GB", 1e9)):
         if size >= factor:
@@ -94,25 +96,17 @@ def spoken(size: float) -> str:
 
 def _message() -> str:
     there = memory()
-    names = " and ".join(f"{number} {what}" for what, (number, _) in _wanted.items())
-    need = sum(number * each for number, each in _wanted.values())
+    names = " and ".join(f"{number} {what}" for what, (number, _) in _announced.items())
+    need = sum(number * each for number, each in _announced.values())
     if _limit(resource.RLIMIT_AS):
         need += START
     # Other processes may use part of the memory.
-    needs = f"about {spoken(need)}" if need > there else f"more than {spoken(there)}"
+    needs = f"about {size_text(need)}" if need > there else f"more than {size_text(there)}"
     return (
-        f"not enough memory for {names}; needs {needs}, and there are {spoken(there)}."
+        f"not enough memory for {names}; needs {needs}, and there are {size_text(there)}."
         if names
-        else f"not enough memory; there are {spoken(there)}."
+        else f"not enough memory; there are {size_text(there)}."
     )
-
-
-def _taken() -> float:
-    """Return the address space of this process, bytes; 0 if unknown."""
-    with suppress(OSError):
-        pages = Path("/proc/self/statm").read_text().split()[0]
-        return float(int(pages) * os.sysconf("SC_PAGE_SIZE"))
-    return 0.0
 
 
 def _limit(kind: int) -> float:
@@ -121,7 +115,7 @@ def _limit(kind: int) -> float:
     return 0.0 if limit == resource.RLIM_INFINITY else float(limit)
 
 
-def _is_of_memory(error: BaseException) -> bool:
+def _is_memory_error(error: BaseException) -> bool:
     if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return True
     if isinstance(error, SystemError) and _limit(resource.RLIMIT_AS):

@@ -1,14 +1,17 @@
-"""Start-up of the processes of ``mpirun``: how they find each other."""
+"""Start-up of the processes of ``mpirun``, and the signals that end them."""
 
 from __future__ import annotations
 
 import logging
 import os
-from collections.abc import Callable
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
 
 from foamprb.errors import InputError
 from foamprb.parallel.ranks import Ranks
-from foamprb.parallel.signals import caught_signals
 from foamprb.parallel.worker import Worker
 
 _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
@@ -82,6 +85,34 @@ def connect() -> Ranks | Worker | None:
     threads = min(len(own), max(1, len(shared) // worker.windows.node.size))
     threads = worker.comm.allreduce(threads, MPI.MIN)
     return Ranks(worker, threads) if worker.rank == 0 else worker
+
+
+@contextmanager
+def caught_signals() -> Iterator[list[int]]:
+    """Collect the first Ctrl-C or SIGTERM in a list; a second one ends the process.
+
+    Python catches signals in the main thread only.
+    """
+    caught: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        yield caught
+        return
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+
+    def restore() -> None:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    def catch(number: int, _: FrameType | None) -> None:
+        caught.append(number)
+        restore()
+
+    for number in before:
+        signal.signal(number, catch)
+    try:
+        yield caught
+    finally:
+        restore()
 
 
 def _is_first() -> bool:

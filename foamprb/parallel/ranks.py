@@ -68,10 +68,10 @@ class Ranks:
             If a process fails.
         """
         self._amid_order = True
-        self.worker.meet()
+        self.worker.wait_for_all()
         self.worker.comm.bcast((name, arguments))
-        answer = self.worker.carry_out(name, (*arguments, *own), ())
-        self.worker.meet()
+        answer = self.worker.execute(name, (*arguments, *own), ())
+        self.worker.wait_for_all()
         answers: list[Answer] = self.worker.comm.gather(answer)
         self._amid_order = False
         self.signals += [number for answer in answers for number in answer.signals]
@@ -85,9 +85,9 @@ class Ranks:
         if self._amid_order:
             # The others wait for something else, so they can only be stopped.
             self.worker.comm.Abort(status)
-        self.worker.meet()
-        self.worker.comm.bcast(("leave", (status,)))
-        self.worker.leave()
+        self.worker.wait_for_all()
+        self.worker.comm.bcast(("finalise", (status,)))
+        self.worker.finalise()
 
 
 class RankStepper(Stepper):
@@ -157,7 +157,7 @@ class RankStepper(Stepper):
         file = with_ending(stem, ".pvtp")
 
         def list_pieces() -> Path:
-            write_pieces(file, pieces[0].arrays, [piece.file for piece in pieces])
+            write_pieces(file, pieces[0][1], [path for path, _ in pieces])
             return file
 
         return list_pieces

@@ -8,7 +8,7 @@ import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,17 +26,14 @@ from foamprb.parallel.shared_memory import Windows
 from foamprb.results.vtk import PieceArray, write_snapshot
 from foamprb.settings.libs import load_libs
 
-_LONGEST_NAP = 1e-3
+_LONGEST_PAUSE = 1e-3
 """Longest pause between two tests of a barrier, s."""
 _COLLECTIVE = ("make", "spread", "free", "distribute", "exchange", "gather")
 """Orders during which processes wait for each other; an error in one of them aborts all processes."""
 
 
-class Piece(NamedTuple):
-    """File that a process has written, and its arrays."""
-
-    file: Path
-    arrays: tuple[PieceArray, ...]
+Piece: TypeAlias = tuple[Path, tuple[PieceArray, ...]]
+"""File that a process has written, and its arrays."""
 
 
 class ShareState(NamedTuple):
@@ -90,7 +87,7 @@ class Worker:
         self.signals: Sequence[int] = ()
         """Signals that this process has received; the sequence grows."""
 
-    def carry_out(self, name: str, arguments: tuple[Any, ...], signals: Sequence[int]) -> Answer:
+    def execute(self, name: str, arguments: tuple[Any, ...], signals: Sequence[int]) -> Answer:
         """Execute an order."""
         self.signals = signals
         try:
@@ -129,7 +126,7 @@ class Worker:
             self.particles = whole.take(self.ids)
         else:
             self.particles, self.ids = unpack(self._receive(0))
-        self._fresh = _live(self.particles)
+        self._fresh = _unfinished(self.particles)
 
     def share(self) -> ShareState:
         """Return the state of the particles."""
@@ -180,10 +177,12 @@ class Worker:
                 records = self._receive(rank) if rank else changed
                 for name, array in self._whole._asdict().items():
                     array[records["id"]] = records[name]
-        self._fresh = _live(self.particles)
+        self._fresh = _unfinished(self.particles)
 
     def write(self, folder: Path, time: float, names: Mapping[str, Sequence[str]]) -> Piece | None:
-        """Write the particles into a piece; no-op without particles, except in the first process.
+        """Write the particles; return the file and its arrays.
+
+        Without particles only the first process writes a file.
 
         Parameters
         ----------
@@ -198,7 +197,7 @@ class Worker:
             return None
         flow, mu = _SharedFlow(self._tracker.kernels["sample"], self._flow), self._tracker.medium.mu
         file = piece_file(folder, self.rank)
-        return Piece(file, write_snapshot(file, report(self.particles, flow, mu, time, names, self.ids)))
+        return file, write_snapshot(file, report(self.particles, flow, mu, time, names, self.ids))
 
     def serve(self, signals: Sequence[int]) -> int:
         """Execute the orders of the first process until it dismisses all; return the exit status.
@@ -209,23 +208,23 @@ class Worker:
             Signals that this process has received; the sequence grows.
         """
         while True:
-            self.meet()
+            self.wait_for_all()
             name, arguments = self.comm.bcast(None)
-            if name == "leave":
-                self.leave()
+            if name == "finalise":
+                self.finalise()
                 return int(arguments[0])
-            answer = self.carry_out(name, arguments, signals)
-            self.meet()
+            answer = self.execute(name, arguments, signals)
+            self.wait_for_all()
             self.comm.gather(answer)
 
-    def meet(self) -> None:
+    def wait_for_all(self) -> None:
         """Wait for all processes with short pauses; MPI itself would keep the processor busy."""
-        request, nap = self.comm.Ibarrier(), 1e-6
+        request, pause = self.comm.Ibarrier(), 1e-6
         while not request.Test():
-            time.sleep(nap)
-            nap = min(2.0 * nap, _LONGEST_NAP)
+            time.sleep(pause)
+            pause = min(2.0 * pause, _LONGEST_PAUSE)
 
-    def leave(self) -> None:
+    def finalise(self) -> None:
         """Free the shared memory, and finalise MPI."""
         for key in sorted(self.windows.arrays):
             self.windows.free(key)
@@ -247,7 +246,7 @@ def piece_file(folder: Path, rank: int) -> Path:
     return folder / f"{rank}.vtp"
 
 
-def _live(p: Particles) -> NDArray[np.bool_]:
+def _unfinished(p: Particles) -> NDArray[np.bool_]:
     return np.asarray((p.status == Status.PENDING) | (p.status == Status.ACTIVE))
 
 

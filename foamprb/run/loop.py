@@ -10,9 +10,9 @@ from foamprb.cloud.cloud import Stepper
 from foamprb.cloud.injection.models import BYTES
 from foamprb.cloud.state import Status
 from foamprb.errors import RunInterrupted, RunStopped
-from foamprb.memory import require, wants
+from foamprb.memory import announce, require
+from foamprb.parallel.launch import caught_signals
 from foamprb.parallel.ranks import Ranks, RankStepper
-from foamprb.parallel.signals import caught_signals
 from foamprb.results.folder import FAILURES
 from foamprb.run.compilation import compile_run
 from foamprb.run.job import Job
@@ -41,8 +41,8 @@ def execute(
     job
         A cloud that has not been advanced.
     start_from
-        ``"startTime"`` to begin anew, in place of an old run; ``"latestTime"`` to continue from the last
-        checkpoint, if there is one. By default, the entry of the settings. Without it, a run begins anew, but
+        ``"startTime"`` to start over, in place of an old run; ``"latestTime"`` to continue from the last
+        checkpoint, if there is one. By default, the entry of the settings. Without it, a run starts over, but
         not in place of an unfinished one.
     stop
         Called several times a second; True to write a checkpoint and end the run.
@@ -64,7 +64,7 @@ def execute(
         If the address space of this process is limited, and too small.
     """
     cloud = job.cloud
-    wants("particles", cloud.particles.size, BYTES)
+    announce("particles", cloud.particles.size, BYTES)
     require(_COPIES * cloud.particles.size + _BESIDE)
     compile_run(cloud, job.compilation, alone=ranks is None)
     with open_results(job) as results:

@@ -1,6 +1,6 @@
-"""What a checkpoint holds of a run, and whether a run may go on from it.
+"""Content of checkpoints, and checks whether a run may continue from one.
 
-A run goes on only with the physics that it began with: the settings, the particles and the flow leave a
+A run continues only with the physics of its start: the settings, the particles and the flow leave a
 fingerprint in the checkpoint. What does not act on a particle may change: the end time, the write interval,
 the number of threads. Nothing here depends on which process carries which particle.
 """
@@ -24,7 +24,7 @@ from foamprb.cloud.cloud import Cloud, Snapshot
 from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
-from foamprb.results.checkpoint import Checkpoint, is_one_row
+from foamprb.results.checkpoint import Checkpoint
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 
@@ -103,7 +103,7 @@ def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> No
     checkpoint
         One of the run.
     marks
-        Fingerprint of the cloud that is to go on from it.
+        Fingerprint of the cloud that continues from it.
     where
         What the message begins with.
     """
@@ -112,7 +112,7 @@ def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> No
         more = f", and {len(changed) - _MOST_NAMED} more" if len(changed) > _MOST_NAMED else ""
         raise InputError(
             f"{where}, as the run began with something else: {'; '.join(changed[:_MOST_NAMED])}{more}. Undo "
-            "the change, or begin anew: -overwrite, or startFrom startTime."
+            "the change, or start over: -overwrite, or startFrom startTime."
         )
 
 
@@ -136,7 +136,7 @@ def restore(cloud: Cloud, functions: CloudFunctions, checkpoint: Checkpoint, whe
     if {name: (array.shape, array.dtype) for name, array in arrays.items()} != layout:
         raise InputError(
             f"{where}: foamprb {header['foamprb']} wrote the checkpoint, with other variables than those of "
-            f"foamprb {version('foamprb')}. Begin anew: -overwrite, or startFrom startTime."
+            f"foamprb {version('foamprb')}. Start over: -overwrite, or startFrom startTime."
         )
     functions.restore(_part(checkpoint, _FUNCTIONS))
     cloud.particles = Particles(**arrays)
@@ -162,7 +162,7 @@ def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Snap
     try:
         listed = read_pvd(pvd) if pvd.exists() else None
     except InputError as error:
-        log.warning("%s It is made anew from the checkpoint.", error)
+        log.warning("%s It is rebuilt from the checkpoint.", error)
         listed = None
     if listed is None:
         entries = tuple(SnapshotFile(time, _existing(pvd.parent / stem).name) for time, stem in expected)
@@ -177,8 +177,8 @@ def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Snap
     fault = f"{missing[0]} is missing" if missing else fault
     if fault:
         raise InputError(
-            f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or begin "
-            "anew: -overwrite, or startFrom startTime."
+            f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or start "
+            "over: -overwrite, or startFrom startTime."
         )
     return entries
 
@@ -233,9 +233,6 @@ def _sums(values: NDArray[Any], weights: NDArray[np.float64]) -> Sums:
         return [[float(values.size), float(zlib.crc32(values.tobytes()))]]
     columns = values.reshape(len(values), math.prod(values.shape[1:]))
     weights = weights[: len(columns)]
-    if is_one_row(np.ascontiguousarray(columns)):
-        # As in many arrays of a cloud: to find that out takes less than the sums.
-        columns, weights = columns[:1], weights.mean(keepdims=True)
     total = np.zeros((2, columns.shape[1]))
     for start in range(0, len(columns), _CHUNK):
         chunk = columns[start : start + _CHUNK]

@@ -107,7 +107,7 @@ class Results:
         if start_from is None and unfinished and not job.folder.find_table(FATES):
             raise InputError(
                 f"{job.folder.path}: an unfinished run has come to t = {max(unfinished):g} s. To "
-                "continue it: -resume, or startFrom latestTime; to begin anew in its place: -overwrite, or "
+                "continue it: -resume, or startFrom latestTime; to start over in its place: -overwrite, or "
                 "startFrom startTime."
             )
         checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
@@ -116,7 +116,7 @@ class Results:
             return
         if start_from == "latestTime":
             log.info("No checkpoint in %s: beginning at the start time", self._checkpoints.folder)
-        self._begin_anew()
+        self._start_over()
 
     def write_start(self) -> None:
         """Write the snapshot of the start time, with the particles that appear then; no-op after a restart.
@@ -254,10 +254,10 @@ class Results:
     def _function_folders(self) -> list[Path]:
         return [self._job.folder.path / name for name in self._job.functions.functions]
 
-    def _begin_anew(self) -> None:
+    def _start_over(self) -> None:
         """Remove the files that an earlier run has listed, and write the description of this one."""
         folder = self._job.folder.path
-        remedy = f"The files of the earlier run are unknown: remove or rename {folder} to begin anew."
+        remedy = f"The files of the earlier run are unknown: remove or rename {folder} to start over."
         try:
             manifest = Manifest.read(folder)
         except InputError as error:
@@ -292,7 +292,7 @@ class Results:
         try:
             manifest = Manifest.read(job.folder.path)
         except InputError as error:
-            log.warning("%s It is made anew; files of later times may remain.", error)
+            log.warning("%s It is rebuilt; files of later times may remain.", error)
             manifest = Manifest(job.folder.path)
         remove_unfinished({*manifest.files, manifest.path})
         manifest.remove(file for file in self._last_tables() if file in manifest.files)

@@ -102,7 +102,7 @@ class Solution:
     startFrom: Annotated[
         StartFrom | None,
         Meaning(
-            "`startTime`: begin anew; `latestTime`: continue from the last checkpoint, if it exists",
+            "`startTime`: start over; `latestTime`: continue from the last checkpoint, if it exists",
             default="as `startTime`, but an unfinished run is an error",
         ),
     ] = None

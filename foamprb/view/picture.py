@@ -19,7 +19,7 @@ from foamprb import optional
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS
 from foamprb.flow.read.vtk_reader import vtk_messages
-from foamprb.memory import require, wants
+from foamprb.memory import announce, require
 from foamprb.results.atomic import atomic_write
 from foamprb.view.bodies import UNNAMED, Codes
 from foamprb.view.colours import (
@@ -336,7 +336,7 @@ def _drawing(scene: Scene, size: tuple[int, int], style: Style, texts: bool, off
     """
     number = int(scene.bodies.shown.sum(axis=1).max(initial=0))
     points = len(sphere_for(number).points) + (len(mark().points) if number <= _MOST_MARKED else 0)
-    wants("bodies drawn", number, _POINT * points)
+    announce("bodies drawn", number, _POINT * points)
     require(_GRAPHICS + _POINT * points * number)
     plotter = pyvista.Plotter(off_screen=off_screen or None, window_size=list(size), lighting=None)
     plotter.set_background(style.paper)

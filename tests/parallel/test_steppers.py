@@ -16,8 +16,8 @@ from foamprb.cloud.state import Particles
 from foamprb.cloud.tracker import never
 from foamprb.errors import RunStopped
 from foamprb.parallel import launch
+from foamprb.parallel.launch import caught_signals
 from foamprb.parallel.ranks import Ranks
-from foamprb.parallel.signals import caught_signals
 
 
 class Apart(Stepper):

@@ -71,11 +71,11 @@ def test_message_names_requested_and_available_memory(monkeypatch):
     monkeypatch.setattr(memory, "memory", lambda: 2e9)
     monkeypatch.setattr(memory, "_limit", lambda _: 0.0)
     assert str(memory.ran_out(MemoryError())) == "not enough memory; there are 2 GB."
-    memory.wants("cells", 100, 1e6)
-    memory.wants("particles", 10_000_000, 1e3)
+    memory.announce("cells", 100, 1e6)
+    memory.announce("particles", 10_000_000, 1e3)
     says = "not enough memory for 100 cells and 10000000 particles; needs "
     assert str(memory.ran_out(MemoryError())) == f"{says}about 10.1 GB, and there are 2 GB."
-    memory.wants("particles", 10, 1e3)
+    memory.announce("particles", 10, 1e3)
     assert "10 particles; needs more than 2 GB, and there are 2 GB." in str(memory.ran_out(MemoryError()))
 
 

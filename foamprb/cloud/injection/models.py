@@ -30,7 +30,7 @@ from foamprb.dictionary.constraints import (
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
 from foamprb.flow.base import Flow
-from foamprb.memory import memory, spoken, wants
+from foamprb.memory import announce, memory, size_text
 
 Floats = NDArray[np.float64]
 log = logging.getLogger("foamprb")
@@ -332,8 +332,8 @@ def require_room(number: float, what: str) -> int:
     need, there = number * BYTES, memory()
     if not need < there:
         raise InputError(
-            f"{what} gives {number:.3g} particles, which need about {spoken(need)} of memory; "
-            f"{spoken(there)} are available."
+            f"{what} gives {number:.3g} particles, which need about {size_text(need)} of memory; "
+            f"{size_text(there)} are available."
         )
     n = round(number)
     if n == 0:
@@ -375,7 +375,7 @@ def release(model: Injection, flow: Flow, random: np.random.Generator, read: Rea
     """
     places = model.places(flow, random, read)
     n = len(places.t)
-    wants("particles", n, BYTES)
+    announce("particles", n, BYTES)
     p = empty(n)
     p.x[:] = p.x0[:] = places.x
     p.host[:] = places.hosts

@@ -23,7 +23,7 @@ from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import OPEN, TWISTED, choose_bases, split_cells
 from foamprb.flow.mesh.geometry import Faces, boundary_geometry, cell_geometry, inward_normals, order_faces
 from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, points_of
-from foamprb.memory import wants
+from foamprb.memory import announce
 
 _MOST_TURNS = 5
 CELL_BYTES = 3000.0
@@ -124,7 +124,7 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         Cells of another type; a face of three cells; an open cell; boundary faces in no patch or in two
         patches; patch faces that are not on the boundary.
     """
-    wants("cells", grid.GetNumberOfCells(), CELL_BYTES)
+    announce("cells", grid.GetNumberOfCells(), CELL_BYTES)
     given = points_of(grid)
     points = np.ascontiguousarray(given, dtype=np.float64)
     half, cell_point_start, cell_points = list_half_faces(grid, source)
