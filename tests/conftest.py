@@ -5,6 +5,7 @@ import os
 # Workers of pytest-xdist use all cores; more threads of BLAS than cores cost several times the work.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,14 @@ settings.register_profile(
     database=DirectoryBasedExampleDatabase(Path(__file__).parents[1] / ".hypothesis/examples"),
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _compile_in_one_process() -> Iterator[None]:
+    """Compile loops in the process of a test, which has compiled most of their parts before."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("foamprb.run.compilation.available_threads", lambda: 1)
+        yield
 
 
 @pytest.fixture

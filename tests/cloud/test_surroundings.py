@@ -79,14 +79,14 @@ def carried(integrator, surroundings, steps=3):
 
 @pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
 def test_a_model_changes_the_fluid_that_a_particle_feels(integrator):
-    p = carried(integrator, (Wind(speed=1e-3),))
+    p = carried(integrator, (Calm(), Wind(speed=1e-3)))
     assert p.x[:, 0] == pytest.approx(DT * 1e-3 * (1 + 2 + 3), rel=2e-3)
     assert p.v[:, 0] == pytest.approx(3e-3, rel=2e-3)
 
 
 def test_a_model_acts_with_the_papers_integrator():
     p = spheres(np.zeros((3, 3)), d=2e-4, rho=1000.0, mu=1e-3)
-    models = Models(integrator="paper", surroundings=(Wind(speed=1e-3),))
+    models = Models(integrator="paper", surroundings=(Calm(), Wind(speed=1e-3)))
     cloud = Cloud(p, analytic.shear(1.0), WATER, (), 1e-2, models, threads=1)
     cloud.advance(1)
     assert p.v[:, 0] == pytest.approx(

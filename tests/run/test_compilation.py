@@ -3,6 +3,7 @@
 import shutil
 import subprocess
 
+import numba
 import numpy as np
 import pytest
 from mesh_shapes import block
@@ -30,27 +31,6 @@ def steady(mesh):
 def transient(mesh):
     u = 0.1 * np.ones((len(mesh.nodes), 3)), np.zeros((len(mesh.nodes), 3, 3))
     return SeriesFlow(mesh, [0.0, 1.0], lambda _: u)
-
-
-@pytest.mark.parametrize("make", [steady, transient])
-def test_what_was_precompiled_is_what_is_wanted(make, tmp_path, monkeypatch):
-    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(tmp_path))
-    monkeypatch.setattr(compiling, "_parts", {})
-    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
-    flow = make(build_mesh(block(1, 0.0, "mixed")))
-    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
-    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
-    assert not cloud.tracker.compiled
-    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
-    Compilation(early, type(flow)).wait()
-    assert cloud.tracker.compiled
-    cloud.advance(1)
-    stats = cloud.tracker._track.stats
-    assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
-    assert p.x[0, 0] > 0.5
-    # The stages as the first process would compile them are those that the loop is made of.
-    monkeypatch.setattr(compiling, "_parts", {})
-    assert not [stage.__name__ for stage in early.integrator.stages if early._compile(stage, {})]
 
 
 def loop():
@@ -104,13 +84,31 @@ def test_a_process_that_cannot_start_is_ignored(two_processors, monkeypatch):
     assert not tracker.compiled
 
 
-def test_the_process_runs_no_code_of_the_current_folder(two_processors, tmp_path, monkeypatch):
+@pytest.mark.parametrize("make", [steady, transient])
+def test_example_of_a_flow_has_the_types_of_its_arguments(make):
+    flow = make(build_mesh(block(1, 0.0, "mixed")))
+    assert numba.typeof(type(flow).nothing()) == numba.typeof(flow.arrays(0.0, []))
+
+
+def test_code_of_the_second_process_is_used(two_processors, tmp_path, monkeypatch):
     (tmp_path / "numpy.py").write_text("open('executed', 'w')")
     monkeypatch.chdir(tmp_path)
-    tracker = loop()
-    Compilation(tracker, MeshFlow).wait()
-    assert tracker.compiled
+    flow = transient(build_mesh(block(1, 0.0, "mixed")))
+    p = foamprb.spheres(np.array([[0.5, 0.5, 0.5]]), d=1e-3, rho=1000.0, mu=1.0)
+    cloud = Cloud(p, flow, AIR, [foamprb.Stick()] * len(flow.patches), 1e-3, Models(integrator="stokes"))
+    early = Tracker(cloud.models, flow.kernels, AIR, [], 1e-3, 0.0, shaped=False, tense=False)
+    assert not cloud.tracker.compiled
+    Compilation(early, type(flow)).wait()
+    # It runs no code of the current folder.
     assert not (tmp_path / "executed").exists()
+    assert cloud.tracker.compiled
+    cloud.advance(1)
+    stats = cloud.tracker._track.stats
+    assert (sum(stats.cache_hits.values()), sum(stats.cache_misses.values())) == (1, 0)
+    assert p.x[0, 0] > 0.5
+    # The stages as the first process would compile them are those that the loop is made of.
+    monkeypatch.setattr(compiling, "_parts", {})
+    assert not [stage.__name__ for stage in early.integrator.stages if early._compile(stage, {})]
 
 
 def test_after_compile_no_run_has_to(capsys):

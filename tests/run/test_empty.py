@@ -39,7 +39,7 @@ def case(tmp_path):
     return case
 
 
-@pytest.mark.parametrize("shape", ["paper", "auto", "rosenbrock", "stokes"])
+@pytest.mark.parametrize("shape", ["paper", "auto"])
 def test_a_run_without_particles_writes_all_files(case, shape, capsys):
     edit(case, r"shape\s+paper;", f"shape {shape};")
     assert main(["run", "-case", str(case)]) == 0

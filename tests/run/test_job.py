@@ -17,6 +17,7 @@ from scipy import stats
 from foamprb.cli import main
 from foamprb.cloud.measures import MEASURES
 from foamprb.cloud.state import Status
+from foamprb.cloud.tracker import Tracker
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.results.pvd import read_pvd
 from foamprb.run.job import likely_integrator, prepare
@@ -278,8 +279,8 @@ def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     monkeypatch.setattr(
         "foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")
     )
-    monkeypatch.setenv("FOAMPRB_CACHE_DIR", str(case / "cache"))
-    monkeypatch.setattr("foamprb.compile.link._parts", {})
+    monkeypatch.setattr("foamprb.run.compilation.available_threads", lambda: 2)
+    monkeypatch.setattr(Tracker, "compiled", False)
     assert main(["run", "-case", str(case), "-dry-run"]) == 0
     assert "ompiling" not in capsys.readouterr().out
 

@@ -205,20 +205,14 @@ def test_changed_physics_is_refused_by_name(name, stopped, capsys):
     assert results(stopped) == before
 
 
-@pytest.mark.parametrize("row", [np.array([1.0, -3.0, 0.0]), np.array([np.nan, 2.0, 1e-7])])
-def test_rows_that_are_alike_leave_the_fingerprint_of_any_others(row):
-    """They are summed in a shorter way: with one that differs in its last bit all are, to the same sums."""
-    rows, weights = np.tile(row, (700_000, 1)), np.random.default_rng(0).random(700_000)
-    nearly, others = rows.copy(), rows.copy()
-    nearly[-1, 1] = np.nextafter(nearly[-1, 1], np.inf)
-    others[:, 1] *= 1.0 + 1e-8
-    size, total, weighted = restart._sums(rows, weights)
-    assert size == [2_100_000.0]
-    known = np.nan_to_num(row)
-    np.testing.assert_allclose(total, np.abs(known), rtol=1e-15)
-    np.testing.assert_allclose(weighted, known * weights.mean(), rtol=1e-13)
-    assert restart._agree([size, total, weighted], restart._sums(nearly, weights))
-    assert not restart._agree([size, total, weighted], restart._sums(others, weights))
+def test_fingerprint_tolerates_round_off_and_tells_the_order_of_rows():
+    random = np.random.default_rng(0)
+    values, weights = random.normal(size=(1000, 3)), random.random(1000)
+    values[7, 1] = np.nan
+    sums = restart._sums(values, weights)
+    assert restart._agree(sums, restart._sums(values * (1.0 + 1e-15), weights))
+    assert not restart._agree(sums, restart._sums(values * (1.0 + 1e-8), weights))
+    assert not restart._agree(sums, restart._sums(values[::-1], weights))
 
 
 def test_results_that_are_not_the_runs_are_refused(stopped, capsys):
@@ -331,10 +325,10 @@ def test_mistakes_in_the_entries(case, capsys):
 
 def test_killed_runs_end_as_if_they_had_never_been(tmp_path):
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path])}
-    words = [sys.executable, str(KILL_TEST), "-kills", "12", "-seed", "5"]
+    words = [sys.executable, str(KILL_TEST), "-kills", "6", "-seed", "5"]
     done = subprocess.run(words, capture_output=True, text=True, env=environment, timeout=300, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert re.search(r"^1[2-9] interruptions", done.stdout, re.MULTILINE)
+    assert re.search(r"^([6-9]|1\d) interruptions", done.stdout, re.MULTILINE)
 
 
 def test_recovered_walks_before_an_interruption_are_counted(case, capsys):
