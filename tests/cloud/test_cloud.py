@@ -219,6 +219,7 @@ class TestBookkeeping:
     def test_normals_of_walls_are_found_with_the_compiled_parts_of_the_loop(self, monkeypatch):
         """Inlined, the long kernels would take 40 s to compile."""
         cloud, separate = pipe_cloud(0.5), []
+        cloud.make_ready()
         monkeypatch.setattr("foamprb.cloud.cloud.link", lambda *given: separate.extend(given[2]) or print)
         cloud.contact_normals(np.array([0]))
         assert {*LONG} <= {*separate}
