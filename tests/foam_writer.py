@@ -144,8 +144,13 @@ def decompose(case: Path, mesh: Mesh, part_of: np.ndarray, times: tuple[str, ...
                 mesh.n_internal + mesh.patch_start[:-1], mesh.n_internal + mesh.patch_start[1:], strict=True
             )
         ]
-        between = np.flatnonzero((own ^ other) & (np.arange(len(owner)) < mesh.n_internal))
-        kept = np.concatenate([inner, *patches, between])
+        beyond = np.where(own[: len(neighbour)], part_of[neighbour], part_of[owner[: len(neighbour)]])
+        between = {
+            to: np.flatnonzero((own ^ other)[: len(neighbour)] & (beyond == to))
+            for to in range(part_of.max() + 1)
+        }
+        between = {to: ids for to, ids in between.items() if len(ids)}
+        kept = np.concatenate([inner, *patches, *between.values()])
         turned = ~own[kept]
         lists = [
             faces[f] if not turn else np.r_[faces[f][:1], faces[f][:0:-1]]
@@ -166,20 +171,34 @@ def decompose(case: Path, mesh: Mesh, part_of: np.ndarray, times: tuple[str, ...
             "pointProcAddressing": ("labelList", plain(points), len(points)),
             "faceProcAddressing": ("labelList", plain(np.where(turned, -1, 1) * (kept + 1)), len(kept)),
             "cellProcAddressing": ("labelList", plain(cells), len(cells)),
-            "boundaryProcAddressing": ("labelList", plain([*range(len(patches)), -1]), len(patches) + 1),
+            "boundaryProcAddressing": (
+                "labelList",
+                plain([*range(len(patches)), *[-1] * len(between)]),
+                len(patches) + len(between),
+            ),
         }
         for name, (kind, body, count) in files.items():
             (poly / name).write_text(header(kind, name) + f"{count}\n(\n{body}\n)\n")
         text, start = "", len(inner)
-        blocks = [*zip(mesh.patches, patches, strict=True), (None, between)]
-        for patch, ids in blocks:
-            name, kind = (patch.name, patch.type) if patch else ("procBoundary", "processor")
-            text += f"{name} {{ type {kind}; inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
+        blocks = [
+            *(
+                (patch.name, f"type {patch.type};", ids)
+                for patch, ids in zip(mesh.patches, patches, strict=True)
+            ),
+            *(
+                (f"procBoundary{part}to{to}", f"type processor; myProcNo {part}; neighbProcNo {to};", ids)
+                for to, ids in between.items()
+            ),
+        ]
+        for name, entries, ids in blocks:
+            text += f"{name} {{ {entries} inGroups 1(some); nFaces {len(ids)}; startFace {start}; }}\n"
             start += len(ids)
         (poly / "boundary").write_text(
             header("polyBoundaryMesh", "boundary") + f"{len(blocks)}\n(\n{text})\n"
         )
-        values = "procBoundary { type processor; value uniform (1 2 3); }\n"
+        values = "".join(
+            f"procBoundary{part}to{to} {{ type processor; value uniform (1 2 3); }}\n" for to in between
+        )
         for patch, ids in zip(mesh.patches, patches, strict=True):
             at = mesh.boundary_centres[ids - mesh.n_internal] @ GRADIENT.T
             value = (

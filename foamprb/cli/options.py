@@ -30,6 +30,13 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
     add_case(parser)
     add = parser.add_argument
     add("--decomposed", action="store_true", help="read the processor folders")
+    add(
+        "--reader",
+        default="",
+        choices=["vtk"],
+        metavar="vtk",
+        help="read the mesh by VTK, in single precision",
+    )
     add("--flow", type=Path, metavar="FILE", help="read the flow from a mesh file")
     add("--velocity", default="U", metavar="NAME", help="velocity field [U]")
     add("--gradient", default="", metavar="NAME", help="gradient field [reconstructed]")
@@ -66,4 +73,5 @@ def source_of(arguments: argparse.Namespace) -> FlowSource:
         arguments.gradient,
         Division(arguments.patchArray, angle) if divided else None,
         arguments.decomposed,
+        reader=arguments.reader,
     )

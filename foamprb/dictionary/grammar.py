@@ -63,7 +63,7 @@ def parse_dictionary(text: str, path: Path, case: Path) -> Dictionary:
     return root
 
 
-def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
+def read_dictionary_list(path: Path, case: Path, text: str | None = None) -> DictionaryList:
     """Read a file with a list of named dictionaries and their number, such as ``polyMesh/boundary``.
 
     Parameters
@@ -72,6 +72,8 @@ def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
         The file, which may be compressed.
     case
         See :func:`read_dictionary`.
+    text
+        Contents of the file, if they have been read.
 
     Raises
     ------
@@ -80,7 +82,8 @@ def read_dictionary_list(path: Path, case: Path) -> DictionaryList:
     """
     source, spent = CaseFile(path, case), _Spent()
     root = Dictionary("", None, source, 0)
-    text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
+    if text is None:
+        text = _read_text(path, spent, lambda why: InputError(f"{source}: {why} (case {case})."))
     return _Parser(source, text, (), spent).counted_list(root)
 
 

@@ -24,7 +24,7 @@ from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
 from foamprb.flow.read.mrf import read_rotations
-from foamprb.flow.read.processors import processors
+from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import turbulence_fields
 from foamprb.settings.fluid import of_region, read_gravity
@@ -379,7 +379,7 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     if source.file is not None:
         return []
     divided = source.decomposed or is_only_decomposed(case, source.region)
-    folder = processors(case)[0] if divided else case
+    folder = Processors(case).folders[0] if divided else case
     fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
     if not fields:
         return []

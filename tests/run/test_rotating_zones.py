@@ -7,13 +7,13 @@ from foam_writer import header
 from pipe_case import edit, message, short_case, time_folder
 
 from foamprb.cli import main
-from foamprb.flow.read.openfoam import read_mesh
+from foamprb.flow.read.openfoam import Case
 
 
 @pytest.fixture
 def case(tmp_path):
     case = short_case(tmp_path)
-    n = read_mesh(case, time_folder(case).name, "").mesh.n_cells
+    n = Case(case).mesh(time_folder(case).name).mesh.n_cells
     (case / "constant/polyMesh/cellZones").write_text(
         header("regIOobject", "cellZones") + "1\n(\nrotor\n{\n type cellZone;\n cellLabels List<label> "
         f"{n}({' '.join(map(str, range(n)))});\n}}\n)\n"

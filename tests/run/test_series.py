@@ -59,7 +59,7 @@ def test_velocity_is_linear_between_times(case, random):
         u, l = flow.sample(x, hosts, t)
         for found, a, b in zip((u, l), start.sample(x, hosts, 0), middle.sample(x, hosts, 0), strict=True):
             np.testing.assert_allclose(found, a + t / 0.5 * (b - a), rtol=0, atol=1e-12)
-    assert "linear in time between 3 times from 0 to 1.5" in flow.notes[1]
+    assert "linear in time between 3 times from 0 to 1.5" in flow.notes[0]
 
 
 def test_the_time_of_the_run_is_that_of_the_flow(case):
@@ -112,7 +112,7 @@ def test_a_period_repeats_the_flow(case):
         u, _ = flow.sample(x, flow.locate(x), t)
         again, _ = flow.sample(x, flow.locate(x), t + 4.0)
         np.testing.assert_allclose(u, again, rtol=1e-12)
-    assert "repeats itself every 2 s" in flow.notes[1]
+    assert "repeats itself every 2 s" in flow.notes[0]
 
 
 def test_a_run_goes_on_from_its_checkpoint(case, tmp_path):

@@ -13,8 +13,7 @@ from foamprb.flow.base import Floats, Ints
 TOLERANCE = 1e-9
 """Tolerance of barycentric weights: a point in a tetrahedron may have weights down to minus this.
 
-Coordinates were read in single precision, so that no cell is thinner than about 1e-7 of its distance from the
-origin. The round-off of a weight in double precision is then below 1e-9.
+Weights follow from differences of coordinates: their round-off is about 1e-16 × distance from the origin.
 """
 
 

@@ -14,10 +14,9 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats, Ints, Patch
-from foamprb.flow.mesh.cells import HalfFaces
+from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.geometry import Faces
-from foamprb.flow.mesh.lists import Index, Mask, cell_array, points_of, starts, take_lists
+from foamprb.flow.mesh.lists import Index, Labels, Mask, cell_array, points_of, starts, take_lists
 
 _Hash: TypeAlias = NDArray[np.uint64]
 
@@ -37,14 +36,26 @@ class Transform(NamedTuple):
 
 
 class PatchSurface(NamedTuple):
-    """Patch with its faces; ``surface`` is a ``vtkPolyData`` with its own points."""
+    """Patch, and its faces if they are not yet those of a mesh."""
 
     name: str
     type: str
     surface: Any
+    """``vtkPolyData`` with points of its own, or None."""
     neighbour: str = ""
     """Neighbour of a cyclic patch."""
     transform: Transform = Transform()
+
+
+class PolyMesh(NamedTuple):
+    """Points, faces and patches of a mesh."""
+
+    points: Floats
+    """(n_points, 3), m."""
+    faces: Faces
+    patches: Sequence[PatchSurface]
+    patch_start: Index
+    """(n_patches + 1,): boundary faces of patch p are ``patch_start[p]`` to ``patch_start[p + 1]``."""
 
 
 def sort_boundary(faces: Faces, order: Index) -> None:
@@ -64,13 +75,11 @@ def assign_patches(
     points: Floats,
     dtype: Any,
     faces: Faces,
-    surfaces: Sequence[PatchSurface] | None,
+    surfaces: Sequence[PatchSurface],
     source: str,
-) -> tuple[Index, tuple[Patch, ...], Index]:
-    """Return the order of the boundary faces by patch, the patches, and the first face of each."""
+) -> tuple[Index, Index]:
+    """Return the order of the boundary faces by patch, and the first face of each patch."""
     boundary = np.arange(len(faces.neighbour), len(faces.owner))
-    if surfaces is None:
-        return np.arange(len(boundary)), (Patch("boundary", "wall"),), np.array([0, len(boundary)])
     start, lists = take_lists(faces.start, faces.points, boundary)
     polygons = [cell_array(surface.surface.GetPolys()) for surface in surfaces]
     clouds = [points_of(surface.surface).astype(dtype, copy=False) for surface in surfaces]
@@ -109,11 +118,10 @@ def assign_patches(
             f"{source}: {np.count_nonzero(times > 1)} boundary faces belong to more than one of the patches "
             f"{names}."
         )
-    patches = tuple(Patch(surface.name, surface.type, surface.neighbour) for surface in surfaces)
-    return found, patches, starts(np.array([len(part) for part in chosen], dtype=np.intp))
+    return found, starts(np.array([len(part) for part in chosen], dtype=np.intp))
 
 
-def mix(ids: Index) -> _Hash:
+def mix(ids: Labels) -> _Hash:
     """Scramble ids into 64 bits (the finalizer of splitmix64)."""
     code = (ids.astype(np.uint64) + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
     code = (code ^ (code >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
@@ -140,7 +148,12 @@ def _find(codes: _Hash, order: Index, wanted: _Hash) -> Index:
 
 
 def find_baffles(
-    points: Floats, dtype: Any, half: HalfFaces, mate: Ints, surfaces: Sequence[PatchSurface] | None
+    points: Floats,
+    dtype: Any,
+    start: Ints,
+    lists: Ints,
+    mate: Ints,
+    surfaces: Sequence[PatchSurface] | None,
 ) -> Mask:
     """Return True for matched half faces that belong to patches."""
     inside = mate != np.arange(len(mate), dtype=np.int32)
@@ -152,41 +165,47 @@ def find_baffles(
     coordinates = np.concatenate([points.astype(dtype), *clouds]) + 0
     place = np.unique(coordinates, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)
     begin, wanted = len(points), []
-    for (start, lists), cloud in zip(polygons, clouds, strict=True):
-        if len(start) > 1:
-            wanted.append(np.add.reduceat(mix(place[begin + lists]), start[:-1]))
+    for (poly_start, poly_points), cloud in zip(polygons, clouds, strict=True):
+        if len(poly_start) > 1:
+            wanted.append(np.add.reduceat(mix(place[begin + poly_points]), poly_start[:-1]))
         begin += len(cloud)
-    codes = np.add.reduceat(mix(place[half.points]), half.start[:-1])
+    codes = np.add.reduceat(mix(place[lists]), start[:-1])
     found: Mask = inside & np.isin(codes, np.concatenate(wanted))
     return found
 
 
-def part_points(
-    points: Floats, half: HalfFaces, mate: Ints, start: Ints, cell_points: Ints
-) -> tuple[Floats, HalfFaces, Ints]:
+def part_points(points: Floats, faces: Faces, start: Ints, cell_points: Ints) -> tuple[Floats, Faces, Ints]:
     """Duplicate points of baffles, so that each side has its own unless cells join the sides around a point.
 
     Cells around a point are joined by the faces between them that hold the point. A point whose cells form
     several groups is copied for each group except the first.
+
+    Parameters
+    ----------
+    points, faces
+        Points and faces of the mesh.
+    start, cell_points
+        Points of each cell.
     """
+    n_internal = len(faces.neighbour)
+    outer, outer_points = take_lists(faces.start, faces.points, np.arange(n_internal, len(faces.owner)))
+    codes = np.add.reduceat(mix(outer_points), outer[:-1])
+    if len(np.unique(codes)) == len(codes):
+        return points, faces, cell_points
     on_wall = np.zeros(len(points), dtype=bool)
-    sizes, cell_of = np.diff(half.start), half.cells().astype(np.intp)
-    first = np.arange(len(mate))
-    on_wall[take_lists(half.start, half.points, first[mate == first])[1]] = True
+    on_wall[outer_points] = True
+    sizes = np.diff(faces.start)
     # A corner is a cell and one of its points on a wall.
     cells = np.repeat(np.arange(len(start) - 1), np.diff(start))
     at = np.flatnonzero(on_wall[cell_points])
     keys = cells[at] * len(points) + cell_points[at]
     order = np.argsort(keys)
     keys = keys[order]
-    inside = first[mate > first]
-    owners = np.repeat(cell_of[inside], sizes[inside])
-    others = np.repeat(cell_of[mate[inside]], sizes[inside])
-    shared = take_lists(half.start, half.points, inside)[1]
+    shared = faces.points[: faces.start[n_internal]]
     held = on_wall[shared]
     joined = [
-        np.searchsorted(keys, side[held] * len(points) + shared[held]).astype(np.intp)
-        for side in (owners, others)
+        np.searchsorted(keys, np.repeat(side, sizes[:n_internal])[held] * len(points) + shared[held])
+        for side in (faces.owner[:n_internal].astype(np.intp), faces.neighbour.astype(np.intp))
     ]
     graph = sparse.coo_array((np.ones(len(joined[0]), dtype=np.int8), joined), shape=(len(keys), len(keys)))
     groups = csgraph.connected_components(graph, directed=False)[1]
@@ -197,8 +216,24 @@ def part_points(
     named = names[place.reshape(-1)]
     moved = cell_points.copy()
     moved[at[order]] = named
-    lists = half.points.copy()
+    lists = faces.points.copy()
     on_lists = np.flatnonzero(on_wall[lists])
-    of_half = np.repeat(cell_of, sizes)[on_lists]
-    lists[on_lists] = named[np.searchsorted(keys, of_half * len(points) + lists[on_lists])]
-    return np.concatenate([points, points[pairs[0, copy]]]), half._replace(points=lists), moved
+    of_face = np.repeat(faces.owner.astype(np.intp), sizes)[on_lists]
+    lists[on_lists] = named[np.searchsorted(keys, of_face * len(points) + lists[on_lists])]
+    return np.concatenate([points, points[pairs[0, copy]]]), faces._replace(points=lists), moved
+
+
+def with_surface(patch: PatchSurface, points: Floats, faces: Faces, part: slice) -> PatchSurface:
+    """Return a patch with the surface of its faces, for searches on it."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+    start, lists = take_lists(faces.start, faces.points, np.arange(part.start, part.stop))
+    used, local = np.unique(lists, return_inverse=True)
+    surface, places, polygons = vtkPolyData(), vtkPoints(), vtkCellArray()
+    places.SetData(numpy_to_vtk(points[used], deep=True))
+    polygons.SetData(*(numpy_to_vtkIdTypeArray(a.astype(np.int64), deep=True) for a in (start, local)))
+    surface.SetPoints(places)
+    surface.SetPolys(polygons)
+    return patch._replace(surface=surface)

@@ -1,16 +1,19 @@
-"""Half faces: the faces of VTK's cells, and the pairs of them that are one face between two cells."""
+"""Cells of VTK's unstructured grids: their faces, and the pairs of these between two cells."""
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Ints
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, assign_patches, find_baffles, sort_boundary
 from foamprb.flow.mesh.faces import list_faces, pair_faces
-from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, cell_types, int32
+from foamprb.flow.mesh.geometry import HalfFaces, order_faces
+from foamprb.flow.mesh.lists import MOST_INDICES, cell_array, cell_types, int32, points_of
 
 _POLYHEDRON = 42
 # Local vertices of the faces of VTK's cell types.
@@ -26,26 +29,26 @@ for _kind, _faces in _CELL_FACES.items():
 CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _POLYHEDRON: "polyhedron"}
 
 
-class HalfFaces(NamedTuple):
-    """Faces of each cell, cell by cell; an interior face appears twice."""
+def poly_of_grid(grid: Any, surfaces: Sequence[PatchSurface] | None, source: str) -> PolyMesh:
+    """Return points, faces and patches of a grid; see :func:`foamprb.flow.mesh.mesh.build_mesh`."""
+    given = points_of(grid)
+    points = np.ascontiguousarray(given, dtype=np.float64)
+    half = list_half_faces(grid, source)
+    mate = match_half_faces(half, source)
+    apart = np.flatnonzero(find_baffles(points, given.dtype, half.start, half.points, mate, surfaces))
+    mate[mate[apart]] = mate[apart]
+    mate[apart] = apart
+    faces = order_faces(points, half, mate)
+    n_boundary = len(faces.owner) - len(faces.neighbour)
+    if surfaces is None:
+        return PolyMesh(points, faces, (PatchSurface("boundary", "wall", None),), np.array([0, n_boundary]))
+    order, patch_start = assign_patches(points, given.dtype, faces, surfaces, source)
+    sort_boundary(faces, order)
+    return PolyMesh(points, faces, surfaces, patch_start)
 
-    first: Ints
-    """(n_cells + 1,) first face of each cell."""
-    start: Ints
-    points: Ints
 
-    def cells(self) -> Ints:
-        """Return the cell of each face."""
-        return np.repeat(np.arange(len(self.first) - 1, dtype=np.int32), np.diff(self.first))
-
-
-def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
+def list_half_faces(grid: Any, source: str) -> HalfFaces:
     """List the faces of the cells of a ``vtkUnstructuredGrid``, cell by cell.
-
-    Returns
-    -------
-    half, cell_point_start, cell_points
-        The faces; the start of each cell's points, (n_cells + 1,), and the points.
 
     Raises
     ------
@@ -82,14 +85,10 @@ def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
     own = np.diff(locations)[types[: len(locations) - 1] == _POLYHEDRON].sum()
     if own != len(ids) or (len(ids) and not 0 <= ids.min() <= ids.max() < len(face_start) - 1):
         raise InputError(f"{source}: the faces of the polyhedra do not fit its cells; the mesh is damaged.")
-    cells, shapes, kinds = (
-        (int32(offset), int32(connectivity)),
-        _shapes(),
-        np.bincount(types, minlength=256),
-    )
+    shapes, kinds = _shapes(), np.bincount(types, minlength=256)
     n_faces = int(kinds @ np.count_nonzero(shapes[:, :, 0], axis=1)) + len(ids)
     n_entries = int(kinds @ shapes[:, :, 0].sum(axis=1) + np.diff(face_start)[ids].sum())
-    given = (types, *cells, shapes, *map(int32, polyhedra))
+    given = (types, int32(offset), int32(connectivity), shapes, *map(int32, polyhedra))
     if n_entries > MOST_INDICES:
         raise InputError(f"{source}: {n_entries} points of faces are too many for 32-bit indices.")
     half = HalfFaces(*(np.empty(n, dtype=np.int32) for n in (len(types) + 1, n_faces + 1, n_entries)))
@@ -97,7 +96,7 @@ def list_half_faces(grid: Any, source: str) -> tuple[HalfFaces, Ints, Ints]:
     least = np.diff(half.start).min()
     if least < 3:
         raise InputError(f"{source}: a face of {least} vertices; at least 3 are needed.")
-    return half, *cells
+    return half
 
 
 def _shapes() -> Ints:

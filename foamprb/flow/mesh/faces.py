@@ -22,7 +22,9 @@ __all__ = [
     "bound",
     "choose_bases",
     "gather_faces",
+    "group_faces",
     "list_faces",
+    "list_points",
     "measure_faces",
     "pair_faces",
     "split_cells",
@@ -172,6 +174,63 @@ def gather_faces(
                     of_cell[h] = of_cell[mate[h]]
                     neighbour[of_cell[h]] = c
     start[face] = at
+
+
+def group_faces(owner: Ints, neighbour: Ints, first: Ints, of_cell: Ints) -> None:
+    """List the faces of each cell in their order.
+
+    Parameters
+    ----------
+    owner, neighbour
+        The cells of each face (n,) and (n_internal,).
+    first, of_cell
+        Results: the faces of cell c are ``of_cell[first[c]]`` to ``of_cell[first[c + 1] - 1]``; ``first``
+        (n_cells + 1,) must hold zeros.
+    """
+    n_cells = first.shape[0] - 1
+    for f in range(owner.shape[0]):
+        first[owner[f] + 1] += 1
+    for f in range(neighbour.shape[0]):
+        first[neighbour[f] + 1] += 1
+    for c in range(n_cells):
+        first[c + 1] += first[c]
+    for f in range(owner.shape[0]):
+        for side in range(2 if f < neighbour.shape[0] else 1):
+            c = owner[f] if side == 0 else neighbour[f]
+            of_cell[first[c]] = f
+            first[c] += 1
+    for c in range(n_cells, 0, -1):
+        first[c] = first[c - 1]
+    first[0] = 0
+
+
+def list_points(
+    first: Ints, of_cell: Ints, start: Ints, lists: Ints, last: Ints, begin: Ints, points: Ints
+) -> None:
+    """List the points of each cell, each once; with no room in ``points``, count them only.
+
+    Parameters
+    ----------
+    first, of_cell, start, lists
+        The faces of each cell, and the points of each face.
+    last
+        (n_points,) work array; must hold −1.
+    begin, points
+        Results: the start of the points of each cell (n_cells + 1,), and the points.
+    """
+    at = 0
+    for c in range(first.shape[0] - 1):
+        begin[c] = at
+        for h in range(first[c], first[c + 1]):
+            f = of_cell[h]
+            for k in range(start[f], start[f + 1]):
+                p = lists[k]
+                if last[p] != c:
+                    last[p] = c
+                    if points.shape[0] > 0:
+                        points[at] = p
+                    at += 1
+    begin[first.shape[0] - 1] = at
 
 
 def measure_faces(points: Floats, start: Ints, lists: Ints, centres: Floats, areas: Floats) -> None:

@@ -10,12 +10,28 @@ import numpy as np
 from foamprb.body.tensor import vector_product
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.cells import HalfFaces
-from foamprb.flow.mesh.faces import add_at, add_pyramids, bound, gather_faces, measure_faces
-from foamprb.flow.mesh.lists import ragged
+from foamprb.flow.mesh.faces import (
+    add_at,
+    add_pyramids,
+    bound,
+    gather_faces,
+    group_faces,
+    list_points,
+    measure_faces,
+)
+from foamprb.flow.mesh.lists import Index, ragged
 
 # Number of faces per chunk: the temporary arrays then stay in the cache.
 _CHUNK = 1 << 15
+
+
+class HalfFaces(NamedTuple):
+    """Faces of each cell, cell by cell; an interior face appears twice."""
+
+    first: Ints
+    """(n_cells + 1,) first face of each cell."""
+    start: Ints
+    points: Ints
 
 
 class Faces(NamedTuple):
@@ -25,17 +41,35 @@ class Faces(NamedTuple):
     points: Ints
     owner: Ints
     neighbour: Ints
+    """(n_internal,); it is larger than the owner."""
     first: Ints
     """(n_cells + 1,) into ``of_cell``."""
     of_cell: Ints
-    """Faces of each cell; a face's owner comes before its neighbour."""
+    """Faces of each cell."""
+
+    def turn(self, some: Index) -> None:
+        """Reverse the points of some faces."""
+        begin, end = self.start[some], self.start[some + 1]
+        places = ragged(begin, end - begin)
+        self.points[places] = self.points[np.repeat(begin + end - 1, end - begin) - places]
 
 
-def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> tuple[Faces, Floats]:
-    """Put interior faces first, and turn every face outwards from its owner, judged by the cells' middles.
+def faces_of(start: Ints, points: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> Faces:
+    """Return faces with the lists of the cells; faces whose owner is not the lower cell are turned."""
+    first, of_cell = (
+        np.zeros(n_cells + 1, dtype=np.int32),
+        np.empty(len(owner) + len(neighbour), dtype=np.int32),
+    )
+    faces = Faces(start, points, owner, neighbour, first, of_cell)
+    wrong = np.flatnonzero(owner[: len(neighbour)] > neighbour)
+    owner[wrong], neighbour[wrong] = neighbour[wrong], owner[wrong]
+    faces.turn(wrong)
+    link(group_faces)(owner, neighbour, first, of_cell)
+    return faces
 
-    Returns the faces, and the middles of the cells.
-    """
+
+def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> Faces:
+    """Put interior faces first, and turn every face outwards from its owner, judged by the cells' middles."""
     single = np.flatnonzero(mate == np.arange(len(mate), dtype=np.int32))
     n_internal = (len(mate) - len(single)) // 2
     n_entries = (len(half.points) + int((half.start[single + 1] - half.start[single]).sum())) // 2
@@ -45,17 +79,23 @@ def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> tuple[Faces, Flo
     )
     link(gather_faces)(*half, mate, start, lists, owner, neighbour, of_cell)
     faces = Faces(start, lists, owner, neighbour, half.first, of_cell)
-    middles = _cell_middles(points, faces)
+    middles = cell_middles(points, faces)
     for part, centres, areas in _measured(points, faces):
         own, beyond = owner[part], neighbour[part]
         ahead = centres - middles[own]
         ahead[: len(beyond)] = middles[beyond] - middles[own[: len(beyond)]]
-        inwards = part.start + np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0)
-        sizes = start[inwards + 1] - start[inwards]
-        backwards = np.repeat(start[inwards] + start[inwards + 1] - 1, sizes)
-        places = ragged(start[inwards], sizes)
-        lists[places] = lists[backwards - places]
-    return faces, middles
+        faces.turn(part.start + np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0))
+    return faces
+
+
+def points_of_cells(faces: Faces, n_points: int) -> tuple[Ints, Ints]:
+    """Return the start of each cell's points, (n_cells + 1,), and the points."""
+    begin, nothing, run = np.empty_like(faces.first), np.empty(0, dtype=np.int32), link(list_points)
+    given = faces.first, faces.of_cell, faces.start, faces.points
+    run(*given, np.full(n_points, -1, dtype=np.int32), begin, nothing)
+    points = np.empty(begin[-1], dtype=np.int32)
+    run(*given, np.full(n_points, -1, dtype=np.int32), begin, points)
+    return begin, points
 
 
 def _measured(points: Floats, faces: Faces, first: int = 0) -> Iterator[tuple[slice, Floats, Floats]]:
@@ -78,7 +118,7 @@ def boundary_geometry(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
     return centres, areas
 
 
-def _cell_middles(points: Floats, faces: Faces) -> Floats:
+def cell_middles(points: Floats, faces: Faces) -> Floats:
     """Return the mean of the face centres of each cell."""
     middles, add = np.zeros((len(faces.first) - 1, 3)), link(add_at)
     for part, centres, _ in _measured(points, faces):

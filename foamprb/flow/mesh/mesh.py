@@ -17,12 +17,19 @@ import numpy as np
 from foamprb.compile.link import link
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, Patch
-from foamprb.flow.mesh.boundary import PatchSurface, assign_patches, find_baffles, part_points, sort_boundary
-from foamprb.flow.mesh.cells import list_half_faces, match_half_faces
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, part_points, with_surface
+from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
 from foamprb.flow.mesh.faces import OPEN, TWISTED, choose_bases, split_cells
-from foamprb.flow.mesh.geometry import Faces, boundary_geometry, cell_geometry, inward_normals, order_faces
-from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, points_of
+from foamprb.flow.mesh.geometry import (
+    Faces,
+    boundary_geometry,
+    cell_geometry,
+    cell_middles,
+    inward_normals,
+    points_of_cells,
+)
+from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32
 from foamprb.memory import announce
 
 _MOST_TURNS = 5
@@ -125,22 +132,24 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
         patches; patch faces that are not on the boundary.
     """
     announce("cells", grid.GetNumberOfCells(), CELL_BYTES)
-    given = points_of(grid)
-    points = np.ascontiguousarray(given, dtype=np.float64)
-    half, cell_point_start, cell_points = list_half_faces(grid, source)
-    mate = match_half_faces(half, source)
-    apart = find_baffles(points, given.dtype, half, mate, surfaces)
-    if apart.any():
-        split = np.flatnonzero(apart)
-        mate[mate[split]] = mate[split]
-        mate[split] = split
-        points, half, cell_points = part_points(points, half, mate, cell_point_start, cell_points)
-    faces, middles = order_faces(points, half, mate)
-    del half, mate
+    return assemble(poly_of_grid(grid, surfaces, source), source)
+
+
+def assemble(poly: PolyMesh, source: str) -> Mesh:
+    """Find neighbours, tetrahedra and coupled patches of a mesh; ``source`` is its name for messages.
+
+    Raises
+    ------
+    InputError
+        A cell is open, or its faces cannot be oriented; or coupled patches do not fit.
+    """
+    points, faces, *_ = poly
+    announce("cells", len(faces.first) - 1, CELL_BYTES)
+    cell_start, cell_points = points_of_cells(faces, len(points))
+    points, faces, cell_points = part_points(points, faces, cell_start, cell_points)
+    poly = poly._replace(points=points, faces=faces)
     for _ in range(_MOST_TURNS):
-        mesh, astray = _assemble(
-            points, given.dtype, faces, middles, (cell_point_start, cell_points), surfaces, source
-        )
+        mesh, astray = _assemble(poly, (cell_start, cell_points), source)
         if len(astray) == 0:
             return mesh
         turn_alike(faces, astray)
@@ -150,28 +159,26 @@ def build_mesh(grid: Any, surfaces: Sequence[PatchSurface] | None = None, source
     )
 
 
-def _assemble(
-    points: Floats,
-    dtype: Any,
-    faces: Faces,
-    middles: Floats,
-    cells: tuple[Ints, Ints],
-    surfaces: Sequence[PatchSurface] | None,
-    source: str,
-) -> tuple[Mesh, Index]:
+def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Mesh, Index]:
     """Return the mesh, and the cells with neighbouring faces that turn against each other."""
-    order, patches, patch_start = assign_patches(points, dtype, faces, surfaces, source)
-    sort_boundary(faces, order)
+    points, faces, surfaces, patch_start = poly
     # The bases of the fans must not depend on the number of turns of a face.
     faces = faces._replace(points=faces.points.copy())
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
 
     boundary_centres, boundary_areas = boundary_geometry(points, faces)
+    surfaces = [
+        with_surface(patch, points, faces, slice(n_internal + first, n_internal + end))
+        if patch.type == "cyclicAMI" and patch.surface is None
+        else patch
+        for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
+    ]
     patches, couplings = couple(
-        patches, patch_start, boundary_centres, boundary_areas, surfaces or (), source
+        [Patch(patch.name, patch.type, patch.neighbour) for patch in surfaces],
+        *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )
-    centres, volumes = cell_geometry(points, faces, middles)
+    centres, volumes = cell_geometry(points, faces, cell_middles(points, faces))
     inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
 
     cell_start, tets, neighbours, triangle_tet, astray = cut_into_tetrahedra(faces, len(points), source)

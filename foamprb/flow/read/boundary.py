@@ -17,6 +17,7 @@ from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.mesh.mesh import Mesh
+from foamprb.flow.read.foamfile import FoamFile
 
 CONSTRAINTS = frozenset(
     {
@@ -107,8 +108,8 @@ class _BoundaryEntry:
 _NO_WORD = re.compile(r"""[\s"'/;{}]""")
 
 
-def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
-    """Read the patches of ``polyMesh/boundary``.
+def read_boundary(path: Path, case: Path, file: FoamFile | None = None) -> tuple[PatchInfo, ...]:
+    """Read the patches of ``polyMesh/boundary``, or of its contents if they have been read.
 
     Raises
     ------
@@ -120,14 +121,15 @@ def read_boundary(path: Path, case: Path) -> tuple[PatchInfo, ...]:
     if found is None:
         raise InputError(f"{path}: no such file.")
     try:
-        return _patches(found, case)
+        return _patches(found, case, file)
     except InputError as error:
         raise InputError(f"{case}: {error}") from None
 
 
-def _patches(path: Path, case: Path) -> tuple[PatchInfo, ...]:
+def _patches(path: Path, case: Path, file: FoamFile | None) -> tuple[PatchInfo, ...]:
     patches: list[PatchInfo] = []
-    for dictionary in read_dictionary_list(path, case).items:
+    text = None if file is None else file.data.decode("utf-8", "replace")
+    for dictionary in read_dictionary_list(path, case, text).items:
         read = read_entries(_BoundaryEntry, dictionary, also=dictionary.entries)
         name = unquoted(dictionary.key)
         if _NO_WORD.search(name) or name in (".", ".."):

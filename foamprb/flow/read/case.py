@@ -70,8 +70,13 @@ def regions(case: Path) -> tuple[str, ...]:
 
     Without any mesh, they are read from ``constant/regionProperties``.
     """
-    with_mesh = {path.parents[1].name for path in case.glob("constant/*/polyMesh/faces*")}
-    return tuple(sorted(with_mesh or _listed_regions(case)))
+    for folder in ("constant", *available_times(case)):
+        with_mesh = {path.parents[1].name for path in case.glob(f"{folder}/*/polyMesh/faces*")}
+        if with_mesh:
+            return tuple(sorted(with_mesh))
+        if (case / folder / "polyMesh").is_dir():
+            break
+    return tuple(sorted(_listed_regions(case)))
 
 
 def _listed_regions(case: Path) -> set[str]:
@@ -106,7 +111,7 @@ def _require_times(case: Path, region: str) -> tuple[str, ...]:
     require_case(case, region)
     names = available_times(case)
     if not names:
-        split = " Only decomposed times are there: run reconstructPar." if is_decomposed(case) else ""
+        split = " Only decomposed times are there: run reconstructPar." if processor_folders(case) else ""
         raise InputError(f"{case}: no time directories; has the solver been run?{split}")
     return names
 
@@ -127,9 +132,10 @@ def require_case(case: Path, region: str) -> None:
         raise InputError(f"{case}: no such folder.")
     names = regions(case)
     require_region(case, region, names)
-    if existing(case / "constant" / region / "polyMesh" / "faces") is not None:
+    last = (available_times(case) or (None,))[-1]
+    if existing(mesh_folder(case, last, region) / "faces") is not None:
         return
-    if is_decomposed(case):
+    if processor_folders(case):
         raise InputError(
             f"{case}: only the processor folders hold a mesh; run reconstructParMesh and reconstructPar."
         )
@@ -157,9 +163,25 @@ def require_choice(case: Path, names: Sequence[str]) -> None:
         )
 
 
-def is_decomposed(case: Path) -> bool:
-    """Return True if there are processor folders."""
-    return any(case.glob("processor*/constant")) or any(case.glob("processors*/constant"))
+def processor_folders(case: Path) -> list[Path]:
+    """Return the folders of processors that hold anything."""
+    return [
+        path
+        for path in sorted(case.glob("processor*"))
+        if (path / "constant").is_dir() or available_times(path)
+    ]
+
+
+def later_times(case: Path) -> tuple[str, ...]:
+    """Return a note if processor folders have later times than the case."""
+    folders, names = processor_folders(case), available_times(case)
+    beyond = available_times(folders[0])[-1:] if folders else ()
+    if not beyond or not names or float(beyond[0]) <= float(names[-1]):
+        return ()
+    return (
+        f"The processor folders have the later time {beyond[0]}, which is not read: the latest "
+        f"reconstructed one is {names[-1]}. -decomposed reads the processor folders.",
+    )
 
 
 def mesh_folder(case: Path, time: str | None, region: str, part: str = "faces") -> Path:

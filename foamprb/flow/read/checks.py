@@ -1,30 +1,23 @@
-"""Checks of numbers, volumes, labels, faces and shapes of patches.
-
-VTK's readers ignore such faults, or crash on them.
-"""
+"""Checks of numbers, volumes and shapes of patches."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.boundary import TYPES, PatchInfo
-from foamprb.flow.read.case import shown
 from foamprb.flow.read.field import FoamField
-from foamprb.flow.read.foamfile import header, read_faces, read_labels, require_room
 
 LARGEST = 1e30
 """Limit of lengths in m and velocities in m/s: products of a few of them stay finite."""
 _PLANAR = {"symmetryPlane": "; the type of a curved one is symmetry", "wedge": ""}
 _SINGLE = 6e-8
-"""Relative error of coordinates in single precision."""
+"""Relative error of coordinates in single precision, which meshes of other programs may have."""
 _LEAST_TURN = 1e-6
 """Tolerance of the angle between faces, rad, with exact coordinates."""
 
@@ -61,52 +54,6 @@ def require_volumes(mesh: Mesh, source: Path) -> None:
         raise InputError(
             f"{source}: {len(flat)} of {mesh.n_cells} cells have no positive volume; the first is cell "
             f"{flat[0]} at {x}. Is the mesh damaged? (checkMesh tells)"
-        )
-
-
-def noted_counts(folder: Path) -> dict[str, int]:
-    """Return the counts in the header of ``owner``: nPoints, nCells, nFaces, nInternalFaces."""
-    for name in ("faces", "owner", "neighbour"):
-        if existing(folder / name) is None:
-            raise InputError(f"{folder / name}: no such file.")
-    note = header(shown(folder / "owner")).get("note", "")
-    return {word: int(number) for word, number in re.findall(r"(n\w+):\s*(\d+)", note)}
-
-
-def require_labels(folder: Path, noted: dict[str, int]) -> None:
-    """Raise InputError for broken faces, and for owners and neighbours that are not indices of cells.
-
-    VTK would allocate memory for that many cells.
-    """
-    for name in ("points", "faces"):
-        if existing(folder / name) is not None:
-            require_room(folder / name)
-    faces = 0
-    for name in ("owner", "neighbour"):
-        path = shown(folder / name)
-        labels = read_labels(path)
-        faces = max(faces, len(labels))
-        # There are fewer cells than faces in any mesh.
-        limit = noted.get("nCells", faces)
-        wrong = np.flatnonzero((labels < 0) | (labels >= limit))
-        if len(wrong):
-            raise InputError(
-                f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {limit} cells."
-            )
-    _require_faces(shown(folder / "faces"), 10 * max(faces, noted.get("nPoints", 0)))
-
-
-def _require_faces(path: Path, limit: int) -> None:
-    """Raise InputError for lists of faces on which VTK crashes: inconsistent or huge lengths."""
-    if header(path).get("class") == "faceCompactList":
-        read_faces(path)
-        return
-    data = read_bytes(path)
-    long = re.compile(rb"\d{%d,}" % (len(str(limit)) + 1)).search(data, max(data.find(b"}"), 0))
-    if long is not None:
-        line = data.count(b"\n", 0, long.start()) + 1
-        raise InputError(
-            f"{path}: line {line}: {long[0][:30].decode()} is neither a point nor a count of points."
         )
 
 

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from foamprb.flow.base import Floats
-from foamprb.flow.mesh.cells import CELL_KINDS
-from foamprb.flow.mesh.lists import cell_types, points_of
-from foamprb.flow.read.boundary import PatchInfo, read_boundary
-from foamprb.flow.read.case import available_times, mesh_files, mesh_folder, require_case
-from foamprb.flow.read.checks import noted_counts, require_labels
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.read.boundary import PatchInfo
 from foamprb.flow.read.meshfile import open_file
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
-from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.read.vtkfile import times_of_file
 
 
@@ -72,21 +67,12 @@ def describe(case: Case) -> CaseInfo:
     InputError
         The folder is not a case, or its mesh cannot be read.
     """
-    root, region = case.mesh_root, case.region
-    with case.messages():
-        require_case(root, region)
-        names = available_times(root)
-        times = tuple(TimeInfo(name, case.fields(name)) for name in names)
-        last = names[-1] if names else None
-        folder = mesh_folder(root, last, region)
-        patches = read_boundary(folder / "boundary", root)
-        require_labels(folder, noted_counts(folder))
-        blocks, messages = read_blocks(mesh_files(root, last, region), patches=False)
-        raise_first_error(folder, messages)
-    grid = blocks["internalMesh"]
-    points = points_of(grid).astype(np.float64)
-    bounds = (points.min(axis=0), points.max(axis=0))
-    return CaseInfo(case.root, times, patches, len(points), _kinds(grid), bounds, region, case.regions())
+    names = case.times()
+    times = tuple(TimeInfo(name, case.fields(name)) for name in names)
+    (points, faces, *_), patches, _ = case.poly(names[-1] if names else None)
+    kinds = _kinds(faces.start, faces.owner, faces.neighbour, len(faces.first) - 1)
+    bounds = points.min(axis=0), points.max(axis=0)
+    return CaseInfo(case.root, times, patches, len(points), kinds, bounds, case.region, case.regions())
 
 
 def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:
@@ -99,7 +85,8 @@ def describe_file(path: Path, velocity: str = "U", division: Division | None = N
     """
     grid, mesh, _, note = open_file(path, velocity, "latestTime", division)
     bounds = mesh.points.min(axis=0), mesh.points.max(axis=0)
-    lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, _kinds(grid), bounds)]
+    kinds = _kinds(mesh.face_start, mesh.owner, mesh.neighbour, mesh.n_cells)
+    lines = [f"File    {path}", "", *_lines_of_mesh(mesh.n_points, kinds, bounds)]
     for index, patch in enumerate(mesh.patches):
         rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
         centre = "({:g} {:g} {:g})".format(*mesh.boundary_centres[rows].mean(axis=0))
@@ -111,11 +98,25 @@ def describe_file(path: Path, velocity: str = "U", division: Division | None = N
     return [*lines, *(["", "Times", f"    {listed(times)}"] if times else []), "", note]
 
 
-def _kinds(grid: Any) -> dict[str, int]:
+_KINDS = {(4, 4, 0): "tetrahedron", (6, 0, 6): "hexahedron", (5, 2, 3): "prism", (5, 4, 1): "pyramid"}
+"""By the numbers of faces, of triangles and of quadrangles."""
+
+
+def _kinds(start: Ints, owner: Ints, neighbour: Ints, n_cells: int) -> dict[str, int]:
     """Return the number of cells of each kind, by name."""
-    counts = np.bincount(cell_types(grid), minlength=256)
-    numbers = np.flatnonzero(counts).tolist()
-    return {CELL_KINDS.get(number, f"VTK type {number}"): int(counts[number]) for number in numbers}
+    sizes = np.diff(start)
+    counts = np.stack(
+        [
+            np.bincount(owner, of, n_cells) + np.bincount(neighbour, of[: len(neighbour)], n_cells)
+            for of in (np.ones(len(sizes)), sizes == 3, sizes == 4)
+        ]
+    ).astype(int)
+    found = {
+        name: int(np.all(counts == np.array(numbers)[:, None], axis=0).sum())
+        for numbers, name in _KINDS.items()
+    }
+    found["polyhedron"] = n_cells - sum(found.values())
+    return {name: n for name, n in found.items() if n}
 
 
 def _lines_of_mesh(points: int, cells: dict[str, int], bounds: tuple[Floats, Floats]) -> list[str]:

@@ -11,8 +11,10 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.mesh.boundary import PatchSurface
-from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.mesh.boundary import PatchSurface, sort_boundary
+from foamprb.flow.mesh.cells import poly_of_grid
+from foamprb.flow.mesh.lists import starts
+from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import listed
 from foamprb.flow.read.vtk_guard import load_pyvista
@@ -23,7 +25,8 @@ _MOST_PATCHES = 1000
 
 def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh, str]:
     """Return the mesh with its boundary divided as requested, and a note for the user."""
-    mesh = build_mesh(grid, None, source=str(path))
+    poly = poly_of_grid(grid, None, str(path))
+    mesh = assemble(poly, str(path))
     if division.array:
         labels, names = _by_array(mesh, whole, division.array, path)
     elif division.feature_angle is not None:
@@ -35,21 +38,10 @@ def divided(grid: Any, whole: Any, division: Division, path: Path) -> tuple[Mesh
         )
     if len(names) > _MOST_PATCHES:
         raise InputError(f"{path}: the boundary falls into {len(names)} patches; at most {_MOST_PATCHES}.")
-    sizes = np.diff(mesh.face_start)[mesh.n_internal :]
-    surfaces = []
-    for label, name in enumerate(names):
-        faces = np.flatnonzero(labels == label)
-        stream = [
-            np.concatenate([[sizes[f]], mesh.face_points[slice(*mesh.face_start[mesh.n_internal + f :][:2])]])
-            for f in faces
-        ]
-        if stream:
-            surfaces.append(
-                PatchSurface(name, "wall", load_pyvista().PolyData(mesh.points, faces=np.concatenate(stream)))
-            )
-    exact = grid.copy()
-    exact.points = mesh.points
-    mesh = build_mesh(exact, surfaces, source=str(path))
+    sort_boundary(poly.faces, np.argsort(labels, kind="stable"))
+    patches = [PatchSurface(name, "wall", None) for name in names]
+    patch_start = starts(np.bincount(labels, minlength=len(names)))
+    mesh = assemble(poly._replace(patches=patches, patch_start=patch_start), str(path))
     return mesh, " ".join([f"The boundary is divided into {patch_names(mesh)}.", *_crossings(mesh)])
 
 

@@ -101,13 +101,13 @@ _LIST = re.compile(
 _CONSTRAINT_TYPES = re.compile(rb'#includeEtc\s+"caseDicts/setConstraintTypes"')
 
 
-def read_field(path: Path, kind: Kind, case: Path) -> FoamField:
+def read_field(path: Path | FoamFile, kind: Kind, case: Path) -> FoamField:
     """Read a field.
 
     Parameters
     ----------
     path
-        The file, plain or compressed.
+        The file, plain or compressed, or its contents.
     kind
         Required class and dimensions.
     case
@@ -118,7 +118,7 @@ def read_field(path: Path, kind: Kind, case: Path) -> FoamField:
     InputError
         The file is missing, broken, of another class, or has other dimensions.
     """
-    file = FoamFile(path)
+    file = path if isinstance(path, FoamFile) else FoamFile(path)
     if file.kind != kind.name:
         found = file.kind or "(none)"
         raise InputError(f"{file.path}: the class is {found}, but {kind.meaning} is a {kind.name}.")

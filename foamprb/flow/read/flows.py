@@ -7,7 +7,7 @@ from pathlib import Path
 
 from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.case import regions, require_region
+from foamprb.flow.read.case import later_times, processor_folders, regions, require_region
 from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
 from foamprb.flow.read.describe import describe, describe_file
 from foamprb.flow.read.meshfile import read_mesh_file, read_mesh_series
@@ -28,9 +28,13 @@ def open_case(case: Path, source: FlowSource) -> Case:
     """
     if source.division is not None:
         raise InputError(f"{case}: a case has its own patches; only those of a mesh file are divided.")
-    if source.decomposed or is_only_decomposed(case, source.region):
-        return DecomposedCase(case, source.region)
-    return Case(case, source.region)
+    if not source.decomposed and not is_only_decomposed(case, source.region):
+        found = Case(case, source.region, source.reader)
+        found.notes += later_times(case)
+        return found
+    if source.reader:
+        raise InputError(f"{case}: -reader {source.reader} reads no processor folders.")
+    return DecomposedCase(case, source.region)
 
 
 def describe_source(case: Path, source: FlowSource) -> Sequence[str]:
@@ -43,7 +47,7 @@ def describe_source(case: Path, source: FlowSource) -> Sequence[str]:
 def check_region(case: Path, source: FlowSource) -> None:
     """Raise InputError, with the names of all regions, if the case does not have the region of the source."""
     if source.file is None and source.region and case.is_dir():
-        folders = [path for path in case.glob("processor*") if (path / "constant").is_dir()]
+        folders = processor_folders(case)
         names = regions(case) or (regions(folders[0]) if folders else ())
         require_region(case, source.region, names)
 

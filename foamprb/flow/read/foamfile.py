@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
+import warnings
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.compile.link import link
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.lists import MOST_INDICES, int32, starts
 
 Labels: TypeAlias = NDArray[np.int64]
 
@@ -20,9 +23,10 @@ _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _BLANK = re.compile(rb"(?:\s+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 _NOTE = re.compile(rb"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _WORD = re.compile(rb'"(?:[^"\\]|\\.)*"|[^\s(){};"]+')
-_COUNT = re.compile(rb"\d+")
+_COUNT = re.compile(rb"(?:List<\w+>\s*)?(\d+)")
 COMPONENTS = {b"label": 1, b"scalar": 1, b"vector": 3, b"sphericalTensor": 1, b"symmTensor": 6, b"tensor": 9}
 _MOST_ENTRIES = 1 << 31
+_NO_BRACKETS = bytes.maketrans(b"()", b"  ")
 
 
 class ListAt(NamedTuple):
@@ -42,18 +46,19 @@ class ListAt(NamedTuple):
 class FoamFile:
     """Bytes of a file, and the position up to which they have been read."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, data: bytes | None = None, entries: dict[str, str] | None = None) -> None:
+        """Read a file; or take ``data``, a part of a file, and the ``entries`` of its header."""
         found = existing(path)
         if found is None:
             raise InputError(f"{path}: no such file.")
-        self.path, self.data = found, read_bytes(found)
-        entries = header(found)
+        self.path, self.data = found, read_bytes(found) if data is None else data
+        entries = entries or header(found)
         self.kind, self.binary = entries.get("class", ""), entries.get("format") == "binary"
         arch = entries.get("arch", "")
         order = ">" if arch.startswith("MSB") else "<"
         self.label = np.dtype(f"{order}i{8 if 'label=64' in arch else 4}")
         self._scalar = np.dtype(f"{order}f{4 if 'scalar=32' in arch else 8}")
-        end = re.search(rb"FoamFile\s*\{.*?\}", self.data, re.DOTALL)
+        end = re.search(rb"FoamFile\s*\{.*?\}", self.data[:_HEADER_BYTES], re.DOTALL)
         self.at = end.end() if end else 0
         self.skip()
 
@@ -95,9 +100,9 @@ class FoamFile:
         if match is None:
             raise self.broken("a number of entries")
         self.at = match.end()
-        if int(match[0]) > _MOST_ENTRIES:
+        if int(match[1]) > _MOST_ENTRIES:
             raise self.broken(f"a number of entries up to {_MOST_ENTRIES}")
-        return int(match[0])
+        return int(match[1])
 
     def labels(self) -> Labels:
         """Return a list of labels (n,), whose number of entries comes first."""
@@ -149,15 +154,68 @@ class FoamFile:
             values = np.frombuffer(self.data, at.dtype, at.n * at.components, at.begin)
             return values.reshape(-1, at.components).astype(wide)
         n = 1 if at.uniform else at.n
-        text = _NOTE.sub(b" ", self.data[at.begin : at.end]).translate(bytes.maketrans(b"()", b"  "))
-        try:
-            found: NDArray[Any] = np.array(text.split(), dtype=wide)
-        except (ValueError, OverflowError):
+        found = self._parsed(at.begin, at.end, wide)
+        if found is None:
             kind = "numbers" if wide is np.float64 else "whole numbers"
-            raise self.broken(f"a list of {kind}", at.begin) from None
+            raise self.broken(f"a list of {kind}", at.begin)
         if len(found) != n * at.components:
             raise self.broken(f"a list of {n} entries, not {len(found) / at.components:g},", at.begin)
         return np.broadcast_to(found.reshape(n, at.components), (at.n, at.components))
+
+    def indices(self) -> Ints:
+        """Return a list of labels (n,) as 32-bit integers."""
+        at = self.locate(1, self.label)
+        if at.binary and at.dtype == np.dtype("<i4"):
+            return np.frombuffer(self.data, at.dtype, at.n, at.begin).astype(np.int32)
+        return self.narrowed(self.numbers(at)[:, 0], at.begin)
+
+    def narrowed(self, labels: Labels, at: int) -> Ints:
+        """Return labels as 32-bit integers; InputError with the position ``at`` if one is too large."""
+        if len(labels) and max(-int(labels.min()), int(labels.max())) > MOST_INDICES:
+            raise self.broken(f"a list of labels up to {MOST_INDICES}", at)
+        return int32(labels)
+
+    def _parsed(self, begin: int, end: int, dtype: type) -> NDArray[Any] | None:
+        """Return the numbers between two positions of a text; None if there is anything but numbers."""
+        text = self.data[begin:end]
+        if b"/" in text:
+            text = _NOTE.sub(b" ", text)
+        text = text.translate(_NO_BRACKETS)
+        if not text.strip():
+            return np.empty(0, dtype=dtype)
+        with warnings.catch_warnings():
+            # NumPy warns of a text that it could not read to its end.
+            warnings.simplefilter("error")
+            try:
+                return np.fromstring(text, dtype=dtype, sep=" ")
+            except (ValueError, DeprecationWarning):
+                return None
+
+    def faces(self) -> tuple[Ints, Ints]:
+        """Return the start of each face's points, (n + 1,), and the points."""
+        if self.kind == "faceCompactList":
+            start, points = self.indices(), self.indices()
+            if len(start) == 0 or start[0] != 0 or start[-1] != len(points) or np.any(np.diff(start) < 0):
+                raise InputError(f"{self.path}: the lengths of the faces do not fit their points.")
+            return start, points
+        n = self.count()
+        begin = self.at
+        wrong = self.broken(f"a list of {n} faces", begin)
+        if self.binary:
+            self.skip()
+            self.need(b"(")
+            lists = [self.indices() for _ in range(n)]
+            self.need(b")")
+            return int32(starts(np.array([len(face) for face in lists], dtype=np.intp))), np.concatenate(
+                lists
+            )
+        numbers = self._parsed(begin, self.data.rfind(b")"), np.int64)
+        if numbers is None or n > len(numbers):
+            raise wrong
+        start, points = np.empty(n + 1, dtype=np.int32), np.empty(len(numbers) - n, dtype=np.int32)
+        if not link(_part_faces)(self.narrowed(numbers, begin), start, points):
+            raise wrong
+        return start, points
 
     def _is_uniform(self) -> bool:
         match = _BLANK.match(self.data, self.at)
@@ -172,12 +230,19 @@ class FoamFile:
                 self.word()
 
 
-def require_room(path: Path) -> None:
-    """Raise InputError if a file is too short for the stated number of entries."""
-    file = FoamFile(path)
-    n = file.count()
-    if n > len(file.data):
-        raise file.broken(f"a number of entries that the file has room for, not {n},")
+def _part_faces(numbers: Ints, start: Ints, points: Ints) -> bool:
+    """Part faces, each with its number of points before it; return False if they do not fill the arrays."""
+    n, at, to = start.shape[0] - 1, 0, 0
+    for f in range(n):
+        start[f] = to
+        size = numbers[at] if at < numbers.shape[0] else -1
+        if size < 0 or to + size > points.shape[0] or at + size >= numbers.shape[0]:
+            return False
+        for k in range(size):
+            points[to + k] = numbers[at + 1 + k]
+        at, to = at + 1 + size, to + size
+    start[n] = to
+    return bool(at == numbers.shape[0])
 
 
 def read_labels(path: Path) -> Labels:
@@ -197,42 +262,7 @@ def read_vectors(path: Path) -> Floats:
     return values
 
 
-def read_faces(path: Path) -> tuple[Labels, Labels]:
-    """Read a ``faceList`` or ``faceCompactList``: the start of each face's points, (n + 1,), and the points.
-
-    Raises
-    ------
-    InputError
-        The file is missing or broken.
-    """
-    file = FoamFile(path)
-    if file.kind == "faceCompactList":
-        start, points = file.labels(), file.labels()
-        if len(start) == 0 or start[0] != 0 or start[-1] != len(points) or np.any(np.diff(start) < 0):
-            raise InputError(f"{file.path}: the lengths of the faces do not fit their points.")
-        return start, points
-    n = file.count()
-    text = _NOTE.sub(b" ", file.data[file.at :]).translate(bytes.maketrans(b"()", b"  "))
-    try:
-        numbers = np.array(text.split(), dtype=np.int64)
-    except (ValueError, OverflowError):
-        raise file.broken("a list of faces") from None
-    sizes = np.empty(n, dtype=np.int64)
-    at = 0
-    for face in range(n):
-        if at >= len(numbers):
-            raise file.broken(f"a list of {n} faces")
-        sizes[face] = numbers[at]
-        at += 1 + max(int(numbers[at]), 0)
-    if at != len(numbers):
-        raise file.broken(f"a list of {n} faces")
-    start = np.concatenate([[0], np.cumsum(sizes)])
-    is_point = np.ones(len(numbers), dtype=bool)
-    is_point[start[:-1] + np.arange(n)] = False
-    return start, numbers[is_point]
-
-
-def read_cell_zones(path: Path) -> dict[str, Labels]:
+def read_cell_zones(path: Path | FoamFile) -> dict[str, Labels]:
     """Read the cells of each zone from ``polyMesh/cellZones``.
 
     Raises
@@ -240,7 +270,7 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
     InputError
         The file is missing or broken.
     """
-    file = FoamFile(path)
+    file = path if isinstance(path, FoamFile) else FoamFile(path)
     n = file.count()
     file.skip()
     file.need(b"(")
@@ -252,7 +282,6 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
         while not file.take(b"}"):
             if file.word() == b"cellLabels":
                 # An empty zone in binary is just 0.
-                file.take(b"List<label>")
                 cells = file.labels()
                 file.need(b";")
             else:
@@ -265,11 +294,29 @@ def read_cell_zones(path: Path) -> dict[str, Labels]:
     return zones
 
 
+def read_blocks(path: Path) -> list[FoamFile]:
+    """Read a collated file, which holds a file of each processor, of which only the first has a header."""
+    whole, entries = FoamFile(path), header(path)
+    files: list[FoamFile] = []
+    while whole.at < len(whole.data):
+        n = whole.count()
+        begin = whole.data.find(b"(", whole.at) + 1
+        if begin == 0 or whole.data[begin + n : begin + n + 1] != b")":
+            raise whole.broken(f"the file of processor {len(files)}, {n} bytes,")
+        files.append(FoamFile(path, whole.data[begin : begin + n], entries))
+        whole.at = begin + n + 1
+        whole.skip()
+    return files
+
+
 def header(path: Path) -> dict[str, str]:
-    """Return the entries of the FoamFile header; empty without a header."""
-    text = read_bytes(path, _HEADER_BYTES).decode("latin-1")
-    match = re.search(r"FoamFile\s*\{(.*?)\}", _COMMENT.sub(" ", text), re.DOTALL)
-    if match is None:
-        return {}
-    entries = re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match[1])
-    return {key: value.strip().strip('"') for key, value in entries}
+    """Return the entries of the FoamFile header, in a collated file of the first part; empty without one."""
+    text = _COMMENT.sub(" ", read_bytes(path, _HEADER_BYTES).decode("latin-1"))
+    found = re.findall(r"FoamFile\s*\{(.*?)\}", text, re.DOTALL)
+    for match in found:
+        entries = {
+            key: value.strip().strip('"') for key, value in re.findall(r'(\w+)\s+("[^"]*"|[^;]*);', match)
+        }
+        if entries.get("class") != "decomposedBlockData":
+            return entries
+    return {}

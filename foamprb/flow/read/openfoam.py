@@ -1,14 +1,8 @@
-"""Flow of an OpenFOAM case at one or several of its times.
-
-The mesh is read by VTK's OpenFOAM reader, which gives coordinates in single precision, drops the types of the
-patches and ignores most faults. The types are read here from the dictionaries, and the faults are checked.
-Fields are read in double precision, without VTK.
-"""
+"""Flow of an OpenFOAM case at one or several of its times."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -18,13 +12,13 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.mesh.boundary import PatchSurface
-from foamprb.flow.mesh.lists import points_of
-from foamprb.flow.mesh.mesh import Mesh, build_mesh
+from foamprb.flow.mesh.boundary import PolyMesh
+from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
-from foamprb.flow.read.boundary import CaseMesh, read_boundary
+from foamprb.flow.read.boundary import CaseMesh, PatchInfo, read_boundary
 from foamprb.flow.read.boundary_values import boundary_values
 from foamprb.flow.read.case import (
+    available_times,
     cell_zones,
     field_path,
     fields_of,
@@ -32,25 +26,23 @@ from foamprb.flow.read.case import (
     mesh_folder,
     notes_of_forms,
     regions,
+    require_case,
     select_time,
     select_times,
-    shown,
 )
 from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
 from foamprb.flow.read.checks import (
     at_cells,
-    noted_counts,
     notes_of_types,
-    require_labels,
     require_numbers,
     require_patch_shapes,
     require_volumes,
 )
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
+from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import read_turbulence
-from foamprb.flow.read.vtk_reader import raise_first_error, read_blocks
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import series_of
@@ -70,32 +62,29 @@ class Case:
         The case's folder.
     region
         Region of the mesh, if the case has several.
+    reader
+        ``vtk`` to read the mesh by VTK.
     """
 
     notes: tuple[str, ...] = ()
 
-    def __init__(self, root: Path, region: str = "") -> None:
-        self.root, self.region = root, region
-        self.mesh_root = root
-        """Folder of the case that holds the mesh."""
+    def __init__(self, root: Path, region: str = "", reader: str = "") -> None:
+        self.root, self.region, self.reader = root, region, reader
+        if reader == "vtk":
+            self.notes = (PRECISION_NOTE,)
 
-    @contextmanager
-    def messages(self) -> Iterator[None]:
-        """Let errors name the case, not the folder that holds the mesh."""
-        try:
-            yield
-        except InputError as error:
-            if self.mesh_root == self.root:
-                raise
-            raise InputError(str(error).replace(str(self.mesh_root), str(self.root))) from None
+    def times(self) -> tuple[str, ...]:
+        """Return the names of all times; InputError if there is no case with a mesh."""
+        require_case(self.root, self.region)
+        return available_times(self.root)
 
     def select_time(self, time: float | str) -> str:
         """Return the name of a time; see :func:`foamprb.flow.read.case.select_time`."""
-        return select_time(self.mesh_root, time, self.region)
+        return select_time(self.root, time, self.region)
 
     def select_times(self, selection: str | None) -> tuple[str, ...]:
         """Return the names of times; see :func:`foamprb.flow.read.case.select_times`."""
-        return select_times(self.mesh_root, selection, self.region)
+        return select_times(self.root, selection, self.region)
 
     def folder(self, time: str) -> Path:
         """Return the folder of the fields at a time."""
@@ -115,11 +104,35 @@ class Case:
 
     def zones(self, time: str) -> Mapping[str, NDArray[np.int64]]:
         """Read the cells of each zone by name; InputError if the file is broken."""
-        return cell_zones(mesh_folder(self.mesh_root, time, self.region))
+        return cell_zones(mesh_folder(self.root, time, self.region))
+
+    def poly(self, time: str | None) -> tuple[PolyMesh, tuple[PatchInfo, ...], list[str]]:
+        """Read points, faces and patches at a time; None for the mesh in ``constant``.
+
+        Returns them, the patches as the case lists them, and notes; raises InputError if they are missing,
+        broken or inconsistent.
+        """
+        files = mesh_files(self.root, time, self.region)
+        patches = read_boundary(files[-1], self.root)
+        notes = notes_of_forms(files)
+        if self.reader != "vtk":
+            return read_poly(files, patches), patches, notes
+        from foamprb.flow.read.vtk_reader import read_poly_by_vtk
+
+        return read_poly_by_vtk(files, patches), patches, notes
 
     def mesh(self, time: str) -> CaseMesh:
         """Read the mesh at a time; InputError if it is missing, broken or inconsistent."""
-        return read_mesh(self.mesh_root, time, self.region)
+        folder = self.mesh_folder(time)
+        poly, patches, notes = self.poly(time)
+        mesh = assemble(poly, str(folder))
+        require_volumes(mesh, folder)
+        require_patch_shapes(mesh, folder)
+        return CaseMesh(mesh, patches, (*notes, *notes_of_types(patches)))
+
+    def mesh_folder(self, time: str) -> Path:
+        """Return the folder of the mesh at a time."""
+        return mesh_folder(self.root, time, self.region)
 
 
 def read_case(
@@ -188,19 +201,18 @@ def read_series(
 
 def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     """Read the flow of a case at one time; see :func:`read_case` and :class:`FlowSource`."""
-    with case.messages():
-        name = case.select_time(time)
-        rotations = read_rotations(case.root, case.region) if source.relative else ()
-        field = case.field(name, source.velocity, VELOCITY_FIELD)
-        whole = case.mesh(name)
-        cells, boundary = velocities(field, whole)
-        flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity)
-        rotating: list[RotatingZone] = []
-        if rotations:
-            rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
-            boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
-        at_nodes = _at_nodes(case, name, source, whole, Reconstruction(whole.mesh), cells, boundary)
-    notes = [*case.notes, PRECISION_NOTE, *whole.notes]
+    name = case.select_time(time)
+    rotations = read_rotations(case.root, case.region) if source.relative else ()
+    field = case.field(name, source.velocity, VELOCITY_FIELD)
+    whole = case.mesh(name)
+    cells, boundary = velocities(field, whole)
+    flux = caveat_of_flux(whole, cells, boundary, partial(case.field, name), source.velocity)
+    rotating: list[RotatingZone] = []
+    if rotations:
+        rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
+        boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
+    at_nodes = _at_nodes(case, name, source, whole, Reconstruction(whole.mesh), cells, boundary)
+    notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
@@ -220,22 +232,20 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
     """Prepare the flow of a case at several times; see :func:`read_series`."""
-    with case.messages():
-        names = case.select_times(times)
-        if len(names) == 1:
-            return steady_flow(case, names[0], source)
-        _refuse_moving(case, names)
-        whole = case.mesh(names[0])
-        first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
-        flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
+    names = case.select_times(times)
+    if len(names) == 1:
+        return steady_flow(case, names[0], source)
+    _refuse_moving(case, names)
+    whole = case.mesh(names[0])
+    first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
+    flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
     reconstruct = Reconstruction(whole.mesh)
 
     def read(name: str) -> tuple[Floats, ...]:
-        with case.messages():
-            values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-            return _at_nodes(case, name, source, whole, reconstruct, *values)
+        values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
+        return _at_nodes(case, name, source, whole, reconstruct, *values)
 
-    notes = [*case.notes, PRECISION_NOTE, *whole.notes]
+    notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
     notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
     zones = partial(case.zones, names[0])
@@ -292,39 +302,6 @@ def read_fields(
     name = opened.select_time(time)
     whole = opened.mesh(name)
     return whole.mesh, *velocities(opened.field(name, velocity, VELOCITY_FIELD), whole), name
-
-
-def read_mesh(case: Path, time: str, region: str) -> CaseMesh:
-    """Read the mesh of a case at a time; InputError if it is missing, broken or inconsistent."""
-    folder = mesh_folder(case, time, region)
-    patches = read_boundary(folder / "boundary", case)
-    noted = noted_counts(folder)
-    require_labels(folder, noted)
-    files = mesh_files(case, time, region)
-    blocks, messages = read_blocks(files, patches=True)
-    grid = blocks["internalMesh"]
-    for word, found in (("nCells", grid.GetNumberOfCells()), ("nPoints", grid.GetNumberOfPoints())):
-        if word in noted and noted[word] != found:
-            raise InputError(
-                f"{shown(folder / 'owner')}: the header says {word} {noted[word]}, but the mesh that the "
-                f"files describe has {found}; the mesh is damaged."
-            )
-    raise_first_error(folder, messages)
-    surfaces = []
-    for patch in patches:
-        block = blocks.get(patch.name)
-        found = 0 if block is None else block.GetNumberOfCells()
-        if block is None or found != patch.faces:
-            raise InputError(
-                f"{shown(folder / 'boundary')}: patch {patch.name} has {patch.faces} faces, but "
-                f"{found} could be read."
-            )
-        surfaces.append(PatchSurface(patch.name, patch.type, block, patch.neighbour, patch.transform))
-    require_numbers(points_of(grid).astype(np.float64, copy=False), files[0], "point")
-    mesh = build_mesh(grid, surfaces, source=str(folder))
-    require_volumes(mesh, folder)
-    require_patch_shapes(mesh, folder)
-    return CaseMesh(mesh, patches, (*notes_of_forms(files), *notes_of_types(patches)))
 
 
 def velocities(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:

@@ -1,164 +1,324 @@
-"""Processor folders of a decomposed case: parts of the mesh and of fields, joined as by reconstructPar."""
+"""Processor folders of a decomposed case: their files; meshes and fields joined as by reconstructPar.
+
+The addressing files of decomposePar give the point, face, cell and patch of the whole for each piece of a
+part. Without them, as in meshes that were made in parallel, parts are joined over their processor patches.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import sparse
+from scipy.sparse import csgraph
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
-from foamprb.flow.base import Floats
-from foamprb.flow.mesh.lists import Mask, ragged, starts
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.boundary import PolyMesh
+from foamprb.flow.mesh.lists import Index, Mask, int32, ragged, starts
 from foamprb.flow.read.boundary import CONSTRAINTS, PatchInfo, read_boundary
-from foamprb.flow.read.case import available_times, cell_zones
+from foamprb.flow.read.case import available_times
 from foamprb.flow.read.field import FoamField, PatchField
-from foamprb.flow.read.foamfile import Labels, read_faces, read_labels, read_vectors
+from foamprb.flow.read.foamfile import FoamFile, Labels, read_blocks, read_cell_zones
+from foamprb.flow.read.polymesh import checked_poly
+from foamprb.flow.read.times import listed
 
-_MESH = ("points", "faces", "owner", "neighbour", "boundary")
 _ADDRESSING = ("pointProcAddressing", "faceProcAddressing", "cellProcAddressing", "boundaryProcAddressing")
-HEADER = """FoamFile
-{{
-    version     2.0;
-    format      binary;
-    class       {kind};
-    arch        "LSB;label=32;scalar=64";
-    {note}
-    object      {name};
-}}
-
-"""
 _APART = 1e-6
 """Largest distance of a point between two parts, as a fraction of the extent of the mesh."""
 
 
-def processors(case: Path) -> tuple[Path, ...]:
-    """Return the processor folders in their order.
+class Processors:
+    """Folders of the processors: one for each, or collated ones for several.
 
     Raises
     ------
     InputError
-        There are no such folders, one is missing, or they are in the collated format.
+        There are no such folders, or one is missing.
     """
-    folders = {
-        int(m[1]): path
-        for path in case.glob("processor*")
-        if (m := re.fullmatch(r"processor(\d+)", path.name))
-    }
-    if not folders:
-        collated = [path.name for path in case.glob("processors*") if path.is_dir()]
-        if collated:
-            raise InputError(f"{case / collated[0]}: the collated format is not read: run reconstructPar.")
-        raise InputError(f"{case}: no processor folders.")
-    for number in range(max(folders)):
-        if number not in folders:
+
+    def __init__(self, case: Path) -> None:
+        self.folders: list[Path] = []
+        """In the order of the processors."""
+        single: dict[int, Path] = {}
+        several: dict[int, tuple[int, Path]] = {}
+        for path in case.glob("processor*"):
+            if match := re.fullmatch(r"processor(\d+)", path.name):
+                single[int(match[1])] = path
+            elif match := re.fullmatch(r"processors(\d+)(?:_(\d+)-(\d+))?", path.name):
+                several[int(match[2] or 0)] = int(match[3] or int(match[1]) - 1), path
+        if not single and not several:
+            raise InputError(f"{case}: no processor folders.")
+        for number in range(max(single, default=0)):
+            if number not in single:
+                raise InputError(
+                    f"{case / f'processor{number}'}: no such folder, but there is processor{max(single)}."
+                )
+        expected = 0
+        for first, (last, path) in sorted(several.items() if not single else ()):
+            if first != expected:
+                raise InputError(f"{path}: there is no folder for processor {expected}.")
+            expected = last + 1
+        self.collated = not single
+        self.folders = [path for _, path in sorted(single.items())] or [
+            path for _, (_, path) in sorted(several.items())
+        ]
+        self.n = len(single) or expected
+
+    def files(self, relative: Path) -> list[FoamFile] | None:
+        """Return the file of each processor; None if all are missing, InputError if some are."""
+        paths = [existing(folder / relative) for folder in self.folders]
+        if not any(paths):
+            return None
+        for folder, path in zip(self.folders, paths, strict=True):
+            if path is None:
+                raise InputError(f"{folder / relative}: no such file.")
+        found = [path for path in paths if path is not None]
+        if not self.collated:
+            return [FoamFile(path) for path in found]
+        files = [file for path in found for file in read_blocks(path)]
+        if len(files) != self.n:
             raise InputError(
-                f"{case / f'processor{number}'}: no such folder, but there is processor{max(folders)}."
+                f"{found[0]}: parts of {len(files)} processors, not {self.n}; the file is cut short."
             )
-    return tuple(folders[number] for number in sorted(folders))
+        return files
+
+    def times(self) -> tuple[tuple[str, ...], str]:
+        """Return the times that all folders have, and a note on others; InputError if they have none."""
+        times = [available_times(folder) for folder in self.folders]
+        common = tuple(name for name in times[0] if all(name in names for names in times))
+        others = sorted({name for names in times for name in names if name not in common}, key=float)
+        if not common:
+            raise InputError(
+                f"{self.folders[0].parent}: no time is in all processor folders; in some: {listed(others)}."
+            )
+        if not others:
+            return common, ""
+        return common, (
+            f"Some processor folders alone have the times {listed(others)}; all have {listed(common)}."
+        )
 
 
-class Part(NamedTuple):
-    """Mesh of a processor, and the indices of its pieces in the whole mesh."""
+class Piece(NamedTuple):
+    """Mesh of a processor."""
 
-    mesh: Path
-    """The folder ``polyMesh``."""
+    paths: Sequence[Path]
+    """Its files: points, faces, owner, neighbour, boundary."""
     points: Floats
-    face_start: Labels
-    face_points: Labels
-    owner: Labels
-    neighbour: Labels
+    start: Ints
+    lists: Ints
+    owner: Ints
+    neighbour: Ints
     patches: Sequence[PatchInfo]
-    point_at: Labels
-    face_at: Labels
+
+    @property
+    def n_cells(self) -> int:
+        """Return the number of cells."""
+        return int(self.owner.max(initial=-1)) + 1
+
+
+class Address(NamedTuple):
+    """Places of the pieces of a part in the whole mesh."""
+
+    patches: Sequence[PatchInfo]
+    """The part's own."""
+    points: Labels
+    faces: Labels
     turned: Mask
     """(n_faces,) True if the face turns the other way in the whole: its cell is the neighbour there."""
-    cell_at: Labels
-    patch_at: Labels
-
-    def without_mesh(self) -> Part:
-        """Return the part with the indices that fields need alone."""
-        nothing = np.empty(0, dtype=np.int64)
-        return self._replace(
-            points=np.empty((0, 3)), face_start=nothing, face_points=nothing, owner=nothing,
-            neighbour=nothing, point_at=nothing,
-        )  # fmt: skip
+    cells: Labels
+    of_patches: Labels
+    """−1 for patches between processors."""
 
 
-def common_times(folders: Sequence[Path], region: str) -> tuple[str, ...]:
-    """Return the times of all folders; raise InputError if one of them misses a time that another has."""
-    times = available_times(folders[0])
-    for folder in folders:
-        here = available_times(folder)
-        for mesh in (folder / name / region / "polyMesh" for name in here):
-            if mesh.is_dir():
-                raise InputError(f"{mesh}: the mesh changes in time; in decomposed cases it must not.")
-        for name in (*times, *here):
-            if (name in times) != (name in here):
-                lacking, having = (folder, folders[0]) if name in times else (folders[0], folder)
-                raise InputError(f"{lacking}: no time {name}, which {having.name} has.")
-    return times
+def read_pieces(processors: Processors, files: Sequence[Path], case: Path) -> list[Piece]:
+    """Read the meshes of all processors.
 
+    Parameters
+    ----------
+    processors
+        The folders.
+    files
+        ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary`` of the first folder.
+    case
+        The case, for messages.
 
-def read_part(case: Path, folder: Path, region: str) -> Part:
-    """Read the mesh of a processor folder; InputError if it is missing, broken or inconsistent."""
-    mesh = folder / "constant" / region / "polyMesh"
-    for name in _MESH:
-        if existing(mesh / name) is None:
-            raise InputError(f"{mesh / name}: no such file.")
-    for name in _ADDRESSING:
-        if existing(mesh / name) is None:
+    Raises
+    ------
+    InputError
+        A file is missing, broken or inconsistent.
+    """
+    columns = []
+    for path in files:
+        found = processors.files(path.relative_to(processors.folders[0]))
+        if found is None:
+            raise InputError(f"{path}: no such file.")
+        columns.append(found)
+    pieces = []
+    for row in zip(*columns, strict=True):
+        start, lists = row[1].faces()
+        owner, neighbour = row[2].indices(), row[3].indices()
+        patches = read_boundary(row[4].path, case, row[4])
+        piece = Piece([file.path for file in row], row[0].list(3), start, lists, owner, neighbour, patches)
+        if len(start) - 1 != len(owner):
             raise InputError(
-                f"{mesh / name}: no such file. Without decomposePar's addressing the processor meshes cannot "
-                "be joined: run reconstructParMesh and reconstructPar."
+                f"{row[1].path}: {len(start) - 1} entries, but the other files say {len(owner)}."
             )
-    start, points = read_faces(mesh / "faces")
-    signed = read_labels(mesh / "faceProcAddressing")
-    part = Part(
-        mesh, read_vectors(mesh / "points"), start, points,
-        read_labels(mesh / "owner"), read_labels(mesh / "neighbour"),
-        read_boundary(mesh / "boundary", case),
-        read_labels(mesh / "pointProcAddressing"), np.abs(signed) - 1, signed < 0,
-        read_labels(mesh / "cellProcAddressing"), read_labels(mesh / "boundaryProcAddressing"),
-    )  # fmt: skip
-    cells, faces = len(part.cell_at), len(part.owner)
-    for name, found, expected in (
-        ("faces", len(start) - 1, faces),
-        ("faceProcAddressing", len(signed), faces),
-        ("pointProcAddressing", len(part.point_at), len(part.points)),
-        ("boundaryProcAddressing", len(part.patch_at), len(part.patches)),
-    ):
-        if found != expected:
-            raise InputError(f"{mesh / name}: {found} entries, but the other files say {expected}.")
-    for name, values, limit in (
-        ("faces", points, len(part.points)),
-        ("owner", part.owner, cells),
-        ("neighbour", part.neighbour, cells),
-    ):
-        if len(values) and not 0 <= values.min() <= values.max() < limit:
-            raise InputError(f"{mesh / name}: an index outside 0 to {limit - 1}.")
-    if np.any(signed == 0):
-        raise InputError(f"{mesh / 'faceProcAddressing'}: there is no face 0.")
-    return part
+        if len(neighbour) + sum(patch.faces for patch in patches) != len(owner):
+            raise InputError(f"{row[4].path}: the patches do not fit the {len(owner)} faces.")
+        for file, values, limit in ((row[1], lists, len(piece.points)), (row[3], neighbour, piece.n_cells)):
+            if len(values) and not 0 <= values.min() <= values.max() < limit:
+                raise InputError(f"{file.path}: an index outside 0 to {limit - 1}.")
+        pieces.append(piece)
+    return pieces
 
 
-def whole_patches(case: Path, parts: Sequence[Part]) -> tuple[list[PatchInfo], Labels]:
+def read_addresses(processors: Processors, folder: Path, pieces: Sequence[Piece]) -> list[Address] | None:
+    """Read the addressing files; None without them, InputError if they do not fit the meshes."""
+    at = folder.relative_to(processors.folders[0])
+    columns = [processors.files(at / name) for name in _ADDRESSING]
+    if None in columns:
+        return None
+    found = []
+    for piece, *row in zip(pieces, *filter(None, columns), strict=True):
+        points, signed, cells, patches = (file.labels() for file in row)
+        for file, values, expected in (
+            (row[0], points, len(piece.points)),
+            (row[1], signed, len(piece.owner)),
+            (row[3], patches, len(piece.patches)),
+        ):
+            if len(values) != expected:
+                raise InputError(
+                    f"{file.path}: {len(values)} entries, but the other files say {expected}. Without files "
+                    "*ProcAddressing the parts are joined over their processor patches."
+                )
+        if piece.n_cells > len(cells):
+            raise InputError(f"{piece.paths[2]}: an index outside 0 to {len(cells) - 1}.")
+        if np.any(signed == 0):
+            raise InputError(f"{row[1].path}: there is no face 0.")
+        found.append(Address(piece.patches, points, np.abs(signed) - 1, signed < 0, cells, patches))
+    return found
+
+
+def found_addresses(pieces: Sequence[Piece]) -> list[Address]:
+    """Return a numbering of the whole mesh by which the pieces meet at their processor patches.
+
+    Raises
+    ------
+    InputError
+        A processor patch has no counterpart with the same faces.
+    """
+    cells = starts(np.array([piece.n_cells for piece in pieces]))
+    first_point = starts(np.array([len(piece.points) for piece in pieces]))
+    between = {
+        (own, int(patch.entries["neighbProcNo"])): patch
+        for own, piece in enumerate(pieces)
+        for patch in piece.patches
+        if patch.type == "processor"
+    }
+    faces = [np.full(len(piece.owner), -1, dtype=np.int64) for piece in pieces]
+    turned = [np.zeros(len(piece.owner), dtype=bool) for piece in pieces]
+    joined: list[tuple[Index, Index]] = []
+    n = 0
+    for own, piece in enumerate(pieces):
+        faces[own][: len(piece.neighbour)] = np.arange(n, n + len(piece.neighbour))
+        n += len(piece.neighbour)
+    for (own, other), patch in sorted(between.items()):
+        beyond = between.get((other, own))
+        if beyond is None or beyond.faces != patch.faces:
+            raise InputError(
+                f"{pieces[own].paths[4]}: patch {patch.name} has {patch.faces} faces, but the patch of "
+                f"processor {other} to it has {beyond.faces if beyond else 0}."
+            )
+        if own < other:
+            here, there = (slice(p.start, p.start + p.faces) for p in (patch, beyond))
+            faces[own][here] = faces[other][there] = np.arange(n, n + patch.faces)
+            turned[other][there] = True
+            n += patch.faces
+            joined.append(
+                _pairs((pieces[own], here, first_point[own]), (pieces[other], there, first_point[other]))
+            )
+    _number_boundary(pieces, faces, n)
+    ends = [
+        np.concatenate([np.empty(0, dtype=np.intp), *side]) for side in zip(*joined, strict=True)
+    ] or 2 * [np.empty(0, dtype=np.intp)]
+    ones, shape = np.ones(len(ends[0]), dtype=np.int8), 2 * (int(first_point[-1]),)
+    groups = csgraph.connected_components(sparse.coo_array((ones, tuple(ends)), shape=shape), directed=False)[
+        1
+    ]
+    _, first, place = np.unique(groups, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), dtype=np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    points = rank[place.reshape(-1)]
+    return [
+        Address(
+            piece.patches,
+            points[first_point[k] : first_point[k + 1]],
+            faces[k],
+            turned[k],
+            np.arange(cells[k], cells[k + 1]),
+            np.array(
+                [-1 if "neighbProcNo" in p.entries else i for i, p in enumerate(piece.patches)],
+                dtype=np.int64,
+            ),
+        )
+        for k, piece in enumerate(pieces)
+    ]
+
+
+def _pairs(own: tuple[Piece, slice, int], other: tuple[Piece, slice, int]) -> tuple[Index, Index]:
+    """Return the points of faces on one side, and the same points on the other, where the faces turn back."""
+    sides = []
+    for (piece, part, first), back in ((own, False), (other, True)):
+        begin, size = piece.start[part].astype(np.intp), np.diff(piece.start)[part].astype(np.intp)
+        order = ragged(np.zeros(len(size), dtype=np.intp), size)
+        if back:
+            order = -order % np.repeat(size, size)
+        sides.append((size, piece.lists[np.repeat(begin, size) + order] + first))
+    if not np.array_equal(sides[0][0], sides[1][0]):
+        raise InputError(
+            f"{own[0].paths[1]}: the faces of a processor patch differ from those of {other[0].paths[1]}."
+        )
+    return sides[0][1].astype(np.intp), sides[1][1].astype(np.intp)
+
+
+def _number_boundary(pieces: Sequence[Piece], faces: Sequence[Labels], n: int) -> None:
+    """Number the boundary faces from n on, patch by patch; those of two cyclic patches in the same order."""
+    segments: dict[str, list[tuple[tuple[int, int], int, PatchInfo]]] = {}
+    names = [patch.name for piece in pieces[:1] for patch in piece.patches]
+    for own, piece in enumerate(pieces):
+        for patch in piece.patches:
+            if patch.type == "processor":
+                continue
+            name = patch.entries.get("referPatch", patch.name)
+            whole = next((p for p in piece.patches if p.name == name), patch)
+            other = int(patch.entries.get("neighbProcNo", own))
+            first = whole.neighbour not in names or names.index(name) < names.index(whole.neighbour)
+            segments.setdefault(name, []).append(((own, other) if first else (other, own), own, patch))
+    for _, lists in sorted(segments.items(), key=lambda item: names.index(item[0])):
+        for _, own, patch in sorted(lists, key=lambda segment: segment[0]):
+            faces[own][patch.start : patch.start + patch.faces] = np.arange(n, n + patch.faces)
+            n += patch.faces
+
+
+def whole_patches(case: Path, parts: Sequence[Address]) -> tuple[list[PatchInfo], Labels]:
     """Return the patches of the whole case, and the boundary face at which each begins and the last ends."""
     known: dict[int, PatchInfo] = {}
     counts: dict[int, int] = {}
     for part in parts:
         names = [patch.name for patch in part.patches]
-        for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
+        for patch, at in zip(part.patches, part.of_patches.tolist(), strict=True):
             if at >= 0:
                 known.setdefault(at, patch)
                 counts[at] = counts.get(at, 0) + patch.faces
             elif patch.entries.get("referPatch") in names:
                 # A cyclic patch whose two sides lie on different processors.
-                whole = int(part.patch_at[names.index(patch.entries["referPatch"])])
+                whole = int(part.of_patches[names.index(patch.entries["referPatch"])])
                 counts[whole] = counts.get(whole, 0) + patch.faces
     if sorted(known) != list(range(len(known))):
         raise InputError(f"{case}: the processor folders do not name all patches of the mesh.")
@@ -166,21 +326,25 @@ def whole_patches(case: Path, parts: Sequence[Part]) -> tuple[list[PatchInfo], L
     return patches, starts(np.array([patch.faces for patch in patches], dtype=np.int64))
 
 
-def write_mesh(
-    folder: Path, case: Path, parts: Sequence[Part], patches: Sequence[PatchInfo], ranges: Labels
-) -> None:
-    """Write the whole mesh to a folder ``polyMesh``; InputError if the parts do not make a whole."""
+def join_meshes(
+    case: Path,
+    pieces: Sequence[Piece],
+    parts: Sequence[Address],
+    patches: Sequence[PatchInfo],
+    ranges: Labels,
+) -> PolyMesh:
+    """Join meshes; see :func:`whole_patches`. InputError if the parts do not make a whole."""
     foreign = InputError(
         f"{case}: the processor folders do not make a whole mesh; one of them is damaged or of another case."
     )
-    n_cells = _count([part.cell_at for part in parts])
-    n_points = _count([part.point_at for part in parts])
-    n_faces = _count([part.face_at[~part.turned] for part in parts])
+    n_cells = _count([part.cells for part in parts])
+    n_points = _count([part.points for part in parts])
+    n_faces = _count([part.faces[~part.turned] for part in parts])
     n_internal = n_faces - int(ranges[-1])
-    turned = np.concatenate([part.face_at[part.turned] for part in parts])
+    turned = np.concatenate([part.faces[part.turned] for part in parts])
     if (
         min(n_cells, n_points, n_internal) < 0
-        or n_cells != sum(len(part.cell_at) for part in parts)
+        or n_cells != sum(len(part.cells) for part in parts)
         or n_faces != sum(np.count_nonzero(~part.turned) for part in parts)
         or turned.max(initial=-1) >= n_faces
         or len(np.unique(turned)) != len(turned)
@@ -188,14 +352,17 @@ def write_mesh(
         raise foreign
     points = np.empty((n_points, 3))
     owner, neighbour, size = (np.full(n_faces, -1, dtype=np.int64) for _ in range(3))
-    for part in parts:
-        points[part.point_at] = part.points
+    for piece, part in zip(pieces, parts, strict=True):
+        points[part.points] = piece.points
         own = ~part.turned
-        owner[part.face_at[own]] = part.cell_at[part.owner[own]]
-        size[part.face_at[own]] = np.diff(part.face_start)[own]
-        neighbour[part.face_at[: len(part.neighbour)]] = part.cell_at[part.neighbour]
-        neighbour[part.face_at[part.turned]] = part.cell_at[part.owner[part.turned]]
-    apart = max(float(np.abs(points[part.point_at] - part.points).max(initial=0.0)) for part in parts)
+        owner[part.faces[own]] = part.cells[piece.owner[own]]
+        size[part.faces[own]] = np.diff(piece.start)[own]
+        neighbour[part.faces[: len(piece.neighbour)]] = part.cells[piece.neighbour]
+        neighbour[part.faces[part.turned]] = part.cells[piece.owner[part.turned]]
+    apart = max(
+        float(np.abs(points[part.points] - piece.points).max(initial=0.0))
+        for piece, part in zip(pieces, parts, strict=True)
+    )
     if (
         not apart <= _APART * float(np.ptp(points, axis=0).max())
         or np.any(neighbour[:n_internal] < 0)
@@ -203,59 +370,47 @@ def write_mesh(
     ):
         raise foreign
     start = starts(size)
-    lists = np.empty(start[-1], dtype=np.int64)
-    for part in parts:
+    lists = np.empty(start[-1], dtype=np.int32)
+    for piece, part in zip(pieces, parts, strict=True):
         own = ~part.turned
-        counts = np.diff(part.face_start)[own]
-        own_points = part.face_points[ragged(part.face_start[:-1][own], counts)]
-        lists[ragged(start[part.face_at[own]], counts)] = part.point_at[own_points]
-    folder.mkdir(parents=True)
-    note = f'note "nPoints:{n_points}  nCells:{n_cells}  nFaces:{n_faces}  nInternalFaces:{n_internal}";'
-    _write(folder / "points", "vectorField", [points])
-    _write(folder / "faces", "faceCompactList", [start, lists])
-    _write(folder / "owner", "labelList", [owner], note)
-    _write(folder / "neighbour", "labelList", [neighbour[:n_internal]], note)
-    text = ""
-    for patch, first in zip(patches, ranges, strict=False):
-        entries = patch.entries | {"nFaces": str(patch.faces), "startFace": str(n_internal + int(first))}
-        lines = "".join(f"    {key} {word};\n" for key, word in entries.items())
-        text += f"{patch.name}\n{{\n{lines}}}\n"
-    _write_text(folder / "boundary", "polyBoundaryMesh", len(patches), text)
+        counts = np.diff(piece.start)[own]
+        own_points = piece.lists[ragged(piece.start[:-1][own], counts)]
+        lists[ragged(start[part.faces[own]], counts)] = part.points[own_points]
+    whole = [
+        patch._replace(start=n_internal + int(first)) for patch, first in zip(patches, ranges, strict=False)
+    ]
+    arrays = int32(start), lists, int32(owner), int32(neighbour[:n_internal])
+    return checked_poly(pieces[0].paths, points, *arrays, whole)
 
 
-def _count(addresses: Sequence[Labels]) -> int:
+def _count(addresses: Iterable[Labels]) -> int:
     """Return the count of pieces if the parts hold all indices from 0 on and no others, else −1."""
-    numbers = np.concatenate(addresses)
+    numbers = np.concatenate(list(addresses))
     n = int(numbers.max(initial=-1)) + 1
     if n > len(numbers) or numbers.min(initial=0) < 0:
         return -1
     return n if np.bincount(numbers, minlength=n).all() else -1
 
 
-def write_zones(path: Path, parts: Sequence[Part]) -> None:
-    """Join the zones of cells, if there are any, each in the order of its cells."""
+def join_zones(
+    processors: Processors, folder: Path, parts: Sequence[Address]
+) -> Mapping[str, NDArray[np.int64]]:
+    """Join the zones of cells, each in the order of its cells."""
     zones: dict[str, list[Labels]] = {}
-    for part in parts:
-        for name, cells in cell_zones(part.mesh).items():
-            if len(cells) and not 0 <= cells.min() <= cells.max() < len(part.cell_at):
-                raise InputError(f"{part.mesh / 'cellZones'}: zone {name} names a cell that is not there.")
-            zones.setdefault(name, []).append(part.cell_at[cells])
-    text = ""
-    for name, lists in zones.items():
-        labels = np.sort(np.concatenate(lists))
-        text += f"{name}\n{{\n    type cellZone;\n    cellLabels List<label> {len(labels)} "
-        text += f"({' '.join(map(str, labels))});\n}}\n"
-    if zones:
-        _write_text(path, "regIOobject", len(zones), text)
+    files = processors.files(folder.relative_to(processors.folders[0]) / "cellZones")
+    for part, file in zip(parts, files or (), strict=False):
+        for name, cells in read_cell_zones(file).items():
+            if len(cells) and not 0 <= cells.min() <= cells.max() < len(part.cells):
+                raise InputError(f"{file.path}: zone {name} names a cell that is not there.")
+            zones.setdefault(name, []).append(part.cells[cells])
+    return {name: np.sort(np.concatenate(lists)) for name, lists in zones.items()}
 
 
-def checked(field: FoamField, part: Part) -> FoamField:
+def checked(field: FoamField, part: Address) -> FoamField:
     """Return the field of a part if it fits the part's mesh; InputError otherwise."""
-    if len(field.cells) not in (1, len(part.cell_at)):
-        raise InputError(
-            f"{field.path}: {len(field.cells)} cells, but the mesh there has {len(part.cell_at)}."
-        )
-    for patch, at in zip(part.patches, part.patch_at.tolist(), strict=True):
+    if len(field.cells) not in (1, len(part.cells)):
+        raise InputError(f"{field.path}: {len(field.cells)} cells, but the mesh there has {len(part.cells)}.")
+    for patch, at in zip(part.patches, part.of_patches.tolist(), strict=True):
         if at < 0:
             continue
         entry = field.of(patch)
@@ -271,7 +426,7 @@ def checked(field: FoamField, part: Part) -> FoamField:
 
 
 def join_fields(
-    parts: Sequence[Part], fields: Sequence[FoamField], patches: Sequence[PatchInfo], ranges: Labels
+    parts: Sequence[Address], fields: Sequence[FoamField], patches: Sequence[PatchInfo], ranges: Labels
 ) -> FoamField:
     """Join the fields of parts.
 
@@ -282,10 +437,10 @@ def join_fields(
     patches, ranges
         See :func:`whole_patches`.
     """
-    cells = np.empty((sum(len(part.cell_at) for part in parts), fields[0].cells.shape[1]))
+    cells = np.empty((sum(len(part.cells) for part in parts), fields[0].cells.shape[1]))
     for part, field in zip(parts, fields, strict=True):
-        cells[part.cell_at] = field.cells
-    n_internal = 1 + max(int(part.face_at.max(initial=-1)) for part in parts) - int(ranges[-1])
+        cells[part.cells] = field.cells
+    n_internal = 1 + max(int(part.faces.max(initial=-1)) for part in parts) - int(ranges[-1])
     found = {
         patch.name: _join_patch(parts, fields, index, n_internal + ranges[index : index + 2])
         for index, patch in enumerate(patches)
@@ -295,15 +450,15 @@ def join_fields(
 
 
 def _join_patch(
-    parts: Sequence[Part], fields: Sequence[FoamField], index: int, ends: Labels
+    parts: Sequence[Address], fields: Sequence[FoamField], index: int, ends: Labels
 ) -> PatchField | None:
     """Return the entry of a patch, whose faces ``ends`` bounds in the whole; None if no part has an entry."""
     pieces: list[tuple[Labels, PatchField]] = []
     for part, field in zip(parts, fields, strict=True):
-        for patch in (part.patches[k] for k in np.flatnonzero(part.patch_at == index).tolist()):
+        for patch in (part.patches[k] for k in np.flatnonzero(part.of_patches == index).tolist()):
             entry = field.of(patch)
             if entry is not None:
-                pieces.append((part.face_at[patch.start : patch.start + patch.faces] - ends[0], entry))
+                pieces.append((part.faces[patch.start : patch.start + patch.faces] - ends[0], entry))
     # A part without faces of the patch may have an entry without values.
     filled = [piece for piece in pieces if len(piece[0])] or pieces
     if not filled:
@@ -314,17 +469,3 @@ def _join_patch(
         for faces, entry in filled:
             values[key][faces] = entry.fields[key]
     return filled[0][1]._replace(pattern=False, fields=values)
-
-
-def _write(path: Path, kind: str, lists: Sequence[NDArray[Any]], note: str = "") -> None:
-    with path.open("wb") as file:
-        file.write(HEADER.format(kind=kind, note=note, name=path.name).encode())
-        for values in lists:
-            file.write(f"{len(values)}\n(".encode())
-            file.write(values.astype("<f8" if values.dtype.kind == "f" else "<i4").tobytes())
-            file.write(b")\n")
-
-
-def _write_text(path: Path, kind: str, n: int, text: str) -> None:
-    head = HEADER.format(kind=kind, note="", name=path.name).replace("binary", "ascii")
-    path.write_text(f"{head}{n}\n(\n{text})\n")

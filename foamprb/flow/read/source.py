@@ -36,3 +36,5 @@ class FlowSource:
     """Read also k and ε, or k and ω."""
     relative: bool = False
     """Describe rotating zones in the frames of their rotors."""
+    reader: str = ""
+    """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""

@@ -1,21 +1,24 @@
-"""VTK's OpenFOAM reader, and the messages of VTK."""
+"""VTK's OpenFOAM reader, which gives points in single precision, and the messages of VTK."""
 
 from __future__ import annotations
 
 import logging
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.cells import poly_of_grid
+from foamprb.flow.read.boundary import PatchInfo
 
 _MESSAGE = re.compile(
     r"^(ERROR|Warning|Generic Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE
@@ -70,7 +73,7 @@ def vtk_messages() -> Iterator[Messages]:
                 similar.append(message)
 
 
-def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any], Messages]:
+def read_poly_by_vtk(files: Sequence[Path], patches: Sequence[PatchInfo]) -> PolyMesh:
     """Read a mesh.
 
     Parameters
@@ -79,45 +82,36 @@ def read_blocks(files: Iterable[Path], *, patches: bool) -> tuple[dict[str, Any]
         ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed. VTK reads links
         to them in a separate folder; in the case it would look for other times, and prefer compressed files.
     patches
-        Read the patches as well.
-
-    Returns
-    -------
-    The reader's blocks by name, ``internalMesh`` and the patches; and VTK's messages.
+        The patches of the last.
 
     Raises
     ------
     InputError
-        There is no mesh, or it cannot be read.
+        The mesh cannot be read, or its patches do not fit.
     """
+    source = files[-1].parent
     with TemporaryDirectory(prefix="foamprb-mesh-") as name:
         folder = Path(name) / "constant/polyMesh"
         folder.mkdir(parents=True)
         (Path(name) / "system").mkdir()
         (Path(name) / "system/controlDict").write_text("FoamFile { class dictionary; }\n")
-        paths = [found for file in files if (found := existing(file)) is not None]
-        for path in paths:
+        for path in filter(None, map(existing, files)):
             (folder / path.name).symlink_to(path.resolve())
         with vtk_messages() as messages:
-            blocks = _update(_open(Path(name), patches=patches))
-    source = paths[-1].parent
-    places = {str(folder / path.name): str(path) for path in paths} | {str(folder): str(source)}
-    messages = Messages(*([_replaced(text, places) for text in texts] for texts in messages))
+            blocks = _update(Path(name))
     grid = blocks.get("internalMesh")
-    if grid is None or grid.GetNumberOfCells() == 0:
-        raise_first_error(source, messages)
-        raise InputError(f"{source}: no mesh could be read; a file is missing, broken or cut short.")
-    return blocks, messages
+    if messages.errors or grid is None or grid.GetNumberOfCells() == 0:
+        said = messages.errors[0].replace(str(folder), str(source)) if messages.errors else "no mesh"
+        raise InputError(f"{source}: VTK's OpenFOAM reader says: {said}")
+    surfaces = [
+        PatchSurface(p.name, p.type, blocks.get(p.name, vtkPolyData()), p.neighbour, p.transform)
+        for p in patches
+    ]
+    return poly_of_grid(grid, surfaces, str(source))
 
 
-def _replaced(text: str, names: Mapping[str, str]) -> str:
-    for name, other in names.items():
-        text = text.replace(name, other)
-    return text
-
-
-def _open(case: Path, *, patches: bool) -> Any:
-    """Return VTK's reader of the mesh and the patches."""
+def _update(case: Path) -> dict[str, Any]:
+    """Return the mesh and the patches by name."""
     reader = vtkOpenFOAMReader()
     # Only the folder of this name is used; the file need not exist.
     reader.SetFileName(str(case / "case.foam"))
@@ -125,26 +119,11 @@ def _open(case: Path, *, patches: bool) -> Any:
     reader.SetSkipZeroTime(False)
     reader.SetReadZones(False)
     reader.UpdateInformation()
-    reader.DisableAllCellArrays()
-    reader.DisableAllPointArrays()
-    reader.DisableAllLagrangianArrays()
     for index in range(reader.GetNumberOfPatchArrays()):
         part = reader.GetPatchArrayName(index)
-        wanted = part == "internalMesh" or (patches and part.startswith("patch/"))
-        reader.SetPatchArrayStatus(part, int(wanted))
-    return reader
-
-
-def _update(reader: Any) -> dict[str, Any]:
-    """Return the reader's blocks by name."""
+        reader.SetPatchArrayStatus(part, int(part == "internalMesh" or part.startswith("patch/")))
     reader.Update()
     return dict(_leaves(reader.GetOutput()))
-
-
-def raise_first_error(source: Path, messages: Messages) -> None:
-    """Raise VTK's first error, which names the cause of the others."""
-    if messages.errors:
-        raise InputError(f"{source}: VTK's OpenFOAM reader says: {messages.errors[0]}")
 
 
 def _leaves(block: Any) -> Iterator[tuple[str, Any]]:

@@ -10,10 +10,10 @@ from foamprb.flow.read.case import (
     available_times,
     cell_zones,
     fields_of,
-    is_decomposed,
     mesh_files,
     mesh_folder,
     notes_of_forms,
+    processor_folders,
     regions,
     require_case,
     require_choice,
@@ -100,9 +100,9 @@ def test_a_case_has_a_mesh(tmp_path):
 
 @pytest.mark.parametrize("name", ["processor0", "processors4"])
 def test_a_mesh_in_parts_alone_is_said_to_be_so(name, tmp_path):
-    assert not is_decomposed(tmp_path)
+    assert not processor_folders(tmp_path)
     (tmp_path / name / "constant").mkdir(parents=True)
-    assert is_decomposed(tmp_path)
+    assert processor_folders(tmp_path) == [tmp_path / name]
     with pytest.raises(InputError, match="only the processor folders hold a mesh; run reconstructParMesh"):
         require_case(tmp_path, "")
 

@@ -7,14 +7,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from foam_writer import Format, header, write_case
 from mesh_shapes import boundary, corners, grid
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.read.checks import (
-    noted_counts,
-    require_labels,
     require_numbers,
     require_patch_shapes,
     require_volumes,
@@ -49,73 +46,6 @@ def test_cells_have_a_volume(volume):
         require_volumes(mesh, SOURCE)
     mesh.volumes[:] = 1e-300
     require_volumes(mesh, SOURCE)
-
-
-def test_counts_are_noted_beside_the_owners(tmp_path):
-    mesh = write_case(tmp_path)
-    folder = tmp_path / "constant/polyMesh"
-    noted = noted_counts(folder)
-    assert (noted["nPoints"], noted["nCells"]) == (mesh.n_points, 8)
-    assert noted["nFaces"] == len(mesh.owner)
-    for name in ("neighbour", "owner", "faces"):
-        (folder / name).rename(folder / "away")
-        with pytest.raises(InputError, match=f"{name}: no such file"):
-            noted_counts(folder)
-        (folder / "away").rename(folder / name)
-
-
-@pytest.mark.parametrize("name", ["owner", "neighbour"])
-@pytest.mark.parametrize(("label", "wrong"), [(-1, True), (7, False), (8, True)])
-def test_owners_and_neighbours_are_cells(name, label, wrong, tmp_path):
-    """By the number that is noted; without a note there are fewer than faces."""
-    mesh = write_case(tmp_path)
-    folder = tmp_path / "constant/polyMesh"
-    path = folder / name
-    labels = (mesh.owner if name == "owner" else mesh.neighbour).tolist()
-    labels[3] = label
-    path.write_text(header("labelList", name) + f"{len(labels)}({' '.join(map(str, labels))})\n")
-    if wrong:
-        with pytest.raises(
-            InputError, match=f"{name}: face 3 belongs to cell {label}, but there are 8 cells"
-        ):
-            require_labels(folder, {"nCells": 8})
-    else:
-        require_labels(folder, {"nCells": 8})
-    limit = len(mesh.owner)
-    if label >= 0:
-        require_labels(folder, {})
-    labels[3] = limit
-    path.write_text(header("labelList", name) + f"{len(labels)}({' '.join(map(str, labels))})\n")
-    with pytest.raises(InputError, match=f"face 3 belongs to cell {limit}, but there are {limit} cells"):
-        require_labels(folder, {})
-
-
-def test_faces_name_no_number_beyond_all_points(tmp_path):
-    mesh = write_case(tmp_path)
-    folder = tmp_path / "constant/polyMesh"
-    noted = noted_counts(folder)
-    require_labels(folder, noted)
-    text = (folder / "faces").read_text()
-    digits = len(str(10 * max(len(mesh.owner), mesh.n_points)))
-    for number, wrong in (("9" * digits, False), ("9" * (digits + 1), True)):
-        (folder / "faces").write_text(text.replace("\n4(", f"\n4({number} ", 1))
-        if wrong:
-            with pytest.raises(
-                InputError, match=rf"line \d+: {number} is neither a point nor a count of points"
-            ):
-                require_labels(folder, noted)
-        else:
-            require_labels(folder, noted)
-    # Its line is counted from the first, be that empty.
-    for empty in (0, 1, 3):
-        changed = empty * "\n" + text.replace("\n4(", f"\n4({number} ", 1)
-        (folder / "faces").write_text(changed)
-        line = next(n for n, words in enumerate(changed.split("\n"), 1) if number in words)
-        with pytest.raises(InputError, match=f"faces: line {line}: {number} is neither"):
-            require_labels(folder, noted)
-    binary = tmp_path / "binary"
-    write_case(binary, form=Format(binary=True))
-    require_labels(binary / "constant/polyMesh", {"nCells": 8})
 
 
 def plate(layers, bend=0.0, lean=0.0, types=("empty", "empty", "wall"), scale=1.0, away=0.0):

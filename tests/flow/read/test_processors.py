@@ -12,15 +12,17 @@ from foam_writer import decompose, header, write_case
 from foamprb.errors import InputError
 from foamprb.flow.mesh.boundary import Transform
 from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.case import mesh_files
 from foamprb.flow.read.field import VELOCITY_FIELD, PatchField, read_field
-from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.processors import (
+    Processors,
     checked,
-    common_times,
-    processors,
-    read_part,
+    found_addresses,
+    join_meshes,
+    join_zones,
+    read_addresses,
+    read_pieces,
     whole_patches,
-    write_zones,
 )
 
 
@@ -40,28 +42,24 @@ def case(written, tmp_path):
 
 def test_folders_in_the_order_of_their_numbers(tmp_path):
     with pytest.raises(InputError, match="no processor folders"):
-        processors(tmp_path)
+        Processors(tmp_path)
     for number in range(12):
         (tmp_path / f"processor{number}").mkdir()
     (tmp_path / "processorx").mkdir()
-    assert [path.name for path in processors(tmp_path)] == [f"processor{k}" for k in range(12)]
+    assert [path.name for path in Processors(tmp_path).folders] == [f"processor{k}" for k in range(12)]
     (tmp_path / "processor3").rmdir()
     with pytest.raises(InputError, match="processor3: no such folder, but there is processor11"):
-        processors(tmp_path)
-    for path in tmp_path.glob("processor*"):
-        path.rmdir()
-    (tmp_path / "processors4").mkdir()
-    with pytest.raises(InputError, match="processors4: the collated format is not read"):
-        processors(tmp_path)
+        Processors(tmp_path)
 
 
-def test_times_are_those_of_all_folders(written):
-    folders = processors(written)
-    assert common_times(folders, "") == ("0", "0.5", "1e1")
+def pieces_of(case):
+    folders = Processors(case)
+    return read_pieces(folders, mesh_files(folders.folders[0], None, ""), case)
 
 
-def part_of(case, number=1):
-    return read_part(case, case / f"processor{number}", "")
+def parts_of(case):
+    folder = case / "processor0/constant/polyMesh"
+    return read_addresses(Processors(case), folder, pieces_of(case))
 
 
 def change(path, pattern, text):
@@ -76,14 +74,14 @@ def change(path, pattern, text):
     [
         ("faceProcAddressing", r"\n(-?\d+)\n\)", r"\n)", "a list of"),
         ("faceProcAddressing", r"\(\n-?\d+", "(\n0", "there is no face 0"),
-        ("neighbour", r"\(\n\d+", "(\n-1", "neighbour: an index outside 0 to"),
+        ("neighbour", r"\(\n\d+", "(\n-2", "neighbour: an index outside 0 to"),
         ("faces", r"\n(\d)\(\d+", r"\n\1(777", "faces: an index outside 0 to"),
     ],
 )
 def test_a_part_that_does_not_fit_is_named(name, pattern, text, message, case):
     change(case / "processor1/constant/polyMesh" / name, pattern, text)
     with pytest.raises(InputError, match=f"{name}: .*{message}|{name}: {message}|{message}"):
-        part_of(case)
+        parts_of(case)
 
 
 @pytest.mark.parametrize("name", ["pointProcAddressing", "faceProcAddressing", "boundaryProcAddressing"])
@@ -91,17 +89,17 @@ def test_lists_of_another_length_are_refused(name, case):
     path = case / "processor1/constant/polyMesh" / name
     path.write_text(header("labelList", name) + "2 ( 1 2 )\n")
     with pytest.raises(InputError, match=rf"{name}: 2 entries, but the other files say \d+\."):
-        part_of(case)
+        parts_of(case)
 
 
 def test_each_part_says_where_its_pieces_are(written):
-    parts = [part_of(written, k) for k in range(3)]
-    cells = np.concatenate([part.cell_at for part in parts])
+    parts = parts_of(written)
+    cells = np.concatenate([part.cells for part in parts])
     assert sorted(cells.tolist()) == list(range(len(cells)))
     signed = {}
     for part in parts:
-        assert len(part.turned) == len(part.face_at) == len(part.owner)
-        for face, turned in zip(part.face_at.tolist(), part.turned.tolist(), strict=True):
+        assert len(part.turned) == len(part.faces)
+        for face, turned in zip(part.faces.tolist(), part.turned.tolist(), strict=True):
             signed.setdefault(face, []).append(turned)
     assert min(signed) == 0
     # A face between two parts turns on one side.
@@ -115,13 +113,13 @@ def patch(name, faces, start=0, **entries):
 
 def parts_with(part, *lists):
     return [
-        part._replace(patches=tuple(p for p, _ in own), patch_at=np.array([at for _, at in own]))
+        part._replace(patches=tuple(p for p, _ in own), of_patches=np.array([at for _, at in own]))
         for own in lists
     ]
 
 
 def test_patches_of_the_whole_are_those_of_the_parts_together(written):
-    part = part_of(written)
+    part = parts_of(written)[1]
     parts = parts_with(
         part,
         [(patch("a", 3), 0), (patch("b", 0), 1), (patch("p", 9, type="processor"), -1)],
@@ -136,37 +134,33 @@ def test_patches_of_the_whole_are_those_of_the_parts_together(written):
 
 
 def test_zones_of_parts_are_one_zone_in_the_order_of_the_cells(case, tmp_path):
-    parts = [part_of(case, k) for k in range(3)]
-    path = tmp_path / "cellZones"
-    write_zones(path, parts)
-    assert not path.exists()
+    parts, folder = parts_of(case), case / "processor0/constant/polyMesh"
+    assert join_zones(Processors(case), folder, parts) == {}
     for k, zones in enumerate(({"a": [1, 0], "b": []}, {}, {"a": [0], "c": [1]})):
         text = "".join(f"{n} {{ type cellZone; cellLabels List<label> {len(c)}({' '.join(map(str, c))}); }}\n"
                        for n, c in zones.items())  # fmt: skip
-        if zones:
-            text = f"{len(zones)}\n(\n{text})\n"
-            (parts[k].mesh / "cellZones").write_text(header("regIOobject", "cellZones") + text)
-    write_zones(path, parts)
-    found = read_cell_zones(path)
-    expected = np.sort([parts[0].cell_at[1], parts[0].cell_at[0], parts[2].cell_at[0]])
+        text = header("regIOobject", "cellZones") + f"{len(zones)}\n(\n{text})\n"
+        (case / f"processor{k}/constant/polyMesh/cellZones").write_text(text)
+    found = join_zones(Processors(case), folder, parts)
+    expected = np.sort([parts[0].cells[1], parts[0].cells[0], parts[2].cells[0]])
     assert {name: cells.tolist() for name, cells in found.items()} == {
-        "a": expected.tolist(), "b": [], "c": [parts[2].cell_at[1]],
+        "a": expected.tolist(), "b": [], "c": [parts[2].cells[1]],
     }  # fmt: skip
-    change(parts[0].mesh / "cellZones", r"2\(1 0\)", "2(1 99)")
+    change(folder / "cellZones", r"2\(1 0\)", "2(1 99)")
     with pytest.raises(InputError, match=r"processor0.*cellZones: zone a names a cell that is not there"):
-        write_zones(path, parts)
+        join_zones(Processors(case), folder, parts)
 
 
 def test_the_field_of_a_part_must_fit_it(written):
-    part = part_of(written)
-    field = read_field(part.mesh.parents[1] / "0/U", VELOCITY_FIELD, written)
+    part = parts_of(written)[1]
+    field = read_field(written / "processor1/0/U", VELOCITY_FIELD, written)
     assert checked(field, part) is field
-    n = len(part.cell_at)
+    n = len(part.cells)
     with pytest.raises(InputError, match=f"U: {n - 1} cells, but the mesh there has {n}"):
         checked(field._replace(cells=field.cells[1:]), part)
     uniform = field._replace(cells=field.cells[:1])
     assert checked(uniform, part) is uniform
-    first = next(p for p, at in zip(part.patches, part.patch_at, strict=True) if at >= 0 and p.faces > 2)
+    first = next(p for p, at in zip(part.patches, part.of_patches, strict=True) if at >= 0 and p.faces > 2)
     entry = PatchField("fixedValue", False, {"value": np.zeros((2, 3))}, {"type": "fixedValue"})
     with pytest.raises(
         InputError, match=f"2 values of value on patch {first.name}, which has {first.faces} f"
@@ -175,3 +169,27 @@ def test_the_field_of_a_part_must_fit_it(written):
     lacking = {name: entry for name, entry in field.patches.items() if name != first.name}
     with pytest.raises(InputError, match=f"no boundaryField for the patch {first.name}"):
         checked(field._replace(patches=lacking), part)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "text", "message"),
+    [
+        (r"neighbProcNo 1", "neighbProcNo 7", "patch procBoundary0to1 has .* of processor 7 to it has 0"),
+        (r"(?s)procBoundary0to1 \{ type processor", "procBoundary0to1 { type patch", "procBoundary1to0 has"),
+    ],
+)
+def test_processor_patches_without_counterpart_are_named(pattern, text, message, case):
+    change(case / "processor0/constant/polyMesh/boundary", pattern, text)
+    with pytest.raises(InputError, match=message):
+        found_addresses(pieces_of(case))
+
+
+def test_points_of_processor_patches_must_coincide(case):
+    """Moved by a quarter, the first point of a part lies apart from the same point of another."""
+    pieces = pieces_of(case)
+    parts = found_addresses(pieces)
+    patches, ranges = whole_patches(case, parts)
+    assert join_meshes(case, pieces, parts, patches, ranges).faces.owner.max() == 11
+    pieces[1] = pieces[1]._replace(points=pieces[1].points + 0.25)
+    with pytest.raises(InputError, match="do not make a whole mesh"):
+        join_meshes(case, pieces, parts, patches, ranges)

@@ -1,0 +1,96 @@
+"""OpenFOAM's meshes: points, faces, owner, neighbour and boundary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from foamprb.errors import InputError
+from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.geometry import faces_of
+from foamprb.flow.mesh.lists import starts
+from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.case import shown
+from foamprb.flow.read.checks import require_numbers
+from foamprb.flow.read.foamfile import FoamFile, read_vectors
+
+_LEAST_FACES = 4
+
+
+def read_poly(files: Sequence[Path], patches: Sequence[PatchInfo]) -> PolyMesh:
+    """Read a mesh.
+
+    Parameters
+    ----------
+    files
+        ``points``, ``faces``, ``owner``, ``neighbour`` and ``boundary``, plain or compressed.
+    patches
+        The patches of the last.
+
+    Raises
+    ------
+    InputError
+        A file is missing or broken, or they do not fit each other.
+    """
+    paths = [shown(file) for file in files]
+    points = read_vectors(paths[0])
+    start, lists = FoamFile(paths[1]).faces()
+    owner, neighbour = (FoamFile(path).indices() for path in paths[2:4])
+    if len(neighbour) == len(owner):
+        # Old files have a neighbour -1 for each boundary face.
+        neighbour = neighbour[: len(owner) - np.argmax(neighbour[::-1] >= 0) if np.any(neighbour >= 0) else 0]
+    return checked_poly(paths, points, start, lists, owner, neighbour, patches)
+
+
+def checked_poly(
+    paths: Sequence[Path],
+    points: Floats,
+    start: Ints,
+    lists: Ints,
+    owner: Ints,
+    neighbour: Ints,
+    patches: Sequence[PatchInfo],
+) -> PolyMesh:
+    """Return the mesh of points and faces; InputError if they do not fit each other."""
+    require_numbers(points, paths[0], "point")
+    n_faces, n_internal = len(start) - 1, len(neighbour)
+    if n_faces == 0:
+        raise InputError(f"{paths[1]}: the mesh has no faces.")
+    if len(owner) != n_faces or n_internal > n_faces:
+        raise InputError(f"{paths[2]}: {len(owner)} owners and {n_internal} neighbours of {n_faces} faces.")
+    sizes = np.diff(start)
+    if sizes.min() < 3:
+        raise InputError(
+            f"{paths[1]}: face {np.argmin(sizes)} has {sizes.min()} points. Allowed: at least 3."
+        )
+    if lists.min() < 0 or lists.max() >= len(points):
+        at = np.flatnonzero((lists < 0) | (lists >= len(points)))[0]
+        face = np.searchsorted(start, at, side="right") - 1
+        raise InputError(
+            f"{paths[1]}: face {face} has point {lists[at]}, but there are {len(points)} points."
+        )
+    # Each cell has several faces.
+    n_cells = min(int(owner.max()) + 1, n_faces)
+    for path, labels in zip(paths[2:4], (owner, neighbour), strict=True):
+        wrong = np.flatnonzero((labels < 0) | (labels >= n_cells))
+        if len(wrong):
+            raise InputError(
+                f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {n_cells} cells."
+            )
+    faces = faces_of(start, lists, owner, neighbour, n_cells)
+    few = np.flatnonzero(np.diff(faces.first) < _LEAST_FACES)
+    if len(few):
+        count = np.diff(faces.first)[few[0]]
+        raise InputError(f"{paths[2]}: cell {few[0]} has {count} faces. Allowed: at least {_LEAST_FACES}.")
+    patch_start = starts(np.array([patch.faces for patch in patches], dtype=np.intp))
+    first = patches[0].start if patches else n_internal
+    if first != n_internal or patch_start[-1] != n_faces - n_internal:
+        raise InputError(
+            f"{paths[4]}: the patches have the faces from {first} to {first + patch_start[-1]}, but the "
+            f"faces of one cell are those from {n_internal} to {n_faces}."
+        )
+    surfaces = [PatchSurface(p.name, p.type, None, p.neighbour, p.transform) for p in patches]
+    return PolyMesh(points, faces, surfaces, patch_start)
