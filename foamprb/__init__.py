@@ -45,6 +45,7 @@ Particles in a flow:
     Stick               a patch that holds the particles that touch it
     Rebound             one from which they bounce off
     Escape              one through which they leave
+    patch_interactions  the interaction of each patch of a flow
     context             prepare particles for measuring
     measure             shape, orientation, rotation and load of particles
 

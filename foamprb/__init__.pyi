@@ -64,6 +64,7 @@ from .run.job import Job as Job
 from .run.job import prepare as prepare
 from .run.loop import execute as execute
 from .settings.fluid import read_medium as read_medium
+from .settings.patches import patch_interactions as patch_interactions
 from .view.results import open_run as open_run
 
 __all__ = [
@@ -99,6 +100,7 @@ __all__ = [
     "log_ratio",
     "measure",
     "open_run",
+    "patch_interactions",
     "prepare",
     "read_case",
     "read_medium",

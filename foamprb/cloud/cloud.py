@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
@@ -17,7 +17,7 @@ from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
-from foamprb.cloud.patches import REBOUND, STICK, Interaction
+from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.compile.link import link, read_by
@@ -72,10 +72,13 @@ class Cloud:
         Distance, m, to which walls are listed: it grows with the longest particle so far.
     limits
         Limits of each particle.
+    decoupled
+        Names of coupled patches with other interactions than ``Cyclic``.
 
     Raises
     ------
     InputError
+        If a coupled patch has another interaction than ``Cyclic``.
         If a particle without a host lies outside the flow, one is larger than the limits allow in it, or the
         models do not go together.
     ValueError
@@ -94,10 +97,18 @@ class Cloud:
     start: float = 0.0
     reach: float = 0.0
     limits: Limits = field(default_factory=Limits)
+    decoupled: Collection[str] = ()
 
     def __post_init__(self) -> None:
         if len(self.interactions) != len(self.flow.patches):
             raise ValueError(f"{len(self.interactions)} interactions for {len(self.flow.patches)} patches")
+        for patch, interaction in zip(self.flow.patches, self.interactions, strict=True):
+            if patch.neighbour and interaction.code != CYCLIC and patch.name not in self.decoupled:
+                raise InputError(
+                    f"the patch {patch.name} is coupled with {patch.neighbour}, where particles continue, "
+                    f"and has the interaction {type(interaction).__name__}: use foamprb.patch_interactions, or "
+                    "name it in decoupled"
+                )
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
         p.number[:] = np.arange(p.size)

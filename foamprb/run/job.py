@@ -24,6 +24,7 @@ from foamprb.cloud.injection.models import START_OF_FLOW, given_shear_modulus, r
 from foamprb.cloud.injection.shapes import Sphere
 from foamprb.cloud.integrators.registry import automatic
 from foamprb.cloud.measures import shear_rate_at
+from foamprb.cloud.patches import CYCLIC
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
@@ -265,6 +266,7 @@ def assemble(settings: Settings, flow: Flow, threads: int | None = None, tables:
             threads or available_threads(),
             start=start,
             limits=solution.limits,
+            decoupled=[patch.name for patch in flow.patches if by_name[patch.name].code != CYCLIC],
         )
     except InputError as error:
         raise InputError(f"{settings.file}: {error}.") from error

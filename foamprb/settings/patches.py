@@ -12,13 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
-from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound
+from foamprb.cloud.patches import INTERACTIONS, Cyclic, Escape, Interaction, Mirror, Rebound, Stick
 from foamprb.dictionary.constraints import Bounds, Choice, Meaning
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import read_entries, read_entry, read_model
 from foamprb.dictionary.tree import Dictionary, DictionaryList, unquoted
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import WALLS, Patch
+from foamprb.flow.base import WALLS, Flow, Patch
 
 __all__ = [
     "INTERACTION_MODELS",
@@ -28,6 +28,7 @@ __all__ = [
     "Touching",
     "match_patches",
     "needs_entry",
+    "patch_interactions",
     "read_patch_interaction",
 ]
 
@@ -186,8 +187,8 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     """Return the interaction of each patch, by the rules of OpenFOAM's patch interaction models.
 
     The first rule counts whose pattern matches the patch's name or its group: ``wall``, or a constraint type.
-    Without a rule, a particle continues at the neighbour of a coupled patch or a wedge, and symmetry planes
-    and empty patches mirror it.
+    Without a rule, symmetry planes and empty patches mirror a particle. It continues at the neighbour of a
+    coupled patch or a wedge, unless a rule equals the patch's name.
 
     Parameters
     ----------
@@ -221,6 +222,29 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     return interactions
 
 
+def patch_interactions(
+    flow: Flow,
+    wall: Interaction = Stick(),
+    other: Interaction = Escape(),  # noqa: B008
+) -> list[Interaction]:
+    """Return the interaction of each patch of a flow, for :class:`foamprb.cloud.cloud.Cloud`.
+
+    Parameters
+    ----------
+    flow
+        A flow. Particles continue at the neighbours of its coupled patches, and symmetry planes and empty
+        patches mirror them.
+    wall, other
+        Interactions of walls, and of the patches of other types, as inlets and outlets.
+
+    Raises
+    ------
+    InputError
+        If particles cannot pass through a coupled patch.
+    """
+    return match_patches([KindRule("wall", wall), KindRule("open", other)], flow.patches, "interactions")
+
+
 def needs_entry(patch: Patch) -> bool:
     """Return whether a patch needs an entry in the settings, because its type implies no interaction."""
     if patch.type in _MIRRORS:
@@ -230,9 +254,10 @@ def needs_entry(patch: Patch) -> bool:
 
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
-        if _applies(rule, patch):
+        own = rule == PatchRule(patch.name, rule.interaction)
+        if own or (_applies(rule, patch) and not _continues(patch)):
             return rule.interaction
-    if patch.neighbour and patch.type in ("cyclic", "cyclicAMI", "wedge"):
+    if _continues(patch):
         return Cyclic()
     if patch.type in _MIRRORS:
         return Mirror()
@@ -245,6 +270,11 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
             f"Give it an entry of its own ({', '.join(INTERACTIONS)})."
         )
     raise InputError(f"{where} has no entry for the patch '{patch.name}'.")
+
+
+def _continues(patch: Patch) -> bool:
+    """Return whether particles continue at the neighbour of a patch."""
+    return bool(patch.neighbour) and patch.type in ("cyclic", "cyclicAMI", "wedge")
 
 
 def _applies(rule: Rule, patch: Patch) -> bool:

@@ -6,7 +6,19 @@ import numpy as np
 import pytest
 from mesh_shapes import block, box_patches, cyclic_row, interfaces, period, rings, wedge, wedge_patches
 
-from foamprb import Cloud, Medium, Models, Rebound, Status, analytic, spheres
+from foamprb import (
+    Cloud,
+    Escape,
+    InputError,
+    Medium,
+    Models,
+    Rebound,
+    Status,
+    Stick,
+    analytic,
+    patch_interactions,
+    spheres,
+)  # fmt: skip
 from foamprb.cloud.patches import Cyclic, Mirror
 from foamprb.cloud.state import Particles
 from foamprb.compile.link import link
@@ -107,6 +119,17 @@ def test_rings_that_slide_on_each_other_are_crossed_with_the_error_of_their_chor
         error = np.linalg.norm(cloud.particles.x - expected, axis=1)
         assert error.max() < 1.0 - np.cos(np.pi / 24)
         assert np.median(error) > 0.0
+
+
+def test_an_interaction_of_a_coupled_patch_is_refused():
+    """Stick at walls and Escape elsewhere lost the bodies at cyclic patches."""
+    flow = linear(cyclic_row(0.0, 1), np.zeros((3, 3)))
+    p = moving([[0.5, 0.5, 0.5]], [0.0, 0.0, 0.0])
+    walls = [Stick() if patch.type == "wall" else Escape() for patch in flow.patches]
+    with pytest.raises(InputError, match=r"the patch left is coupled with right.*has the interaction Escape"):
+        Cloud(p, flow, AIR, walls, 1e-3)
+    assert Cloud(p, flow, AIR, walls, 1e-3, decoupled=("left", "right")).interactions == walls
+    assert [i.code for i in patch_interactions(flow)] == [4, 4, *(i.code for i in walls[2:])]
 
 
 def test_patches_apart_are_not_coupled():

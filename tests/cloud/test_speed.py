@@ -70,7 +70,7 @@ def cloud_in(flow, integrator, n=3200):
     r, angle = 1.9e-3 * np.sqrt(random.random(n)), 2.0 * np.pi * random.random(n)
     x = np.stack([0.03 * random.random(n) + 1e-3, r * np.cos(angle), r * np.sin(angle)], axis=1)
     p = spheres(x, d=5e-6, rho=2560.0, mu=0.05)
-    walls = [foamprb.Stick() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
+    walls = foamprb.patch_interactions(flow)
     dt = {"paper": 2e-5, "stokes": 1e-4}[integrator]
     return Cloud(p, flow, AIR, walls, dt, Models(integrator=integrator), threads=1)
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from paths import PIPE
 
-from foamprb import Cloud, Escape, Medium, Models, Status, Stick, read_case, spheres
+from foamprb import Cloud, Medium, Models, Status, patch_interactions, read_case, spheres
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
@@ -81,7 +81,7 @@ def test_on_the_fine_mesh_the_quasi_rigid_particle_lands_within_half_a_percent(t
     start = [[0.0, -1.65e-3, 0.0]]
     mu = 1.208 * 1.491e-5
     particles = spheres(start, d=D, rho=2560.0, mu=mu * 923.8 / 1e-4)
-    walls = [Stick() if patch.type == "wall" else Escape() for patch in flow.patches]
+    walls = patch_interactions(flow)
     air = Medium(mu, 1.208, (0.0, -9.81, 0.0))
     cloud = Cloud(particles, flow, air, walls, 2e-5, Models(touching="centre", integrator="paper"))
     cloud.advance(15_000)

@@ -53,6 +53,8 @@ def test_patches_of_a_constraint_type() -> None:
     for kind in ("cyclic", "cyclicAMI", "wedge"):
         pair = [patch("left", kind, "right"), patch("right", kind, "left")]
         assert match_patches([], pair) == [Cyclic()] * 2
+        assert match_patches([PatchRule(".*", Stick(), regex=True)], pair) == [Cyclic()] * 2
+        assert match_patches([PatchRule("left", Escape())], pair) == [Escape(), Cyclic()]
     with pytest.raises(InputError, match="the cyclic patch 'left' has no neighbourPatch"):
         match_patches([], [patch("left", "cyclic")])
     for kind in ("cyclicAMI", "cyclicACMI"):
