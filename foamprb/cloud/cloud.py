@@ -106,8 +106,8 @@ class Cloud:
             if patch.neighbour and interaction.code != CYCLIC and patch.name not in self.decoupled:
                 raise InputError(
                     f"the patch {patch.name} is coupled with {patch.neighbour}, where particles continue, "
-                    f"and has the interaction {type(interaction).__name__}: use foamprb.patch_interactions, or "
-                    "name it in decoupled"
+                    f"and has the interaction {type(interaction).__name__}: use foamprb.patch_interactions, "
+                    "or name it in decoupled"
                 )
         p = self.particles
         tense = bool((p.gamma != 0.0).any())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -37,11 +38,14 @@ _HEADER = re.compile(rb"\s*+(?:FoamFile\s*+\{[^}]*+\})?+\s*+")
 _OPENING = re.compile(rb"(\d{1,18}+)?\s*+\(")
 _PARENTHESES = bytes.maketrans(b"()", b"  ")
 _SEPARATOR = rb"(?:[ \t]*+[,;][ \t]*+|[ \t]++)"
+_CELL = rb"(?:\"[^\"\n]*+\"|[^,;\n]*+)"
 _SEPARATORS = bytes.maketrans(b",;", b"  ")
 _FINITE = Bounds(-np.inf, np.inf, True, True, "a finite number")
 _COORDINATES = ("x", "y", "z")
 # Names in ParaView's spreadsheets.
 _ALIASES = {f"Points{mark}{i}": name for mark in ":_" for i, name in enumerate(_COORDINATES)}
+_ALIASES |= {name.upper(): name for name in _COORDINATES}
+log = logging.getLogger("foamprb")
 
 
 def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> Positions:
@@ -49,7 +53,8 @@ def read_positions(path: Path, columns: Mapping[str, Bounds] | None = None) -> P
 
     * OpenFOAM's list ``( (x y z) (x y z) … )``, with or without a header and the number of positions;
     * a table with a line for each position, numbers separated by commas, semicolons or white space. Its first
-      line may name the columns: ``x,y,z,d,rho``. Comments begin with ``#`` or ``//``.
+      line may name the columns: ``x,y,z,d,rho``. Other columns are ignored, with a note. Comments begin with
+      ``#`` or ``//``.
 
     Parameters
     ----------
@@ -114,7 +119,9 @@ def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
     if not re.fullmatch(rb"%b(?:%b%b)*+" % (_NUMBER, _SEPARATOR, _NUMBER), line):
         names = _names(path, text, first, line, columns)
         body = first + len(line)
-    row = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join([_NUMBER] * len(names))
+    known = (*_COORDINATES, *columns)
+    cells = [_NUMBER if name in known else _CELL if re.search(rb"[,;]", line) else rb"\S++" for name in names]
+    row = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join(cells)
     rows = re.compile(rb"\s*+(?:%b(?:\n\s*+|\Z))*+" % row)
     match = rows.match(text, body)
     end = match.end() if match else body
@@ -122,7 +129,13 @@ def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
         expected = f"{len(names)} numbers, {' '.join(names)}"
         hint = "" if names is not _COORDINATES else ", or a first line with the names of the columns"
         raise _mistake(path, text, end, f"Expected: {expected}{hint}")
-    numbers = np.array(text[body:end].translate(_SEPARATORS).split(), dtype=np.float64)
+    if ignored := [name for name in names if name not in known]:
+        log.info("%s: ignored columns: %s.", path, ", ".join(ignored))
+        names = [name for name in names if name in known]
+        used = rb"[ \t]*+%b[ \t\r]*+" % _SEPARATOR.join(b"(%b)" % c if c is _NUMBER else c for c in cells)
+        numbers = np.array(re.findall(used, text[body:end]), dtype=np.float64)
+    else:
+        numbers = np.array(text[body:end].translate(_SEPARATORS).split(), dtype=np.float64)
     values = dict(zip(names, numbers.reshape(-1, len(names)).T, strict=True))
     for name, column in values.items():
         bounds = columns.get(name, _FINITE)
@@ -141,13 +154,15 @@ def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, 
     if not set(names) & set(known):
         raise _mistake(path, text, at, "Expected: a list ( (x y z) (x y z) … ), or lines x y z")
     for name in names:
-        if name not in known:
+        # Not an ignored column, but a mistake.
+        if name not in known and name.lower() in {word.lower() for word in known}:
             raise _mistake(path, text, at, f"There is no column {name}. {suggestion(name, known)[:-1]}")
-        if names.count(name) > 1:
+        if name in known and names.count(name) > 1:
             raise _mistake(path, text, at, f"The column {name} appears twice")
     for name in _COORDINATES:
         if name not in names:
-            raise _mistake(path, text, at, f"The column {name} is missing")
+            found = suggestion(name, names)[:-1]
+            raise _mistake(path, text, at, f"The column {name} is missing. {found}")
     return names
 
 

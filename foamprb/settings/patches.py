@@ -224,7 +224,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
 
 def patch_interactions(
     flow: Flow,
-    wall: Interaction = Stick(),
+    wall: Interaction = Stick(),  # noqa: B008
     other: Interaction = Escape(),  # noqa: B008
 ) -> list[Interaction]:
     """Return the interaction of each patch of a flow, for :class:`foamprb.cloud.cloud.Cloud`.

@@ -156,7 +156,6 @@ def test_what_excel_and_numpy_write_is_read(tmp_path: Path) -> None:
             "x,y,z,D\n0,0,1,1",
             "There is no column D. Did you mean 'd'? Allowed: Ca, d, rho, viscosity, x, y, z.",
         ),
-        ("x,y,z,size\n0,0,1,1", "There is no column size. Allowed: Ca, d,"),
         ("x y z d\n0 0 0 1\n\n0 0 0 0", "line 4: found '0 0 0 0'. Expected: for d, a number > 0."),
         ("x y z d\n0 0 0", "line 2: found '0 0 0'. Expected: 4 numbers, x y z d."),
         ("x y z viscosity\n0 0 0 -1", "Expected: for viscosity, a number >= 0."),
@@ -175,3 +174,22 @@ def test_a_broken_line_late_in_a_long_table_is_found_at_once(tmp_path: Path) -> 
     (tmp_path / "positions").write_text("0 1 2\n" * 100_000 + "0 1\n")
     with pytest.raises(InputError, match="line 100001: found '0 1'"):
         read_positions(tmp_path / "positions")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Point ID,Points_0,Points_1,Points_2,Points_Magnitude\n0,1,2,3,3.74\n1,4,5,6,8.77\n",
+        '"Name","X","Y","Z","U:0"\n"a, b",1,2,3,nan\n"",4,5,6,\n',
+        "id X Y Z\na 1 2 3\nb 4 5 6\n",
+    ],
+    ids=["ParaView", "words", "white space"],
+)
+def test_further_columns_are_ignored_with_a_note(tmp_path: Path, caplog, text: str) -> None:
+    path = tmp_path / "seeds.csv"
+    path.write_text(text)
+    with caplog.at_level("INFO", "foamprb"):
+        found = read_positions(path)
+    np.testing.assert_array_equal(found.x, [[1, 2, 3], [4, 5, 6]])
+    assert found.columns == {}
+    assert f"{path}: ignored columns: " in caplog.text
