@@ -180,6 +180,7 @@ INTERACTION_MODELS: dict[str, Callable[[Dictionary], tuple[Rule, ...]]] = {
 
 
 _MIRRORS = frozenset({"empty", "symmetry", "symmetryPlane", "wedge"})
+_FACELESS = "nonConformal"
 _COUPLED = ("cyclic", "processor")
 
 
@@ -247,9 +248,9 @@ def patch_interactions(
 
 def needs_entry(patch: Patch) -> bool:
     """Return whether a patch needs an entry in the settings, because its type implies no interaction."""
-    if patch.type in _MIRRORS:
+    if patch.type in _MIRRORS or patch.type.startswith(_FACELESS):
         return False
-    return not (patch.neighbour and patch.type == "cyclic")
+    return not (patch.neighbour and patch.type in ("cyclic", "cyclicAMI"))
 
 
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
@@ -259,7 +260,7 @@ def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: s
             return rule.interaction
     if _continues(patch):
         return Cyclic()
-    if patch.type in _MIRRORS:
+    if patch.type in _MIRRORS or patch.type.startswith(_FACELESS):
         return Mirror()
     if patch.type == "cyclic":
         raise InputError(f"{where}: the cyclic patch '{patch.name}' has no neighbourPatch.")

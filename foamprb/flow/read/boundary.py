@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from math import radians
@@ -15,7 +16,7 @@ from foamprb.dictionary.grammar import read_dictionary_list
 from foamprb.dictionary.schema import read_entries
 from foamprb.dictionary.tree import Stream, unquoted
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.mesh.boundary import Transform
+from foamprb.flow.mesh.boundary import PatchSurface, Transform
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.foamfile import FoamFile
 
@@ -98,7 +99,9 @@ class _BoundaryEntry:
     startFace: Annotated[int, NonNegative]
     neighbourPatch: str = ""
     transform: str = ""
+    transformType: str = ""
     separationVector: Vector3 | None = None
+    separation: Vector3 | None = None
     rotationAxis: Vector3 = (0.0, 0.0, 0.0)
     rotationCentre: Vector3 = (0.0, 0.0, 0.0)
     rotationAngle: float | None = None
@@ -146,10 +149,40 @@ def _patches(path: Path, case: Path, file: FoamFile | None) -> tuple[PatchInfo, 
         entries = {key: entry.text for key, entry in dictionary.entries.items() if isinstance(entry, Stream)}
         # OpenFOAM's angle is in degrees.
         angle = None if read.rotationAngle is None else radians(read.rotationAngle)
-        transform = Transform(
-            read.transform, read.separationVector, read.rotationAxis, read.rotationCentre, angle
-        )
+        # OpenFOAM.com and OpenFOAM.org have different words.
+        kind, shift = read.transform or read.transformType, read.separationVector or read.separation
+        transform = Transform(kind, shift, read.rotationAxis, read.rotationCentre, angle)
         patches.append(
             PatchInfo(name, read.type, read.nFaces, read.startFace, read.neighbourPatch, transform, entries)
         )
-    return tuple(patches)
+    return tuple(patch._replace(neighbour=_neighbour(patch, patches)) for patch in patches)
+
+
+def _neighbour(patch: PatchInfo, patches: Sequence[PatchInfo]) -> str:
+    """Return the neighbour of a coupled patch; ``coupleGroup`` names the group of both."""
+    group = unquoted(patch.entries.get("coupleGroup", ""))
+    if patch.neighbour or not group:
+        return patch.neighbour
+    others = [
+        p.name for p in patches if p != patch and (group in p.groups or p.entries.get("coupleGroup") == group)
+    ]
+    return others[0] if len(others) == 1 else ""
+
+
+def patches_of_mesh(patches: Sequence[PatchInfo]) -> list[PatchSurface]:
+    """Return the patches as the mesh couples them.
+
+    A nonConformalCyclic patch has no faces: it couples those of its ``originalPatch``.
+    """
+    found = {p.name: PatchSurface(p.name, p.type, None, p.neighbour, p.transform) for p in patches}
+    originals = {
+        p.name: p.entries.get("originalPatch", "") for p in patches if p.type == "nonConformalCyclic"
+    }
+    names = list(originals.values())
+    for patch in patches:
+        name = originals.get(patch.name, "")
+        if name in found:
+            # Of an original with several neighbours, particles cannot know which one they enter.
+            other = originals.get(patch.neighbour, "") if names.count(name) == 1 else ""
+            found[name] = PatchSurface(name, "cyclicAMI", None, other, patch.transform)
+    return list(found.values())

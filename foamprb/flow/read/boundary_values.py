@@ -72,6 +72,8 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
 
 def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) -> None:
     """Raise InputError if a patch has no entry, or one that OpenFOAM does not allow for its type."""
+    if patch.faces == 0:
+        return
     if entry is None:
         if patch.type in CONSTRAINTS:
             return

@@ -99,11 +99,16 @@ def _require_flat(mesh: Mesh, rows: Floats, normals: Floats, doubt: Floats, sour
 
 
 def notes_of_types(patches: Sequence[PatchInfo]) -> list[str]:
-    """Return a note for each patch of a type that OpenFOAM does not have."""
-    return [
+    """Return a note for each patch of a type that OpenFOAM does not have, or that couples another patch."""
+    notes = [
         f"Patch {patch.name} is of type {patch.type}, which is taken for a plain patch, as by OpenFOAM."
         for patch in patches
         if patch.type not in TYPES
+    ]
+    return notes + [
+        f"Patch {patch.name} couples patch {patch.entries['originalPatch']}, which needs no interaction."
+        for patch in patches
+        if patch.type == "nonConformalCyclic" and "originalPatch" in patch.entries
     ]
 
 

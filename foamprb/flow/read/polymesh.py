@@ -9,10 +9,10 @@ import numpy as np
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.geometry import faces_of
 from foamprb.flow.mesh.lists import starts
-from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.boundary import PatchInfo, patches_of_mesh
 from foamprb.flow.read.case import shown
 from foamprb.flow.read.checks import require_numbers
 from foamprb.flow.read.foamfile import FoamFile, read_vectors
@@ -92,5 +92,4 @@ def checked_poly(
             f"{paths[4]}: the patches have the faces from {first} to {first + patch_start[-1]}, but the "
             f"faces of one cell are those from {n_internal} to {n_faces}."
         )
-    surfaces = [PatchSurface(p.name, p.type, None, p.neighbour, p.transform) for p in patches]
-    return PolyMesh(points, faces, surfaces, patch_start)
+    return PolyMesh(points, faces, patches_of_mesh(patches), patch_start)

@@ -16,9 +16,9 @@ from vtkmodules.vtkIOGeometry import vtkOpenFOAMReader
 
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
-from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh
+from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.cells import poly_of_grid
-from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.boundary import PatchInfo, patches_of_mesh
 
 _MESSAGE = re.compile(
     r"^(ERROR|Warning|Generic Warning): In .*?, line \d+\n(?:\S+ \(0x[0-9a-f]+\): )?(.*)", re.MULTILINE
@@ -104,8 +104,7 @@ def read_poly_by_vtk(files: Sequence[Path], patches: Sequence[PatchInfo]) -> Pol
         said = messages.errors[0].replace(str(folder), str(source)) if messages.errors else "no mesh"
         raise InputError(f"{source}: VTK's OpenFOAM reader says: {said}")
     surfaces = [
-        PatchSurface(p.name, p.type, blocks.get(p.name, vtkPolyData()), p.neighbour, p.transform)
-        for p in patches
+        patch._replace(surface=blocks.get(patch.name, vtkPolyData())) for patch in patches_of_mesh(patches)
     ]
     return poly_of_grid(grid, surfaces, str(source))
 

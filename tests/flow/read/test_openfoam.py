@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
-from foam_writer import GRADIENT, Format, header, write_case
+from foam_writer import GRADIENT, Format, header, number_list, write_case
 from mesh_shapes import block, box_patches, pipe
 from paths import PIPE
 
+from foamprb.cloud.patches import Stick
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.mesh.boundary import Transform
@@ -22,6 +23,7 @@ from foamprb.flow.read.case import available_times, select_time
 from foamprb.flow.read.describe import describe
 from foamprb.flow.read.meshfile import read_mesh_file
 from foamprb.flow.read.openfoam import Case, read_case, read_fields
+from foamprb.settings.patches import KindRule, match_patches, needs_entry
 
 POLY = "constant/polyMesh/"
 
@@ -94,6 +96,41 @@ def test_the_flow_of_a_case(case, random):
     assert l == pytest.approx(np.broadcast_to(GRADIENT, l.shape), abs=2e-4)
     assert flow.notes == ()
     assert "initial guess" in read_case(case, "0").notes[0]
+
+
+def test_old_lists_of_neighbours_and_owners_are_read(case):
+    """With −1 for each boundary face, and the type of the list before its length."""
+    before = read_fields(case)
+    path = case / POLY / "neighbour"
+    edit(path, r"\n12\n\(([^)]*)\)", lambda match: f"\n36\n({match[1]}{24 * '-1 '})")
+    edit(case / POLY / "owner", r"\n36\n\(", "\nList<label> 36 ( // owners\n")
+    mesh = read_fields(case)[0]
+    assert np.array_equal(mesh.neighbour, before[0].neighbour)
+    assert np.array_equal(mesh.owner, before[0].owner)
+
+
+def test_a_mesh_may_lie_in_a_time_folder(case):
+    (case / "0.5/polyMesh").parent.mkdir(exist_ok=True)
+    (case / POLY).rename(case / "0.5/polyMesh")
+    assert read_case(case).mesh.n_cells == 8
+    assert len(describe(Case(case)).patches) == 3
+    with pytest.raises(InputError, match="boundary: no such file"):
+        read_case(case, "0")
+
+
+@pytest.mark.parametrize("far", [(1000.0, 0.0, 0.0), (581749.0, 4785670.0, 0.0)])
+def test_a_mesh_far_from_the_origin_keeps_its_cells(far, tmp_path):
+    """Of a millimetre: single precision has steps of half a metre there."""
+    near = write_case(tmp_path)
+    points = 1e-3 * near.points + far
+    (tmp_path / POLY / "points").write_bytes(
+        header("vectorField", "points", form=Format(binary=True)).encode()
+        + number_list(points, Format(binary=True))
+    )
+    mesh = read_case(tmp_path).mesh
+    assert np.array_equal(mesh.points, points)
+    round_off = 4.0 * np.spacing(np.abs(points).max()) / 1e-3
+    np.testing.assert_allclose(mesh.volumes, 1e-9 * near.volumes, rtol=20.0 * round_off)
 
 
 def test_compressed_files_are_read(case):
@@ -520,6 +557,64 @@ def test_a_surface_is_no_mesh(tmp_path):
     )
     with pytest.raises(InputError, match="no cells of the allowed kinds"):
         read_mesh_file(tmp_path / "surface.vtu")
+
+
+def test_patch_names_may_have_brackets(case):
+    for path in (case / POLY / "boundary", case / "1e1/U"):
+        edit(path, r"\bfloor\b", "floor(2)")
+    assert read_case(case).patches[0] == Patch("floor(2)", "wall")
+
+
+def cyclic(case, floor, lid):
+    """Couple floor and lid of a case without displaced points."""
+    edit(case / POLY / "boundary", "type wall; inGroups", f"{floor}; inGroups")
+    edit(case / POLY / "boundary", "type patch; inGroups", f"{lid}; inGroups")
+
+
+@pytest.mark.parametrize("groups", ["1(some)", "2(cyclic pair)"])
+def test_a_group_names_the_neighbour_of_a_cyclic_patch(groups, tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    cyclic(tmp_path, *2 * ["type cyclic; coupleGroup pair"])
+    edit(tmp_path / POLY / "boundary", r"1\(some\)", groups + " ", 2)
+    for name in ("floor", "lid"):
+        edit(tmp_path / "1e1" / "U", f"{name} {{ type fixedValue", f"{name} {{ type cyclic")
+    assert read_case(tmp_path).patches[:2] == (
+        Patch("floor", "cyclic", "lid"),
+        Patch("lid", "cyclic", "floor"),
+    )
+
+
+def couple_without_faces(case, shift="(0 0 1)"):
+    """Add patches of no faces that couple floor and lid, as OpenFOAM.org has them from version 11 on."""
+    path = case / POLY / "boundary"
+    text = path.read_text().replace("\n3\n(", "\n5\n(").rstrip()[:-1]
+    end = 12 + 24
+    for own, other, sign in (("floor", "lid", ""), ("lid", "floor", "-")):
+        text += (
+            f"on_{own} {{ type nonConformalCyclic; nFaces 0; startFace {end}; neighbourPatch on_{other}; "
+            f"originalPatch {own}; transformType translational; "
+            f"separation {shift.replace('1', sign + '1')}; }}\n"
+        )
+    path.write_text(text + ")\n")
+
+
+def test_a_couple_without_faces_couples_the_patches_that_have_them(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    couple_without_faces(tmp_path)
+    flow = read_case(tmp_path)
+    assert flow.patches[:2] == (Patch("floor", "cyclicAMI", "lid"), Patch("lid", "cyclicAMI", "floor"))
+    assert flow.mesh.couplings[0].shift == pytest.approx([0.0, 0.0, 1.0])
+    assert "Patch on_floor couples patch floor, which needs no interaction." in flow.notes
+    assert [needs_entry(patch) for patch in flow.patches] == [False, False, True, False, False]
+
+
+def test_a_couple_without_faces_that_does_not_fit_is_left_to_the_settings(tmp_path):
+    write_case(tmp_path, perturbation=0.0)
+    couple_without_faces(tmp_path, "(1 1 0)")
+    patches = read_case(tmp_path).patches
+    assert patches[:2] == (Patch("floor", "cyclicAMI"), Patch("lid", "cyclicAMI"))
+    with pytest.raises(InputError, match="particles cannot pass through 'floor'"):
+        match_patches([KindRule("wall", Stick())], patches, "file")
 
 
 @pytest.mark.parametrize("name", ["../../../../pwn", "a/b", "..", '"a b"'])
