@@ -32,6 +32,8 @@ log = logging.getLogger("foamprb")
 
 Sums: TypeAlias = list[list[float]]
 Fingerprint: TypeAlias = dict[str, str | Sums]
+Checksum: TypeAlias = list[int]
+"""Size of a file, bytes, and its CRC-32."""
 
 # Settings without effect on the physics, and settings that the cloud's own fields represent.
 _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching")
@@ -67,6 +69,7 @@ def checkpoint_of(
     cloud: Cloud | Snapshot,
     functions: Mapping[str, NDArray[Any]],
     entries: Sequence[SnapshotFile],
+    sums: Mapping[str, Checksum],
     marks: Fingerprint,
 ) -> Checkpoint:
     """Return the checkpoint of a run.
@@ -79,6 +82,8 @@ def checkpoint_of(
         What its cloud functions remember.
     entries
         The snapshots that are written.
+    sums
+        Sizes and checksums of their files, from :func:`checksums`.
     marks
         The run's :func:`fingerprint`.
     """
@@ -88,11 +93,35 @@ def checkpoint_of(
         "recovered": cloud.recovered,
         "reach": cloud.reach,
         "series": _stems(entries),
+        "sums": sums,
         "fingerprint": marks,
     }
     arrays = {f"{_CLOUD}{name}": array for name, array in cloud.particles._asdict().items()}
     arrays |= {f"{_FUNCTIONS}{name}": array for name, array in functions.items()}
     return Checkpoint(cloud.time, header, arrays)
+
+
+def checksums(
+    folder: Path, entries: Sequence[SnapshotFile], known: Mapping[str, Checksum]
+) -> dict[str, Checksum]:
+    """Return the sizes and checksums of the files of snapshots by name; known ones are not read again."""
+    found: dict[str, Checksum] = {}
+    for entry in entries:
+        names = [name for name in known if name == entry.file or name.startswith(f"{Path(entry.file).stem}/")]
+        if entry.file in names:
+            found |= {name: known[name] for name in names}
+        else:
+            files = files_of(folder / entry.file)
+            found |= {file.relative_to(folder).as_posix(): _checksum(file) for file in files}
+    return found
+
+
+def _checksum(path: Path) -> Checksum:
+    size, code = 0, 0
+    with path.open("rb") as file:
+        while chunk := file.read(1 << 22):
+            size, code = size + len(chunk), zlib.crc32(chunk, code)
+    return [size, code]
 
 
 def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> None:
@@ -175,6 +204,10 @@ def snapshots_until(checkpoint: Checkpoint, pvd: Path, where: str) -> tuple[Snap
         fault, files = f"a .pvtp file is damaged: {error}", []
     missing = [file.relative_to(pvd.parent) for file in files if not file.exists()]
     fault = f"{missing[0]} is missing" if missing else fault
+    if not fault:
+        now, then = checksums(pvd.parent, entries, {}), checkpoint.header["sums"]
+        changed = [name for name, found in now.items() if found != then.get(name)]
+        fault = f"{changed[0]} was changed or cut after it was written" if changed else ""
     if fault:
         raise InputError(
             f"{where}: the results there are not those of the checkpoint ({fault}). Put them back, or start "

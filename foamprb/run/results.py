@@ -29,7 +29,15 @@ from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, write_table
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
-from foamprb.run.restart import checkpoint_of, fingerprint, refuse_changes, restore, snapshots_until
+from foamprb.run.restart import (
+    Checksum,
+    checkpoint_of,
+    checksums,
+    fingerprint,
+    refuse_changes,
+    restore,
+    snapshots_until,
+)  # fmt: skip
 from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
@@ -83,6 +91,7 @@ class Results:
             "injector": job.injector_names,
         }
         self._series = Series(job.folder)
+        self._sums: dict[str, Checksum] = {}
         self._manifest = Manifest(job.folder.path)
         self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
         self._snapshot: Snapshot | None = None
@@ -230,7 +239,9 @@ class Results:
         self._write_checkpoint(snapshot, memory)
 
     def _write_checkpoint(self, cloud: Cloud | Snapshot, memory: Mapping[str, NDArray[Any]]) -> None:
-        self._checkpoints.write(checkpoint_of(cloud, memory, self._series.entries, self._fingerprint))
+        entries = self._series.entries
+        self._sums = checksums(self._job.folder.path, entries, self._sums)
+        self._checkpoints.write(checkpoint_of(cloud, memory, entries, self._sums, self._fingerprint))
 
     def _checkpoint_files(self) -> tuple[Path, ...]:
         """Return the checkpoints on disk, and that of the current time."""
@@ -286,6 +297,7 @@ class Results:
         refuse_changes(checkpoint, self._fingerprint, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
+        self._sums = checkpoint.header["sums"]
         log.info(
             "Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, self._checkpoints.folder
         )
