@@ -53,7 +53,7 @@ class Rows(NamedTuple):
     stress: Annotated[int, Row(9, "Pa", "σ̃* less the viscous stress of the solid, in the frame Q")]
     predictor: Annotated[int, Row(9, "1", "Newton's first iterate Q·(F + Δt A)")]
     new_x: Annotated[int, Row(3, "m", "x at the end of the step, if no wall is met")]
-    new_v: Annotated[int, Row(3, "m/s", "v at the end of the step")]
+    new_v: Annotated[int, Row(3, "m/s", "v at the end of the step; once accepted, at its start")]
     new_F: Annotated[int, Row(9, "1", "F at the end of the step, or of the stage", IDENTITY, of="F")]
     new_A: Annotated[int, Row(9, "1/s", "A at the end of the step")]
     J: Annotated[int, Row(1, "1", "volume ratio det F at the end of the step")]
@@ -405,6 +405,7 @@ def accept_stage(block: Any, tolerance: float) -> None:
         store9(block, at.frame, i, choose(sound, load9(block, at.Q, i), load9(block, at.frame, i)))
         w = load3(block, at.v, i)
         store3(block, at.v, i, choose3(sound, v, w))
+        store3(block, at.new_v, i, choose3(sound, w, v))
 
 
 def choose3(condition: Any, v: Vector, w: Vector) -> Vector:

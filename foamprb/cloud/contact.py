@@ -1,4 +1,4 @@
-"""Contacts with patches: records of rebounds and passages, and the normals of walls where particles ended.
+"""Contacts with patches: when they happen, records of rebounds and passages, and normals of walls.
 
 The names ``gap``, ``walk`` and ``normal`` are bound to the flow when a loop is compiled.
 """
@@ -19,10 +19,54 @@ from foamprb.flow.analytic import gap_free as gap
 from foamprb.flow.analytic import normal_free as normal
 from foamprb.flow.analytic import walk_free as walk
 
-__all__ = ["CROWDED", "Rebounds", "contact_normals", "in_order", "note", "passages", "rebounds_of"]
+__all__ = [
+    "CROWDED",
+    "Rebounds",
+    "contact_normals",
+    "first_contact",
+    "in_order",
+    "note",
+    "on_cubic",
+    "passages",
+    "rebounds_of",
+    "slope_on_cubic",
+]
 
 CROWDED = 2
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: the buffer of rebounds is full."""
+
+
+_HALVINGS = 50
+
+
+def on_cubic(s: float, d: float, a: float, b: float) -> float:
+    """Return the way after the share s of a step on Hermite's cubic.
+
+    ``d`` is the way of the whole step; ``a`` and ``b`` are the excess over it of the velocities at start and
+    end, times the step.
+    """
+    return s * (d + (1.0 - s) * ((1.0 - s) * a - s * b))
+
+
+def slope_on_cubic(s: float, d: float, a: float, b: float) -> float:
+    """Return the derivative of :func:`on_cubic` by s."""
+    return d + (1.0 - s) * (1.0 - 3.0 * s) * a - s * (2.0 - 3.0 * s) * b
+
+
+def first_contact(before: float, after: float, a: float, b: float) -> float:
+    """Return the share of a step after which a body meets a wall.
+
+    ``before`` > 0 and ``after`` <= 0 are the gaps at start and end, m; ``a`` and ``b`` are those of
+    :func:`on_cubic` along the normal of the wall.
+    """
+    low, high = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if before + on_cubic(middle, after - before, a, b) > 0.0:
+            low = middle
+        else:
+            high = middle
+    return low
 
 
 class Rebounds(NamedTuple):
@@ -44,7 +88,7 @@ class Rebounds(NamedTuple):
     n: NDArray[np.float64]
     """Unit normals of the walls, into the fluid, (n, 3)."""
     F: NDArray[np.float64]
-    """Deformation gradients at the end of the step, (n, 9)."""
+    """Deformation gradients, (n, 9); of integrator ``paper`` at the end of the step."""
 
 
 def note(s: Scratch, i: int, patch: int, t: float, x: Vector, n: Vector) -> None:

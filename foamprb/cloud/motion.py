@@ -2,7 +2,8 @@
 
 The names ``sample``, ``walk``, ``gap``, ``normal``, ``cross``, ``recover`` and ``cell_volume`` are bound to
 those of the flow that was chosen when the loop is compiled, and ``walk_on`` where it has its own;
-``turn_along`` and ``bounce_along`` are bound to a model of the surroundings.
+``turn_along``, ``bounce_along`` and ``reflects_steps`` are bound to a model of the surroundings, ``bouncing``
+and ``rewind`` to the integrator.
 """
 
 from __future__ import annotations
@@ -14,7 +15,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.tensor import Tensor, Vector, between, dot, dot_vector, longest_stretch, transpose
+from foamprb.body.tensor import (
+    Tensor,
+    Vector,
+    between,
+    dot,
+    dot_vector,
+    inner,
+    longest_stretch,
+    minus,
+    transpose,
+)
 from foamprb.cloud.block import (
     CELLS_TOO_MANY,
     FLOW_NOT_FINITE,
@@ -30,9 +41,9 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
-from foamprb.cloud.contact import note
+from foamprb.cloud.contact import first_contact, note, on_cubic, slope_on_cubic
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, STICK, rebound_velocity
+from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
 from foamprb.cloud.state import Particles, Status
 from foamprb.flow.analytic import cell_volume_free as cell_volume
 from foamprb.flow.analytic import cross_free as cross
@@ -55,6 +66,14 @@ UNLISTED = 1
 """Value of :attr:`~foamprb.cloud.block.Scratch.outgrown`: a body may touch walls that are not listed."""
 _TOUCH = 1e-6
 """Gap, in radii, that may be round-off of a body in contact."""
+_OTHER_WALL = 0.1
+"""Distance of a wall before a step, in radii beyond the gap, from which on another wall was nearest."""
+STOPS_AT_CONTACT, GOES_ON = 2, 1
+"""Values of ``bouncing``."""
+bouncing = 0
+"""How a body with inertia bounces: its step ends at the contact, or goes on from there; 0 without inertia."""
+reflects_steps = 0
+"""1 if a step into a wall on which a body would slide is reflected, as for random motion."""
 _MAX_BOUNCES = 10
 # A particle near the axis of a wedge goes through it many times in a step.
 _MAX_PATCHES = 1000
@@ -101,6 +120,10 @@ def bounce_along(_block: Any, _i: int, _n: Vector) -> None:
     """No-op: no further quantity of lane i is reflected by a wall of normal n."""
 
 
+def rewind(_block: Any, _i: int, _f: float) -> None:
+    """No-op: the shape in lane i stays that at the end of the step, not after the fraction f of it."""
+
+
 def interrupted(s: Scratch) -> bool:
     """Return True if the loop must stop at once and leave unfinished particles as they were."""
     return bool(s.stop[0] + s.outgrown[0] != 0)
@@ -143,20 +166,38 @@ def reach_end(
 ) -> int:
     """Move the particle in lane i to its goal, due at t_end after a step h, with contact of walls.
 
-    ``ahead`` is the host that probably holds the goal, ``held`` True if it certainly does.
+    A step of a body that bounces may end earlier; see ``bouncing``. ``ahead`` is the host that probably holds
+    the goal, ``held`` True if it certainly does.
 
     Returns
     -------
     The number of walks that needed the tree.
     """
-    end, start, spent, mended = move_centre(flow, patches, s, i, goal, ahead, held, h)
-    store3(s.block, at.x, i, end)
-    if s.status[i] == ACTIVE or s.status[i] == STUCK:
-        spent *= touch(flow, patches, s, i, start, t_end - h, spent)
+    block, recovered = s.block, 0
+    spent, rest = 0.0, h
+    for _ in range(_MAX_BOUNCES):
+        begin = load3(block, at.x, i)
+        end, start, goal, time, patch, triangle, walks = move_centre(
+            flow, patches, s, i, goal, ahead, held, rest
+        )
+        recovered += walks
+        store3(block, at.x, i, end)
+        fraction = 1.0
+        if s.status[i] == ACTIVE or s.status[i] == STUCK:
+            way, met, turned = (start, goal), (patch, triangle), start != begin
+            fraction = touch(flow, patches, s, i, way, turned, met, t_end - h + spent, time)
+        spent += fraction * time
+        if bouncing == 0 or fraction == 1.0 or s.status[i] != ACTIVE:
+            break
+        whole = bouncing == STOPS_AT_CONTACT and h - spent < SHORTEST_STEP * h
+        block[at.t * LANES + i] = t_end if whole else t_end - h + spent
+        if bouncing == STOPS_AT_CONTACT:
+            return recovered
+        goal, ahead, held, rest = load3(block, at.new_x, i), s.host[i], False, h - spent
     if s.bounds.maxCells < math.inf and s.status[i] == ACTIVE:
         fail_in_small_cell(flow, s, i)
-    s.block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
-    return mended
+    block[at.t * LANES + i] = t_end if s.status[i] == ACTIVE else t_end - h + spent
+    return recovered
 
 
 def fail_in_small_cell(flow: Any, s: Scratch, i: int) -> None:
@@ -284,16 +325,16 @@ def walk_on(flow: Any, host: int, _ahead: int, x0: Vector, x1: Vector) -> tuple[
 
 def move_centre(
     flow: Any, patches: PatchTable, s: Scratch, i: int, goal: Vector, ahead: int, held: bool, dt: float
-) -> tuple[Vector, Vector, float, int]:
-    """Move the centre to its goal in Δt, through the mesh, with the interactions of the patches it meets.
+) -> tuple[Vector, Vector, Vector, float, int, int, int]:
+    """Move the centre towards its goal in Δt, through the mesh, to the patch that ends its way.
 
     A failed walk restarts from the last point on its way that the tree finds in the mesh. If it fails again,
     the centre stays there for the rest of the step. ``ahead`` and ``held`` are as in :func:`reach_end`.
 
     Returns
     -------
-    The final position, the start as seen from there, the time of the motion, and the number of walks that
-    needed the tree.
+    The final position, the start and the goal as seen from there, the time of the motion, the patch
+    and the triangle at which the particle bounces, −1 for none, and the number of walks that needed the tree.
     """
     block = s.block
     recovered, bounces = 0, 0
@@ -302,7 +343,7 @@ def move_centre(
     start = x0
     if held:
         s.host[i] = ahead
-        return x1, start, dt, recovered
+        return x1, start, x1, dt, -1, -1, recovered
     for _ in range(_MAX_PATCHES):
         rest = dt - spent
         host, fraction, patch, triangle = walk_on(flow, s.host[i], ahead, x0, x1)
@@ -311,41 +352,34 @@ def move_centre(
             host, done = last_inside(flow, x0, x1)
             if host < 0:
                 fail(s, i, LOST)
-                return x1, start, dt, recovered
+                return x1, start, x1, dt, -1, -1, recovered
             s.host[i] = host
             if done >= 1.0:
-                return x1, start, dt, recovered
+                return x1, start, x1, dt, -1, -1, recovered
             x0 = between(x0, x1, done)
             spent += done * rest
             rest = dt - spent
             host, fraction, patch, triangle = walk(flow, s.host[i], x0, x1)
             if patch == -2:
-                return x0, start, dt, recovered
+                return x0, start, x0, dt, -1, -1, recovered
         s.host[i] = host
         if patch == -1:
-            return x1, start, dt, recovered
+            return x1, start, x1, dt, -1, -1, recovered
         x0 = between(x0, x1, fraction)
-        spent += fraction * rest
         code = patches.code[patch]
+        if code == REBOUND:
+            return x0, start, x1, dt, patch, triangle, recovered
+        spent += fraction * rest
         if code in (STICK, ESCAPE):
             settle(s, i, patch, code)
-            return x0, start, spent, recovered
+            return x0, start, x0, spent, -1, -1, recovered
         bounces += code != CYCLIC
         if bounces > _MAX_BOUNCES:
             break
-        if code in (MIRROR, CYCLIC):
-            t = block[at.t * LANES + i] + spent
-            x0, x1, turn, shift = beyond(flow, s, i, patch, code, triangle, t, x0, x1)
-            start, ahead = moved(turn, shift, start), s.host[i]
-            continue
-        n = normal(flow, triangle, x0)
-        note(s, i, patch, block[at.t * LANES + i] + spent, x0, n)
-        v = rebound_velocity(load3(block, at.v, i), n, patches.e[patch], patches.mu[patch])
-        store3(block, at.v, i, v)
-        bounce_along(block, i, n)
-        rest = dt - spent
-        x1, ahead = (x0[0] + rest * v[0], x0[1] + rest * v[1], x0[2] + rest * v[2]), s.host[i]
-    return x0, start, dt, recovered
+        t = block[at.t * LANES + i] + spent
+        x0, x1, turn, shift = beyond(flow, s, i, patch, code, triangle, t, x0, x1)
+        start, ahead = moved(turn, shift, start), s.host[i]
+    return x0, start, x0, dt, -1, -1, recovered
 
 
 def move_back(
@@ -370,49 +404,173 @@ def move_back(
     return x0, True
 
 
-def touch(flow: Any, patches: PatchTable, s: Scratch, i: int, start: Vector, t: float, spent: float) -> float:
-    """Apply contact of the ellipsoid with walls, after its centre moved from ``start`` to its new position.
+def touch(
+    flow: Any,
+    patches: PatchTable,
+    s: Scratch,
+    i: int,
+    way: tuple[Vector, Vector],
+    turned: bool,
+    met: tuple[int, int],
+    t: float,
+    h: float,
+) -> float:
+    """Apply contact of the ellipsoid with walls, after its centre moved to its new position.
 
     Parameters
     ----------
-    t, spent
-        When it went, and how long it took, s.
+    way
+        Start and goal of the centre.
+    turned
+        Whether the centre went through a mirror or a coupled patch.
+    met
+        Patch and triangle at which the centre met a wall before the goal; −1 if it did not.
+    t, h
+        When it went, and how long it takes to the goal, s.
 
     Returns
     -------
-    The fraction of the way at which a particle stopped.
+    The fraction of the way after which the particle stopped or bounced, 1 if it did neither.
     """
     block = s.block
     before = block[at.clearance * LANES + i]
+    if met[0] >= 0:
+        return meet_wall(flow, patches, s, i, way, turned, met, before, -math.inf, t, h)
     after, patch, triangle = clearance_of(flow, s, i)
     block[at.clearance * LANES + i] = after
     if after > 0.0:
         return 1.0
+    if patches.code[patch] != STICK:
+        if s.status[i] == STUCK:
+            return 1.0
+        return meet_wall(flow, patches, s, i, way, turned, (patch, triangle), before, after, t, h)
     x = load3(block, at.x, i)
     f = 0.0
     if before > 0.0:
         f = before / (before - after) if before < math.inf else 1.0
-    if patches.code[patch] == STICK:
-        contact, _ = move_back(flow, patches, s, i, t + spent, x, between(start, x, f))
-        store3(block, at.x, i, contact)
-        settle(s, i, patch, STICK)
-        return f
+    contact, _ = move_back(flow, patches, s, i, t + h, x, between(way[0], x, f))
+    store3(block, at.x, i, contact)
+    settle(s, i, patch, STICK)
+    return f
+
+
+def meet_wall(
+    flow: Any,
+    patches: PatchTable,
+    s: Scratch,
+    i: int,
+    way: tuple[Vector, Vector],
+    turned: bool,
+    met: tuple[int, int],
+    before: float,
+    after: float,
+    t: float,
+    h: float,
+) -> float:
+    """Let the body in lane i bounce off a wall, or slide along it.
+
+    A body with inertia bounces where and when it meets the wall on the cubic through both ends of its way. A
+    body in contact at both ends slides, and so does one without inertia: its motion into the wall is undone.
+
+    Parameters
+    ----------
+    As in :func:`touch`, with the patch and triangle of the wall, and
+    before, after
+        Gap at the start and at the goal, m; the latter −∞ if the centre met the wall.
+
+    Returns
+    -------
+    The fraction of the way after which it bounced, 1 if it slides.
+    """
+    block, (start, goal), (patch, triangle) = s.block, way, met
+    x, R = load3(block, at.x, i), block[at.R * LANES + i]
     n = normal(flow, triangle, x)
-    v = load3(block, at.v, i)
-    # A body that rests on the wall or slides along it has bounced before.
-    if before > _TOUCH * block[at.R * LANES + i]:
-        note(s, i, patch, t + f * spent, between(start, x, f), n)
-    store3(block, at.v, i, rebound_velocity(v, n, patches.e[patch], patches.mu[patch]))
+    fall = inner(minus(goal, start), n)
+    reflected = reflects_steps > 0
+    if after == -math.inf:
+        room, _, _ = gap(flow, s.host[i], x, load9(block, at.F, i), R)
+        # Infinite for a body that is a point to walls.
+        reflected = reflected or room == math.inf
+        after = min(0.0, (room if room < math.inf else 0.0) + inner(minus(goal, x), n))
+    if before == math.inf or after - fall > before + _OTHER_WALL * R:
+        before = after - fall
+    rests = before <= _TOUCH * R
+    if bouncing > 0 and not (rests or turned):
+        return bounce(flow, patches, s, i, way, met, n, before, after, t, h)
+    f = before / (before - after) if before > 0.0 else 0.0
+    if not rests:
+        note(s, i, patch, t + f * h, between(start, goal, f), n)
+    e = 0.0 if rests and bouncing > 0 else patches.e[patch]
+    store3(block, at.v, i, rebound_velocity(load3(block, at.v, i), n, e, patches.mu[patch]))
     bounce_along(block, i, n)
-    # The motion towards the wall after the contact is undone: else a body at rest on the wall would sink in.
-    beyond = (x[0] - start[0]) * n[0] + (x[1] - start[1]) * n[1] + (x[2] - start[2]) * n[2]
-    back = -(1.0 - f) * min(beyond, 0.0)
-    place = (x[0] + back * n[0], x[1] + back * n[1], x[2] + back * n[2])
-    place, went = move_back(flow, patches, s, i, t + spent, x, place)
+    back = -(1.0 - f) * min(fall, 0.0) * (2.0 if reflected else 1.0)
+    place = (goal[0] + back * n[0], goal[1] + back * n[1], goal[2] + back * n[2])
+    place, went = move_back(flow, patches, s, i, t + h, x, place)
     if went:
         store3(block, at.x, i, place)
         block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
     return 1.0
+
+
+def bounce(
+    flow: Any,
+    patches: PatchTable,
+    s: Scratch,
+    i: int,
+    way: tuple[Vector, Vector],
+    met: tuple[int, int],
+    n: Vector,
+    before: float,
+    after: float,
+    t: float,
+    h: float,
+) -> float:
+    """Let the body in lane i bounce off a wall of normal n; return after which fraction of the way it does.
+
+    The other parameters are as in :func:`meet_wall`. If the step goes on, ``new_x`` is its new goal, ``v``
+    the velocity there, and ``new_v`` that after the contact.
+    """
+    block, (start, goal), (patch, _) = s.block, way, met
+    d = minus(goal, start)
+    v0, v1 = load3(block, at.new_v, i), load3(block, at.v, i)
+    # Euler's steps lie on parabolas, whose slopes exceed the velocities by o.
+    p, q = (0.5, 1.0 / h) if bouncing == GOES_ON else (0.0, 0.0)
+    o = (q * d[0] - p * (v0[0] + v1[0]), q * d[1] - p * (v0[1] + v1[1]), q * d[2] - p * (v0[2] + v1[2]))
+    a = (h * (v0[0] + o[0]) - d[0], h * (v0[1] + o[1]) - d[1], h * (v0[2] + o[2]) - d[2])
+    b = (h * (v1[0] + o[0]) - d[0], h * (v1[1] + o[1]) - d[1], h * (v1[2] + o[2]) - d[2])
+    f = first_contact(before, after, inner(a, n), inner(b, n))
+    place = (
+        start[0] + on_cubic(f, d[0], a[0], b[0]),
+        start[1] + on_cubic(f, d[1], a[1], b[1]),
+        start[2] + on_cubic(f, d[2], a[2], b[2]),
+    )
+    v = (
+        slope_on_cubic(f, d[0], a[0], b[0]) / h,
+        slope_on_cubic(f, d[1], a[1], b[1]) / h,
+        slope_on_cubic(f, d[2], a[2], b[2]) / h,
+    )
+    store3(block, at.v, i, v)
+    rewind(block, i, f)
+    note(s, i, patch, t + f * h, place, n)
+    v = rebound_velocity(v, n, patches.e[patch], patches.mu[patch])
+    bounce_along(block, i, n)
+    x, _ = move_back(flow, patches, s, i, t + f * h, load3(block, at.x, i), place)
+    store3(block, at.x, i, x)
+    block[at.clearance * LANES + i], _, _ = clearance_of(flow, s, i)
+    if bouncing == GOES_ON:
+        g, r = 1.0 - f, (1.0 - f) * h
+        dv = (g * (v1[0] - v0[0]), g * (v1[1] - v0[1]), g * (v1[2] - v0[2]))
+        goal = (
+            x[0] + r * (v[0] + 0.5 * dv[0]),
+            x[1] + r * (v[1] + 0.5 * dv[1]),
+            x[2] + r * (v[2] + 0.5 * dv[2]),
+        )
+        store3(block, at.new_x, i, goal)
+        v = minus(v, o)
+        store3(block, at.new_v, i, v)
+        v = (v[0] + dv[0], v[1] + dv[1], v[2] + dv[2])
+    store3(block, at.v, i, v)
+    return f
 
 
 def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
@@ -455,5 +613,14 @@ def longest_of(p: Particles) -> float:
     return longest
 
 
-RARE: tuple[Callable[..., Any], ...] = (fail, fail_in_small_cell, beyond, note, last_inside, move_back, meets)
+RARE: tuple[Callable[..., Any], ...] = (
+    fail,
+    fail_in_small_cell,
+    beyond,
+    note,
+    last_inside,
+    move_back,
+    meets,
+    meet_wall,
+)
 """Long functions that few steps call, compiled as separate functions to keep the loops short."""

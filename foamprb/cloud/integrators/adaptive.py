@@ -455,7 +455,8 @@ def track_adaptive(
             held = holds_end(block, i, goal)
             ahead = scratch.ahead[i]
             scratch.mended[i] += reach_end(flow, patches, scratch, i, goal, ahead, held, t_new, h)
-            if whole:
+            # A step ends early where a body bounces.
+            if whole and (scratch.status[i] != ACTIVE or block[at.t * LANES + i] >= t_end):
                 end_tracking_steps(scratch, i)
     end_block(scratch)
     return walks_relocated(scratch)

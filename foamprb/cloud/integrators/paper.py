@@ -42,6 +42,7 @@ from foamprb.cloud.integrators.base import Integrator, apply_surroundings, updat
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.motion import (
     ACTIVE,
+    GOES_ON,
     PENDING,
     SHORTEST_STEP,
     PatchTable,
@@ -273,6 +274,7 @@ PAPER = Integrator(
     track=track_block,
     stages=(*BLOCK_STAGES, traction_stage, newton_stage, barycentre_stage, dense_newton),
     layout=layout(at),
+    bindings={"bouncing": GOES_ON},
     stable_steps=1.5,
     refuses=_refuses,
 )

@@ -94,6 +94,7 @@ from foamprb.cloud.integrators.adaptive import (
 )
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.layout import LANES, Row, layout, offsets
+from foamprb.cloud.motion import STOPS_AT_CONTACT
 from foamprb.compile.link import traced
 
 
@@ -354,6 +355,19 @@ def third_inertial(block: Any, medium: Medium, tolerance: float) -> None:
         judge_difference(block, i, select(third, difference, 0.0), tolerance)
 
 
+def rewind_inertial(block: Any, i: int, f: float) -> None:
+    """Set the shape in lane i to that after the fraction f of the finished step, on Hermite's cubic."""
+    Q, h = load9(block, during.start_Q, i), block[at.dt * LANES + i]
+    G, L = load9(block, own.G, i), load9(block, own.l_s, i)
+    F0, A0 = dot(transpose(Q), G), dot(transpose(Q), dot(L, G))
+    D = add(load9(block, at.F, i), scale(-1.0, F0))
+    a, b = add(scale(h, A0), scale(-1.0, D)), add(scale(h, load9(block, at.A, i)), scale(-1.0, D))
+    g = 1.0 - f
+    store9(block, at.F, i, add(F0, add(scale(f, D), add(scale(f * g * g, a), scale(-f * f * g, b)))))
+    slope = add(D, add(scale(g * (1.0 - 3.0 * f), a), scale(-f * (2.0 - 3.0 * f), b)))
+    store9(block, at.A, i, scale(1.0 / h, slope))
+
+
 def _shape_rate(block: Any, i: int, mu_f: float, L: Tensor, b_e: Tensor) -> tuple[Tensor, Tensor]:
     """Return dl_s/dt = Ȧ F⁻¹ − l_s l_s, Ȧ Fᵀ = c (J(σ̃ − σ_v) − τ) (33), 1/s², and τ, Pa, in its frame.
 
@@ -570,6 +584,8 @@ ROSENBROCK = Integrator(
         "second_slope": second_inertial,
         "last_argument": last_inertial,
         "third_slope": third_inertial,
+        "bouncing": STOPS_AT_CONTACT,
+        "rewind": rewind_inertial,
     },
     adaptive=True,
 )
