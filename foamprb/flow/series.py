@@ -26,7 +26,16 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
-from foamprb.flow.walk import blend_turbulence, corners, curvature_in, interpolate, inward, shape
+from foamprb.flow.walk import (
+    FAILED,
+    blend_turbulence,
+    corners,
+    curvature_in,
+    follow,
+    interpolate,
+    inward,
+    shape,
+)
 from foamprb.flow.walk import cell_volume as cell_volume_mesh
 from foamprb.flow.walk import cross as cross_mesh
 from foamprb.flow.walk import walk as walk_mesh
@@ -118,6 +127,16 @@ def walk_on(flow: SeriesArrays, host: int, ahead: int, x0: Vector, x1: Vector) -
     return walk_on_mesh(flow.mesh, host, ahead, x0, x1)
 
 
+def sample_ahead(
+    flow: SeriesArrays, host: int, x0: Vector, x1: Vector, t: float
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
+    """See :func:`foamprb.flow.walk.sample_ahead`."""
+    last, _, patch, _, entered = follow(flow.mesh, host, x0, x1)
+    last = host if patch == FAILED else last
+    u, l, u_t = sample(flow, last, x1, t)
+    return last, 0.0, entered, u, l, u_t
+
+
 def gap(flow: SeriesArrays, host: int, x: Vector, F: Tensor, R: float) -> tuple[float, int, int]:
     """See :func:`foamprb.flow.walk.gap`."""
     return gap_mesh(flow.mesh, host, x, F, R)
@@ -180,6 +199,7 @@ class SeriesFlow(MeshFlow):
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
         "sample": sample,
+        "sample_ahead": sample_ahead,
         "curvature": curvature,
         "walk": walk,
         "walk_on": walk_on,

@@ -52,18 +52,19 @@ def sample_ahead(
     x0: Vector,
     x1: Vector,
     t: float,  # noqa: ARG001
-) -> tuple[int, float, Vector, Tensor, Vector]:
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
     """Return the last tetrahedron on the path from x0 in ``host`` to x1, and :func:`sample` at x1 in it.
 
     Usually it is ``host``, as the weights of its nodes show. The second result is the distance from x1, m,
-    along each axis within which a point certainly lies in the tetrahedron, if more than 0.
+    along each axis within which a point certainly lies in the tetrahedron, if more than 0. The third one is
+    the number of cells that the path enters.
     """
-    last, sound = host, is_sound(flow, host)
+    last, sound, entered = host, is_sound(flow, host), 0
     origin, c1, c2, c3, volume = frame(flow, host)
     w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
     least = min(w0, w1, w2, w3)
     if not (least >= -TOLERANCE * volume and sound):
-        found, _, patch, _ = follow(flow, host, x0, x1)
+        found, _, patch, _, entered = follow(flow, host, x0, x1)
         if patch != FAILED:
             last, sound = found, is_sound(flow, found)
         origin, c1, c2, c3, volume = frame(flow, last)
@@ -73,7 +74,7 @@ def sample_ahead(
     u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), (s * w0, s * w1, s * w2, s * w3))
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
-    return last, room, u, l, STEADY
+    return last, room, entered, u, l, STEADY
 
 
 def _components(v: Vector) -> Any:
@@ -188,7 +189,8 @@ def _look_and_follow(
 ) -> tuple[int, float, int, int]:
     if holds(flow, ahead, x1) and is_sound(flow, ahead):
         return ahead, 1.0, REACHED, NO_TRIANGLE
-    return follow(flow, host, x0, x1)
+    found, fraction, patch, triangle, _ = follow(flow, host, x0, x1)
+    return found, fraction, patch, triangle
 
 
 def holds(flow: MeshArrays, tet: int, x: Vector) -> bool:
@@ -203,7 +205,7 @@ def is_sound(flow: MeshArrays, tet: int) -> bool:
     return flow.folds[flow.tets[tet, 0] - flow.n_points] == SOUND  # type: ignore[no-any-return]
 
 
-def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:
+def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int, int]:
     """Follow the segment from x0, in the tetrahedron ``host``, to x1, through the faces on its way.
 
     A face is crossed at the fraction of the whole segment where its barycentric weight vanishes, which does
@@ -213,23 +215,23 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
 
     Returns
     -------
-    See :func:`walk`.
+    See :func:`walk`; and the number of cells that the path enters, 0 if that is not known.
     """
     neighbours = flow.neighbours
     if not is_sound(flow, host):
-        return find_thread(flow, host, x0, x1)
+        return uncounted(find_thread(flow, host, x0, x1))
     for attempt in range(_ATTEMPTS):
         start = x0
         if attempt > 0:
             m, nudge = _blend3(flow, host, _INSIDE), 1e-10 * 100.0**attempt
             start = between(x0, m, nudge)
-        tet, came_from, progress, stalls = host, -1, 0.0, 0
+        tet, came_from, progress, stalls, entered = host, -1, 0.0, 0, 0
         for _ in range(_MOST_CROSSINGS):
             origin, c1, c2, c3, volume = frame(flow, tet)
             end = weights(origin, c1, c2, c3, volume, x1)
             slack = -TOLERANCE * volume
             if min(end[0], end[1], end[2], end[3]) >= slack:
-                return tet, 1.0, REACHED, NO_TRIANGLE
+                return tet, 1.0, REACHED, NO_TRIANGLE, entered
             begin = weights(origin, c1, c2, c3, volume, start)
             face, fraction, first = -1, 0.0, np.inf
             for k in range(4):
@@ -250,15 +252,21 @@ def follow(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, fl
             if other < 0:
                 triangle = -1 - other
                 fraction = min(max(fraction, 0.0), 1.0)
-                return tet, fraction, flow.triangle_patch[triangle], triangle
+                return tet, fraction, flow.triangle_patch[triangle], triangle, entered
             stalls = 0 if fraction > progress + 1e-12 else stalls + 1
             if stalls > _MOST_STALLS:
                 break
             progress = max(progress, fraction)
+            entered += flow.tets[other, 0] != flow.tets[tet, 0]
             tet, came_from = other, tet
             if not is_sound(flow, tet):
-                return find_thread(flow, host, x0, x1)
-    return find_thread(flow, host, x0, x1)
+                return uncounted(find_thread(flow, host, x0, x1))
+    return uncounted(find_thread(flow, host, x0, x1))
+
+
+def uncounted(path: tuple[int, float, int, int]) -> tuple[int, float, int, int, int]:
+    """Return a path of :func:`find_thread` as :func:`follow` does, with an unknown number of cells."""
+    return path[0], path[1], path[2], path[3], 0
 
 
 def find_thread(flow: MeshArrays, host: int, x0: Vector, x1: Vector) -> tuple[int, float, int, int]:

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from mesh_shapes import block, box_patches
+from mesh_shapes import block, box_patches, grid
 from small_clouds import assert_same
 
 from foamprb import analytic
@@ -22,6 +22,7 @@ from foamprb.cloud.tracker import Models
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.series import SeriesFlow
 
 ADAPTIVE = ("rosenbrock", "stokes")
@@ -130,6 +131,36 @@ class TestShear:
         exact, late = (cloud.particles.F for cloud in clouds)
         assert np.abs(late - exact).max() < 1e-4 * 64 / 4
         assert clouds[1].particles.substeps == pytest.approx(0.25)
+
+
+def through_jet(integrator, width):
+    """Bodies in a stream of 1 cell per Δt, released at all phases, and a jet of some cells across it."""
+    n, first = 48, 24
+    points = np.array([(i, j, k) for i in range(n + 1) for j in (0, 1) for k in (0, 1)])
+    shape = grid(points, [(12, 4 * np.arange(n)[:, None] + [0, 4, 6, 2, 1, 5, 7, 3])])
+    mesh = build_mesh(shape, box_patches(shape))
+
+    def velocity(centres):
+        in_jet = (centres[:, 0] > first) & (centres[:, 0] < first + width)
+        return np.stack([np.ones(len(centres)), np.where(in_jet, 0.1, 0.0), np.zeros(len(centres))], axis=1)
+
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(velocity(mesh.centres), velocity(mesh.boundary_centres)))
+    starts = np.stack([np.linspace(0.5, 8.5, 100), np.full(100, 0.5), np.full(100, 0.5)], axis=1)
+    p = spheres(starts, d=1e-3, rho=1e-3, mu=1e4)
+    models = Models(integrator=integrator, stride=8, rebounds=True)
+    return Cloud(p, flow, HEAVY, [Escape()] * len(flow.patches), 1.0, models, threads=1)
+
+
+@pytest.mark.parametrize("width", [1, 2, 3])
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_no_long_step_misses_a_narrow_jet(integrator, width):
+    """The jet moves each body across by its flux through the path."""
+    cloud = through_jet(integrator, width)
+    path = np.stack([np.linspace(0.005, 47.995, 4800), np.full(4800, 0.5), np.full(4800, 0.5)], axis=1)
+    u, _ = cloud.flow.sample(path, cloud.flow.locate(path), 0.0)
+    cloud.advance(36)
+    np.testing.assert_allclose(cloud.particles.x[:, 1] - 0.5, 0.01 * u[:, 1].sum(), rtol=0.05)
+    assert np.all(cloud.particles.substeps < 1.0)
 
 
 @pytest.mark.parametrize("stride", [1, 8])

@@ -132,7 +132,7 @@ def test_walks_end_where_the_tree_finds_them(kind, random):
 def look_ahead(flow, hosts, start, end, u, l, room):
     for i in range(start.shape[0]):
         x0, x1 = (start[i, 0], start[i, 1], start[i, 2]), (end[i, 0], end[i, 1], end[i, 2])
-        _, room[i], velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
+        _, room[i], _, velocity, gradient, _ = sample_ahead(flow, hosts[i], x0, x1, 0.0)
         for k in range(3):
             u[i, k] = velocity[k]
         for k in range(9):

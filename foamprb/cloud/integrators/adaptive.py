@@ -115,6 +115,7 @@ class StepRows(NamedTuple):
     rest: Annotated[int, Row(1, "s", "what is left of the stretch", 1.0)]
     again: Annotated[int, Row(1, "", "1 after a step whose error was too large, else 0", lasting=True)]
     ahead: Annotated[int, Row(3, "m", "where the step was to lead when its end was sampled")]
+    entered: Annotated[int, Row(1, "", "number of cells that the way there enters")]
     room: Annotated[int, Row(1, "m", "how far off its end may be, along each axis, in the same host")]
 
 
@@ -125,6 +126,8 @@ _SMALLEST = 1e-9
 """Smallest step allowed, over Δt."""
 _STRETCH = 4
 """Length of a stretch over that of the longest step. Rounding to whole steps then costs little."""
+CELLS, MOST_CELLS = 2, 3
+"""Cells that a step longer than Δt aims to enter, and enters at most: the flow is not sampled between."""
 _MANY = 6
 """Least number of lanes, of 16, that go to order 3 together; fewer are set aside while others can run."""
 
@@ -283,19 +286,19 @@ def evaluate_shape(block: Any, medium: Medium, share: float) -> None:
 
 def sample_ahead(
     flow: Any, host: int, x: Vector, goal: Vector, t: float
-) -> tuple[int, float, Vector, Tensor, Vector]:
+) -> tuple[int, float, int, Vector, Tensor, Vector]:
     """Return the flow at the goal of a step from x.
 
     Returns
     -------
-    host, room, u, l_f, u_t
+    host, room, entered, u, l_f, u_t
         The host of the goal, or the last one on the way; the distance along each axis, m, within which this
-        host certainly holds any point around the goal; the flow there.
+        host certainly holds any point around the goal; the number of cells on the way; the flow there.
     """
     found, _, patch, _ = walk(flow, host, x, goal)
     last = host if patch == -2 else found
     u, l_f, u_t = sample(flow, last, goal, t)
-    return last, 0.0, u, l_f, u_t
+    return last, 0.0, 0, u, l_f, u_t
 
 
 def _sample_end(flow: Any, s: Scratch, i: int) -> None:
@@ -303,9 +306,10 @@ def _sample_end(flow: Any, s: Scratch, i: int) -> None:
     block = s.block
     place = load3(block, at.new_x, i)
     t = block[at.t * LANES + i] + block[at.dt * LANES + i]
-    s.ahead[i], room, u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
+    s.ahead[i], room, entered, u, l_f, u_t = sample_ahead(flow, s.host[i], load3(block, at.x, i), place, t)
     store3(block, during.ahead, i, place)
     block[during.room * LANES + i] = room
+    block[during.entered * LANES + i] = entered
     store3(block, during.end_u, i, u)
     store9(block, during.end_l, i, l_f)
     store3(block, during.end_ut, i, u_t)
@@ -321,7 +325,7 @@ def _sample_middle(flow: Any, host: int, block: Any, i: int) -> None:
         x[1] + half * v[1] + f * a[1],
         x[2] + half * v[2] + f * a[2],
     )
-    _, _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
+    _, _, _, _, l_f, _ = sample_ahead(flow, host, x, place, block[at.t * LANES + i] + half)
     store9(block, during.middle_l, i, l_f)
 
 
@@ -450,7 +454,7 @@ def track_adaptive(
             whole = t_new >= t_end - SHORTEST_STEP * dt
             if whole:
                 t_new = t_end
-            block[at.h * LANES + i] = min(most * dt, allowed)
+            block[at.h * LANES + i] = min(most * dt, allowed, longest_over_cells(block, i, dt))
             goal = load3(block, at.new_x, i)
             held = holds_end(block, i, goal)
             ahead = scratch.ahead[i]
@@ -498,17 +502,28 @@ def measures_again(s: Scratch, i: int, left: float, stretch: int) -> bool:
 
 
 def keep_short(flow: Any, patches: PatchTable, s: Scratch, i: int, dt: float, tolerance: float) -> None:
-    """Reject a step of lane i that is longer than Δt and comes to a patch or close to a wall.
+    """Reject a step of lane i longer than Δt that comes to a patch, close to a wall, or over many cells.
 
-    Contact is so resolved to Δt.
+    Contact and the flow are so resolved to Δt.
     """
     block = s.block
     long = block[at.dt * LANES + i] > (1.0 + SHORTEST_STEP) * dt
     if long and block[at.moving * LANES + i] > 0.0 and block[at.error * LANES + i] <= tolerance:
         goal = load3(block, at.new_x, i)
-        if meets(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
+        if block[during.entered * LANES + i] > MOST_CELLS:
+            block[at.moving * LANES + i] = 0.0
+            block[at.h * LANES + i] = longest_over_cells(block, i, dt)
+        elif meets(flow, patches, s, i, goal, s.ahead[i], holds_end(block, i, goal)):
             block[at.moving * LANES + i] = 0.0
             block[at.h * LANES + i] = dt
+
+
+def longest_over_cells(block: Any, i: int, dt: float) -> float:
+    """Return the longest next step of lane i by the cells that this one enters, s; at least Δt."""
+    entered = block[during.entered * LANES + i]
+    if entered <= CELLS:
+        return math.inf
+    return float(max(dt, block[at.dt * LANES + i] * CELLS / entered))
 
 
 def needs_third(block: Any, i: int) -> bool:
