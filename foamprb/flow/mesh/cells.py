@@ -23,10 +23,23 @@ _CELL_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     13: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     14: ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
 }
+_VOXEL = (0, 1, 3, 2, 4, 5, 7, 6)
+_CELL_FACES[11] = tuple(tuple(_VOXEL[k] for k in face) for face in _CELL_FACES[12])
 _CORNERS = np.zeros(256, dtype=np.intp)
 for _kind, _faces in _CELL_FACES.items():
     _CORNERS[_kind] = 1 + max(map(max, _faces))
-CELL_KINDS = {10: "tetrahedron", 12: "hexahedron", 13: "prism", 14: "pyramid", _POLYHEDRON: "polyhedron"}
+CELL_KINDS = {
+    10: "tetrahedron", 11: "voxel", 12: "hexahedron", 13: "prism", 14: "pyramid", _POLYHEDRON: "polyhedron",
+}  # fmt: skip
+CURVED = {
+    24: 10, 71: 10, 79: 10,
+    25: 12, 29: 12, 33: 12, 72: 12, 80: 12,
+    26: 13, 31: 13, 32: 13, 73: 13, 81: 13,
+    27: 14, 37: 14, 74: 14,
+}  # fmt: skip
+"""Cells of higher order, and the cell with the same corners, which come first among their points."""
+_STRAIGHT = np.arange(256, dtype=np.uint8)
+_STRAIGHT[list(CURVED)] = list(CURVED.values())
 
 
 def poly_of_grid(grid: Any, surfaces: Sequence[PatchSurface] | None, source: str) -> PolyMesh:
@@ -55,7 +68,7 @@ def list_half_faces(grid: Any, source: str) -> HalfFaces:
     InputError
         Cells of an unknown type, indices out of range, or more cells than 32-bit indices allow.
     """
-    types, n_points = cell_types(grid), grid.GetNumberOfPoints()
+    types, n_points = _STRAIGHT[cell_types(grid)], grid.GetNumberOfPoints()
     unknown = sorted(set(np.flatnonzero(np.bincount(types)).tolist()) - set(CELL_KINDS))
     if unknown:
         raise InputError(
@@ -92,11 +105,8 @@ def list_half_faces(grid: Any, source: str) -> HalfFaces:
     if n_entries > MOST_INDICES:
         raise InputError(f"{source}: {n_entries} points of faces are too many for 32-bit indices.")
     half = HalfFaces(*(np.empty(n, dtype=np.int32) for n in (len(types) + 1, n_faces + 1, n_entries)))
-    link(list_faces)(*given, *half)
-    least = np.diff(half.start).min()
-    if least < 3:
-        raise InputError(f"{source}: a face of {least} vertices; at least 3 are needed.")
-    return half
+    n_faces = link(list_faces)(*given, *half)
+    return HalfFaces(half.first, half.start[: n_faces + 1], half.points[: half.start[n_faces]])
 
 
 def _shapes() -> Ints:

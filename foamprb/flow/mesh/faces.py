@@ -48,8 +48,8 @@ def list_faces(
     first: Ints,
     start: Ints,
     lists: Ints,
-) -> None:
-    """List the faces of each cell, cell by cell.
+) -> int:
+    """List the faces of each cell, cell by cell; a hexahedron with repeated points is the prism that it is.
 
     Parameters
     ----------
@@ -61,6 +61,10 @@ def list_faces(
         The faces of polyhedra, (n + 1,) and indices, and the points of these faces.
     first, start, lists
         Results: the first face of each cell (n + 1,), and the faces.
+
+    Returns
+    -------
+    The number of faces.
     """
     face, at = 0, 0
     for c in range(types.shape[0]):
@@ -72,20 +76,33 @@ def list_faces(
                 break
             for j in range(size):
                 lists[at + j] = corners[corner_start[c] + shape[k, 1 + j]]
+            size = _without_repeats(lists, at, size)
             start[face] = at
-            face += 1
-            at += size
+            face += size > 2
+            at += size if size > 2 else 0
         if shape[0, 0] == 0:
             for k in range(poly_start[c], poly_start[c + 1]):
                 begin, size = face_start[poly_faces[k]], face_start[poly_faces[k] + 1]
                 size -= begin
                 for j in range(size):
                     lists[at + j] = face_points[begin + j]
+                size = _without_repeats(lists, at, size)
                 start[face] = at
-                face += 1
-                at += size
+                face += size > 2
+                at += size if size > 2 else 0
     first[types.shape[0]] = face
     start[face] = at
+    return face
+
+
+def _without_repeats(lists: Ints, at: int, size: int) -> int:
+    """Remove points that equal the next one from a face; return the number of points left."""
+    kept = 0
+    for j in range(size):
+        if lists[at + j] != lists[at + (j + 1 if j + 1 < size else 0)]:
+            lists[at + kept] = lists[at + j]
+            kept += 1
+    return kept
 
 
 def pair_faces(start: Ints, lists: Ints, head: Ints, following: Ints, mate: Ints) -> int:

@@ -7,6 +7,7 @@ patches: a patch is a ``wall`` unless the fluid moves on it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,13 @@ from foamprb.flow.read.checks import require_numbers, require_volumes
 from foamprb.flow.read.division import divided, patch_names
 from foamprb.flow.read.source import Division
 from foamprb.flow.read.times import choose_times, listed
-from foamprb.flow.read.vtkfile import grid_and_surfaces, read_file, solid_cells, times_of_file
+from foamprb.flow.read.vtkfile import (
+    grid_and_surfaces,
+    read_file,
+    require_joined,
+    solid_cells,
+    times_of_file,
+)
 from foamprb.flow.reconstruct import Reconstruction, from_points
 from foamprb.flow.series import series_of
 
@@ -48,7 +55,8 @@ def read_mesh_file(
         File with a suffix of :data:`~foamprb.flow.read.vtkfile.VTK_SUFFIXES` (``.series`` is ParaView's list
         of files with their times), or of a format that meshio reads.
     velocity
-        Name of the velocity array (n, 3), m/s, at cells or, if there is no such array, at points.
+        Name of the velocity array (n, 3), m/s, at cells or, if there is no such array, at points; or of three
+        arrays of its components, ``(Ux Uy Uz)``.
     time
         Value of a time, or ``latestTime``, for files that have times.
     gradient
@@ -107,7 +115,8 @@ def read_mesh_series(
 
     def read(name: str) -> tuple[Floats, Floats]:
         whole, now = grid_and_surfaces(read_file(path, name), path)
-        cells = solid_cells(whole, path)
+        cells = solid_cells(whole, path)[0]
+        join_components(velocity, cells, *(surface for _, surface in now))
         found = _topology(cells, now)
         if topology.keys() != found.keys() or not all(np.array_equal(topology[k], found[k]) for k in found):
             raise InputError(
@@ -170,7 +179,10 @@ class _NodalVelocity:
             self.notes = ["Velocities are point values; their gradient is first-order accurate."]
         else:
             names = sorted({*grid.cell_data.keys(), *grid.point_data.keys()})
-            raise InputError(f"{path}: no array {velocity}. {suggestion(velocity, names)}")
+            raise InputError(
+                f"{path}: no array {velocity}. {suggestion(velocity, names)} Three scalars are read by "
+                '-velocity "(Ux Uy Uz)".'
+            )
 
     def __call__(self, grid: Any, surfaces: Sequence[tuple[str, Any]]) -> tuple[Floats, Floats]:
         """Return velocity and gradient at the nodes, from the data read at any time.
@@ -239,12 +251,15 @@ def open_file(
     A patch on which the fluid is at rest at this time may move at other times, ``among`` which some are read.
     """
     whole, named = grid_and_surfaces(read_file(path, time), path)
-    grid = solid_cells(whole, path)
+    grid, notes = solid_cells(whole, path)
+    join_components(velocity, grid, *(surface for _, surface in named))
     require_numbers(np.asarray(grid.points, dtype=np.float64), path, "point")
     moving = _moving(named, velocity)
     for name in np.unique(np.linspace(0, len(among) - 1, min(len(among), _MOST_TIMES)).astype(int)):
         if len(moving) < len(named):
-            moving |= _moving(grid_and_surfaces(read_file(path, among[name]), path)[1], velocity)
+            now = grid_and_surfaces(read_file(path, among[name]), path)[1]
+            join_components(velocity, *(surface for _, surface in now))
+            moving |= _moving(now, velocity)
     surfaces = [PatchSurface(name, "patch" if name in moving else "wall", surface) for name, surface in named]
     if not surfaces:
         mesh, note = divided(grid, whole, division or Division(), path)
@@ -254,9 +269,22 @@ def open_file(
         mesh = build_mesh(grid, surfaces, source=str(path))
         note = f"The patches are those of the file: {patch_names(mesh)}."
     require_volumes(mesh, path)
-    if whole.n_cells > grid.n_cells:
-        note += f" {whole.n_cells - grid.n_cells} points, lines and surfaces among the cells are left out."
-    return grid, mesh, named, note
+    if not surfaces:
+        require_joined(mesh, path)
+    return grid, mesh, named, " ".join([note, *notes])
+
+
+_COMPONENTS = re.compile(r"\(\s*(\S+)\s+(\S+)\s+(\S+)\s*\)")
+
+
+def join_components(velocity: str, *data: Any) -> None:
+    """Add the velocity ``(Ux Uy Uz)`` to data that has these three scalars."""
+    match = _COMPONENTS.fullmatch(velocity)
+    for arrays in (arrays for part in data for arrays in (part.cell_data, part.point_data)):
+        if match and all(name in arrays for name in match.groups()):
+            arrays[velocity] = np.stack(
+                [np.asarray(arrays[name]).reshape(-1) for name in match.groups()], axis=1
+            )
 
 
 def _moving(surfaces: Sequence[tuple[str, Any]], velocity: str) -> set[str]:

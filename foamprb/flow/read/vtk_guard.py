@@ -25,7 +25,7 @@ __all__ = ["load_pyvista", "read_vtk", "require_survival", "times_of"]
 
 _LEAST_TIME = 20
 _MOST_FILES = 10_000
-_LISTS = frozenset({".vtm", ".pvd", ".pvtu"})
+_LISTS = frozenset({".vtm", ".pvd", ".pvtu", ".pvti", ".pvtr", ".pvts", ".case"})
 """Suffixes of files that include other files."""
 _lock = threading.Lock()
 _server: Any = None

@@ -15,20 +15,37 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError
-from foamprb.flow.mesh.cells import CELL_KINDS
+from foamprb.flow.mesh.boundary import mix
+from foamprb.flow.mesh.cells import CELL_KINDS, CURVED
+from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.read.times import listed, pick_time
 from foamprb.flow.read.vtk_guard import load_pyvista, read_vtk, require_survival, times_of
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.optional import load
 
-VTK_SUFFIXES = frozenset({".vtu", ".pvtu", ".vtk", ".vtkhdf", ".pvd", ".vtm", ".series"})
-_SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 12: 8, 13: 6, 14: 5}
+_PIECES = frozenset({".pvtu", ".pvti", ".pvtr", ".pvts"})
+VTK_SUFFIXES = _PIECES | {
+    ".vtu",
+    ".vti",
+    ".vtr",
+    ".vts",
+    ".vtk",
+    ".vtkhdf",
+    ".pvd",
+    ".vtm",
+    ".case",
+    ".series",
+}
+_SIZES = {1: 1, 3: 2, 5: 3, 8: 4, 9: 4, 10: 4, 11: 8, 12: 8, 13: 6, 14: 5}
 """Number of points of the kinds of cells with a fixed number."""
 _HEAD = re.compile(r"(?!nan|inf)[A-Za-z_]", re.IGNORECASE)
 _DATA = ("CELL_DATA", "POINT_DATA")
+_NEAR = 1e-3
+"""Distance of faces that lie on each other, as a fraction of their size."""
 
 
 def read_file(path: Path, time: float | str) -> Any:
@@ -76,11 +93,10 @@ def _read_by_vtk(path: Path, time: float | str) -> Any:
     found = _by_vtk(path, read_vtk, path, step)
     if path.suffix == ".vtk":
         _require_whole(path)
-    if path.suffix == ".pvtu":
-        # Remove the ghost cells of the pieces, then the duplicate points where the pieces meet.
+    if path.suffix in _PIECES:
+        # Remove the ghost cells of the pieces.
         ghosts = found.cell_data.get("vtkGhostType")
         found = found if ghosts is None else found.extract_cells(np.flatnonzero(np.asarray(ghosts) == 0))
-        found = found.clean(tolerance=0.0)
     return found
 
 
@@ -174,6 +190,11 @@ def _read_meshio(path: Path) -> Any:
         with contextlib.redirect_stdout(words), contextlib.redirect_stderr(words), np.errstate(all="ignore"):
             mesh = meshio.read(path)
             grid = pyvista.from_meshio(mesh)
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"{path}: meshio needs {error.name} for this format: pip install 'foamprb[meshes]', or in a "
+            "clone pip install '.[meshes]'."
+        ) from None
     except (Exception, SystemExit) as error:
         reason = str(error) if not isinstance(error, SystemExit) else " ".join(words.getvalue().split())
         raise InputError(f"{path}: meshio cannot read it: {reason or type(error).__name__}") from None
@@ -185,12 +206,18 @@ def _read_meshio(path: Path) -> Any:
 
 
 def grid_and_surfaces(data: Any, path: Path) -> tuple[Any, list[tuple[str, Any]]]:
-    """Return the one unstructured grid in the data, and the surfaces by name."""
+    """Return the unstructured grid of all cells in the data, and the surfaces by name."""
     pyvista = load_pyvista()
-    leaves = list(_leaves("", data))
+    structured = pyvista.ImageData, pyvista.RectilinearGrid, pyvista.StructuredGrid
+    leaves = [
+        (name, part.cast_to_unstructured_grid() if isinstance(part, structured) else part)
+        for name, part in _leaves("", data)
+    ]
     grids = [part for _, part in leaves if isinstance(part, pyvista.UnstructuredGrid) and part.n_cells]
-    if len(grids) != 1:
-        raise InputError(f"{path}: {len(grids)} unstructured grids with cells; exactly one is needed.")
+    if not grids:
+        raise InputError(f"{path}: no grid with cells.")
+    if len(grids) > 1:
+        grids = [pyvista.merge(grids, merge_points=False)]
     surfaces = [(name, part) for name, part in leaves if isinstance(part, pyvista.PolyData) and part.n_faces]
     names = [name for name, _ in surfaces]
     if len(set(names)) < len(names):
@@ -204,16 +231,47 @@ def _leaves(name: str, block: Any) -> list[tuple[str, Any]]:
     return [leaf for key, part in zip(block.keys(), block, strict=True) for leaf in _leaves(str(key), part)]
 
 
-def solid_cells(grid: Any, path: Path) -> Any:
-    """Return the grid without its points, lines and surfaces."""
+def solid_cells(grid: Any, path: Path) -> tuple[Any, list[str]]:
+    """Return the grid without its points, lines and surfaces, coinciding points merged; and notes."""
     kinds = np.unique(grid.celltypes).tolist()
     _require_lists(grid, path)
-    if not set(kinds) & set(CELL_KINDS):
+    if not set(kinds) & {*CELL_KINDS, *CURVED}:
         raise InputError(f"{path}: no cells of the allowed kinds {', '.join(CELL_KINDS.values())}.")
-    flat = [kind for kind in kinds if load_pyvista().CellType(kind).dimension < 3]
-    if not flat:
-        return grid
-    return grid.extract_cells(np.flatnonzero(~np.isin(grid.celltypes, flat)))
+    notes = []
+    flat = np.isin(grid.celltypes, [kind for kind in kinds if load_pyvista().CellType(kind).dimension < 3])
+    if flat.any():
+        notes.append(f"{flat.sum()} points, lines and surfaces among the cells are left out.")
+        grid = grid.extract_cells(np.flatnonzero(~flat))
+    curved = np.count_nonzero(np.isin(grid.celltypes, list(CURVED)))
+    if curved:
+        notes.append(f"{curved} cells of higher order are read by their corners alone, with plane faces.")
+    points = np.asarray(grid.points) + 0.0
+    codes = sum(
+        mix(mix(column.view(f"i{column.itemsize}")) + np.uint64(k))
+        for k, column in enumerate(points.T.copy())
+    )
+    copies = grid.n_points - len(np.unique(codes))
+    if copies:
+        notes.append(f"{copies} points that coincide with others are merged with them.")
+        grid = grid.clean(tolerance=0.0)
+    return grid, notes
+
+
+def require_joined(mesh: Mesh, path: Path) -> None:
+    """Raise InputError if boundary faces lie on each other, between cells that share no points."""
+    size = np.linalg.norm(mesh.boundary_areas, axis=1)
+    found = KDTree(mesh.boundary_centres).query(mesh.boundary_centres, k=2)
+    distance, other = np.asarray(found[0]), np.asarray(found[1])
+    along = np.einsum("fi,fi->f", mesh.boundary_areas, mesh.boundary_areas[other[:, 1]])
+    twice = np.flatnonzero(
+        (distance[:, 1] < _NEAR * np.sqrt(size)) & (along < -0.9 * size * size[other[:, 1]])
+    )
+    if len(twice):
+        x = "({:g} {:g} {:g})".format(*mesh.boundary_centres[twice[0]])
+        raise InputError(
+            f"{path}: {len(twice)} boundary faces lie on each other, the first at {x}: cells there share no "
+            "points, and particles could not pass. Merge the points, such as by ParaView's Clean to Grid."
+        )
 
 
 def _require_lists(grid: Any, path: Path) -> None:

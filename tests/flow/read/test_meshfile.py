@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import sys
 
 import meshio
 import numpy as np
@@ -11,6 +12,7 @@ from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFWriter
+from vtkmodules.vtkIOParallel import vtkEnSightWriter
 
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
@@ -61,6 +63,99 @@ def test_flat_cells_are_left_out_and_told(tmp_path):
     assert any(
         f"{side.n_cells} points, lines and surfaces among the cells are left out" in n for n in flow.notes
     )
+
+
+def apart(shape, shift=0.0):
+    """The same cells, each with points of its own."""
+    cells = [shape.extract_cells([k]) for k in range(shape.n_cells)]
+    for k, cell in enumerate(cells):
+        cell.points = np.asarray(cell.points) + shift * k
+    found = pyvista.merge(cells, merge_points=False)
+    assert found.n_points > shape.n_points
+    return found
+
+
+@pytest.mark.parametrize("kind", ["hexahedra", "polyhedra"])
+def test_cells_that_share_no_points_are_joined(kind, tmp_path):
+    """As discontinuous methods write them."""
+    shape = flowing(kind)
+    for name, data in (("own", apart(shape)), ("shared", shape)):
+        data.save(tmp_path / f"{name}.vtu")
+    own, shared = (read_mesh_file(tmp_path / f"{name}.vtu") for name in ("own", "shared"))
+    assert own.mesh.n_internal == shared.mesh.n_internal > 0
+    assert own.mesh.n_points == shared.mesh.n_points
+    assert any("points that coincide with others are merged" in note for note in own.notes)
+    apart(shape, 1e-7).save(tmp_path / "near.vtu")
+    with pytest.raises(
+        InputError, match=r"\d+ boundary faces lie on each other, the first at .* share no point"
+    ):
+        read_mesh_file(tmp_path / "near.vtu")
+
+
+def test_parts_of_a_mesh_are_joined(tmp_path):
+    shape = flowing()
+    left = np.asarray(shape.cell_centers().points)[:, 0] < 0.4
+    parts = [shape.extract_cells(np.flatnonzero(some)) for some in (left, ~left)]
+    pyvista.MultiBlock(parts).save(tmp_path / "flow.vtm")
+    assert read_mesh_file(tmp_path / "flow.vtm").mesh.n_internal == build_mesh(shape).n_internal
+
+
+@pytest.mark.parametrize("suffix", ["vti", "vtr", "vts", "vtk"])
+@pytest.mark.parametrize("where", ["cell_data", "point_data"])
+def test_structured_grids_are_read(suffix, where, tmp_path):
+    shape = pyvista.ImageData(dimensions=(4, 5, 6), spacing=(0.25, 0.2, 0.2))
+    places = shape.points if where == "point_data" else shape.cell_centers().points
+    shape = {"vtr": shape.cast_to_rectilinear_grid, "vts": shape.cast_to_structured_grid}.get(
+        suffix, shape.copy
+    )()
+    getattr(shape, where)["U"] = np.asarray(places) @ GRADIENT.T
+    shape.save(tmp_path / f"flow.{suffix}")
+    flow = read_mesh_file(tmp_path / f"flow.{suffix}")
+    assert flow.mesh.volumes == pytest.approx(np.full(60, 0.01))
+    x = np.array([[0.4, 0.5, 0.6]])
+    np.testing.assert_allclose(flow.sample(x, flow.locate(x), 0.0)[0], x @ GRADIENT.T, rtol=1e-6)
+
+
+def test_an_ensight_case_is_read(tmp_path):
+    shape = flowing()
+    shape.cell_data["BlockId"] = np.ones(shape.n_cells, dtype=np.int32)
+    writer = vtkEnSightWriter()
+    writer.SetFileName(str(tmp_path / "flow"))
+    writer.SetPath(str(tmp_path))
+    writer.SetBaseName("flow")
+    writer.SetInputData(shape)
+    writer.Write()
+    writer.WriteCaseFile(1)
+    flow = read_mesh_file(next(tmp_path.glob("*.case")), "U_c")
+    assert flow.mesh.volumes.sum() == pytest.approx(1.0, rel=1e-6)
+
+
+@pytest.mark.parametrize("where", ["cell_data", "point_data"])
+def test_a_velocity_may_be_three_scalars(where, tmp_path):
+    shape = flowing()
+    shape.point_data["U"] = np.asarray(shape.points) @ GRADIENT.T
+    shape.save(tmp_path / "vector.vtu")
+    u = getattr(shape, where)["U"]
+    shape.clear_data()
+    for k, name in enumerate("xyz"):
+        getattr(shape, where)[f"u_{name}"] = u[:, k]
+    shape.save(tmp_path / "flow.vtu")
+    x = np.array([[0.4, 0.5, 0.6]])
+    flow = read_mesh_file(tmp_path / "flow.vtu", "(u_x u_y u_z)")
+    np.testing.assert_allclose(flow.sample(x, flow.locate(x), 0.0)[0], x @ GRADIENT.T, atol=1e-5)
+    with pytest.raises(
+        InputError, match=r"no array U\. .* Three scalars are read by -velocity .\(Ux Uy Uz\)"
+    ):
+        read_mesh_file(tmp_path / "flow.vtu")
+
+
+def test_a_missing_package_of_a_format_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    (tmp_path / "flow.h5m").write_bytes(b"x")
+    with pytest.raises(
+        InputError, match=r"meshio needs h5py for this format: pip install 'foamprb\[meshes\]'"
+    ):
+        read_mesh_file(tmp_path / "flow.h5m")
 
 
 def test_a_series_of_foam_to_vtk(tmp_path):
