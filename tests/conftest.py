@@ -13,6 +13,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.database import DirectoryBasedExampleDatabase
 
+from foamprb.body.material import MATERIALS
+
 # Compiled code and shared machines make single examples slow at times; that is no failure.
 settings.register_profile(
     "ci",
@@ -38,6 +40,15 @@ def _compile_in_one_process() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("foamprb.run.compilation.available_threads", lambda: 1)
         yield
+
+
+@pytest.fixture
+def solids() -> Iterator[None]:
+    """Remove the solids that a test adds."""
+    before = dict(MATERIALS)
+    yield
+    MATERIALS.clear()
+    MATERIALS.update(before)
 
 
 @pytest.fixture

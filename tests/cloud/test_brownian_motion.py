@@ -72,7 +72,7 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
 
 def test_heights_over_a_wall_come_to_boltzmanns():
     """With the hindered mobility, whose drift lets heights come to exp(−W h/kT) and no other distribution."""
-    n = 1500
+    n = 1000
     rho = 1000.0 + KT / (R * 9.81 * 4.0 / 3.0 * np.pi * R**3)
     heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
     p = beads(n, rho=rho)
@@ -81,7 +81,7 @@ def test_heights_over_a_wall_come_to_boltzmanns():
     p.x[:, 2] = R * (1.0 + random.exponential(1.0, n))
     dt = 2e-3 * R**2 / D
     models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
-    carried(p, 500, dt, flow=analytic.shear_over_wall(0.0), medium=heavy, models=models)
+    carried(p, 400, dt, flow=analytic.shear_over_wall(0.0), medium=heavy, models=models)
     gaps = p.x[:, 2] / R - 1.0
     assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
     assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3

@@ -15,12 +15,10 @@ from llvmlite import binding
 
 import foamprb
 from foamprb.body.tensor import longest_stretch, principal_frame
-from foamprb.cloud.layout import LANES
 from foamprb.compile import link as compiling
 from foamprb.compile.link import compile_part, link, read_by
 
 FIRST, SECOND = 2, 3
-MANY = 48
 
 
 def has_registers_of_512_bits():
@@ -106,19 +104,6 @@ def roots(values):
 def roots_of_both(values, others):
     roots(values)
     roots(others)
-
-
-# All the roots of a lane are wanted before the first of them can go.
-exec(
-    "def many_at_once(values):\n    for i in range(LANES):\n"
-    + "".join(f"        r{k} = math.sqrt(values[{k} * LANES + i])\n" for k in range(MANY))
-    + "".join(f"        values[{k} * LANES + i] = r{k} / r{MANY - 1 - k}\n" for k in range(MANY))
-)
-
-
-def first_of_many(values):
-    many_at_once(values)  # noqa: F821
-    return values[0]
 
 
 def doubled(x):
@@ -283,19 +268,6 @@ def test_what_is_called_uses_the_widest_registers(cache):
     np.testing.assert_array_equal(values, np.sqrt(np.arange(20.0)))
     (assembly,) = f.inspect_asm().values()
     assert re.search(r"vsqrtpd[^\n]*%zmm", assembly)
-
-
-@pytest.mark.skipif(not has_registers_of_512_bits(), reason="the processor has no registers of 512 bits")
-def test_what_registers_have_no_room_for_lies_on_whole_lines(cache):
-    """Where the stack is taken as it is found, registers are saved across lines, and some across pages."""
-    f = link(first_of_many, separate=(many_at_once,))  # noqa: F821
-    values = np.full(MANY * LANES, 4.0)
-    f(values)
-    np.testing.assert_array_equal(values, 1.0)
-    (assembly,) = f.inspect_asm().values()
-    assert re.search(r"and[q]?\s+\$-64, %rsp", assembly)
-    assert re.search(r"vmovap[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
-    assert not re.search(r"vmovup[sd]\s+%zmm\d+, \d*\(%rsp\)", assembly)
 
 
 def test_what_else_a_function_carries_does_not_change_its_code(cache, monkeypatch):

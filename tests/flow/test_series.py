@@ -123,15 +123,14 @@ def test_turbulence_that_is_linear_in_place_and_time_is_met_exactly(mesh, random
                 np.testing.assert_allclose(np.hstack(found), exact(x, t), rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("integrator", ["rosenbrock", "stokes"])
 def test_particles_go_through_files_as_through_the_flow_itself(mesh, integrator):
-    steps = 400 if integrator == "paper" else 40
     moved = [
-        cloud_in(flow, 0.4 / steps, integrator)
+        cloud_in(flow, 0.01, integrator)
         for flow in (in_files(mesh, [0.0, 0.13, 0.4], growth=1.0), in_closed_form(growth=1.0))
     ]
     for cloud in moved:
-        cloud.advance(steps)
+        cloud.advance(40)
     files, exact = (cloud.particles for cloud in moved)
     assert (files.status == Status.ACTIVE).all()
     np.testing.assert_allclose(files.x, exact.x, rtol=0, atol=1e-10)

@@ -233,20 +233,6 @@ def test_boxes_are_as_far_apart_as_their_nearest_points(random):
         assert wall_lists._middle(a, k) == tuple(0.5 * (a[k, :3] + a[k, 3:]))
 
 
-def test_extent_of_a_box_along_a_direction(random):
-    p, half = random.normal(size=3), np.abs(random.normal(size=3))
-    ends = np.array(list(itertools.product((-1.0, 1.0), repeat=3))) * half
-    assert wall_lists._extent(p, half) == pytest.approx((ends @ p).max())
-
-
-def test_a_part_of_a_list_is_sorted():
-    numbers = np.array([9, 5, 3, 8, 3, 1, 0])
-    wall_lists._sort(numbers, 1, 6)
-    assert numbers.tolist() == [9, 1, 3, 3, 5, 8, 0]
-    wall_lists._sort(numbers, 0, 1)
-    assert numbers.tolist() == [9, 1, 3, 3, 5, 8, 0]
-
-
 def soup(random, n=40, size=0.4):
     corners = random.normal(size=(n, 1, 3)) + size * random.normal(size=(n, 3, 3))
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -265,68 +251,6 @@ def test_the_nearest_triangle_of_a_tree_is_the_nearest_of_all(random):
             assert found == (k, pytest.approx(distances[k]))
             cut = 0.99 * distances[k]
             assert wall_lists.nearest_triangle(tree, tuple(x), cut, seed) == (-1, pytest.approx(cut))
-
-
-def test_the_cone_of_a_node_holds_the_normals_below_it(random):
-    corners, normals = soup(random, 45)
-    normals[:, 2] = np.abs(normals[:, 2]) + 0.5
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    tree = wall_lists.wall_tree(corners, normals)
-    leaves = len(tree.leaves)
-    assert leaves > 4
-    cones = wall_lists._cones(normals, np.arange(45) == 13, tree.leaves)
-    for leaf, members in enumerate(tree.leaves):
-        own, node = members[members >= 0], leaves + leaf
-        axis = normals[own].sum(axis=0)
-        assert cones[node, :3] == pytest.approx(axis / np.linalg.norm(axis))
-        angle = np.arccos(normals[own] @ cones[node, :3]).max()
-        assert cones[node, 3] == pytest.approx(angle, abs=1e-7)
-        while node:
-            assert cones[node, 4] == 1.0 or 13 not in own
-            assert (
-                np.arccos(np.clip(normals[own] @ cones[node, :3], -1.0, 1.0)).max() <= cones[node, 3] + 1e-7
-            )
-            node //= 2
-    marked = int(np.flatnonzero((tree.leaves == 13).any(axis=1))[0]) + leaves
-    assert [n for n in range(1, 2 * leaves) if cones[n, 4]] == sorted(
-        marked >> k for k in range(marked.bit_length())
-    )
-    for node in range(1, leaves):
-        two = cones[2 * node : 2 * node + 2]
-        axis = two[:, :3].sum(axis=0)
-        assert cones[node, :3] == pytest.approx(axis / np.linalg.norm(axis))
-        angle = (np.arccos(two[:, :3] @ cones[node, :3]) + two[:, 3]).max()
-        assert cones[node, 3] == pytest.approx(min(angle, np.pi), abs=1e-7)
-
-
-def test_unit_vectors_of_rows():
-    found = wall_lists._unit(np.array([[0.0, 3.0, 4.0], [0.0, 0.0, 1e-13], [0.0, -2.0, 0.0]]))
-    assert found.tolist() == [[0.0, 0.6, 0.8], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]]
-
-
-def test_a_node_is_faced_from_where_a_perpendicular_may_end_on_it(random):
-    """One triangle: its cone is its normal. From far, only in a narrow cone about it."""
-    corners, normals = soup(random, 1, 0.05)
-    tree = wall_lists.wall_tree(corners, normals)
-    middle = 0.5 * (corners[0].min(axis=0) + corners[0].max(axis=0))
-    blur = 0.1 + 0.5 * np.linalg.norm(np.ptp(corners[0], axis=0))
-    across = np.cross(normals[0], [0.3, 0.5, 0.7])
-    across /= np.linalg.norm(across)
-    for length, width in ((2.0, 0.0), (5.0, 0.0), (5.0, 0.7)):
-        tree.cones[1, 3] = width
-        limit = width + np.arcsin(blur / length)
-        for angle, seen in ((0.0, True), (0.95 * limit, True), (1.05 * limit, False), (3.0, False)):
-            for turn in np.linspace(0.0, 2.0 * np.pi, 7):
-                side = np.cos(turn) * across + np.sin(turn) * np.cross(normals[0], across)
-                x = middle + length * (np.cos(angle) * normals[0] + np.sin(angle) * side)
-                assert wall_lists._faces(tree, 1, tuple(x), 0.1) == seen
-    # A cone of all directions.
-    tree.cones[1, 3] = 3.14
-    assert wall_lists._faces(tree, 1, tuple(middle - 5.0 * normals[0]), 0.1)
-    tree.cones[1, 3] = 0.0
-    # Near, from everywhere.
-    assert wall_lists._faces(tree, 1, tuple(middle - 0.99 * blur * normals[0]), 0.1)
-    assert not wall_lists._faces(tree, 1, tuple(middle - 1.01 * blur * normals[0]), 0.1)
 
 
 def test_triangles_of_a_plane_are_known_as_such(random):

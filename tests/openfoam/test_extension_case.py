@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
-from importlib.util import module_from_spec, spec_from_file_location
-
 import numpy as np
 import pytest
-from paths import ROOT
+from paths import ROOT, load
 
-import foamprb
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-EXTENSION = ROOT / "cases/extension"
+CASE = ROOT / "cases/extension"
 U_MEAN, R1, R2, CONE = 0.02, 350e-6, 117e-6, 1500e-6
 MESH_ERROR = 0.015
 """Of ∂u/∂x on the axis of the coarse mesh, over its largest value: the trace of its ∇u reaches 1.3 %."""
@@ -22,27 +18,7 @@ SECOND_ORDER = 0.2
 """Of D² is left out by a theory of first order; the observed part is a tenth."""
 
 
-def load_check():
-    spec = spec_from_file_location("check_extension", EXTENSION / "check.py")
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-check = load_check()
-
-
-@pytest.fixture(scope="module")
-def live(tmp_path_factory):
-    """A fresh coarse run of the case."""
-    folder = tmp_path_factory.mktemp("live") / "extension"
-    subprocess.run([EXTENSION / "Allrun", "coarse", folder], check=True)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def job(live):
-    return foamprb.prepare(live)
+check = load(CASE / "check.py")
 
 
 @pytest.fixture(scope="module")

@@ -15,20 +15,14 @@ from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
+CASE = PIPE
+
 D = 5e-6
 
 
 def fates(case):
     with (case / "postProcessing/softCloud/fates.csv").open() as file:
         return list(csv.DictReader(file))
-
-
-@pytest.fixture(scope="module")
-def live(tmp_path_factory):
-    """A fresh coarse run of the case."""
-    folder = tmp_path_factory.mktemp("live") / "pipe"
-    subprocess.run([PIPE / "Allrun", "coarse", folder], check=True)
-    return folder
 
 
 def test_committed_flow_is_what_a_live_run_gives(live):

@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
-from importlib.util import module_from_spec, spec_from_file_location
 
 import numpy as np
 import pytest
-from paths import ROOT
+from paths import ROOT, load
 
 import foamprb
 from foamprb.cli import main
@@ -25,22 +24,7 @@ MEAN_FLOW = 0.012
 """Error of the coarse mesh's mean flow, which carries the particles astray."""
 
 
-def load_check():
-    spec = spec_from_file_location("check_pulsatile", CASE / "check.py")
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-check = load_check()
-
-
-@pytest.fixture(scope="module")
-def live(tmp_path_factory):
-    """A fresh coarse run of the case."""
-    folder = tmp_path_factory.mktemp("live") / "pulsatilePipe"
-    subprocess.run([CASE / "Allrun", "coarse", folder], check=True)
-    return folder
+check = load(CASE / "check.py")
 
 
 @pytest.fixture(scope="module")

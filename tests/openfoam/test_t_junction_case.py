@@ -2,36 +2,20 @@
 
 from __future__ import annotations
 
-import subprocess
-
 import numpy as np
 import pytest
 from figures import t_junction
 from paths import ROOT
 
-import foamprb
 from foamprb.cli import main
 
 pytestmark = pytest.mark.openfoam
 
-T_JUNCTION = ROOT / "cases/tJunction"
+CASE = ROOT / "cases/tJunction"
 FLOW, SHARE = 1e-10, 0.5
 STIFF, SOFT = 0.001, 0.1
 BAND = 2e-6
 """About the dividing streamline, m: a bead so close to it may creep along the wall for seconds."""
-
-
-@pytest.fixture(scope="module")
-def live(tmp_path_factory):
-    """A fresh coarse run of the case."""
-    folder = tmp_path_factory.mktemp("live") / "tJunction"
-    subprocess.run([T_JUNCTION / "Allrun", "coarse", folder], check=True)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def job(live):
-    return foamprb.prepare(live)
 
 
 @pytest.fixture(scope="module")

@@ -53,7 +53,15 @@ def test_one_processor_compiles_alone(two_processors, monkeypatch):
     Compilation(loop(), MeshFlow).wait()
 
 
-def test_no_process_outlives_an_error_in_the_input(two_processors, tmp_path, monkeypatch, capsys):
+@pytest.fixture
+def nothing_to_compile(monkeypatch):
+    """The first process compiles none of the parts."""
+    for name in ("compile_contact", "compile_stages"):
+        monkeypatch.setattr(Tracker, name, lambda *_: None)
+
+
+@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+def test_no_process_outlives_an_error_in_the_input(tmp_path, monkeypatch, capsys):
     started, popen = [], subprocess.Popen
 
     def start(*arguments, **options):
@@ -68,7 +76,8 @@ def test_no_process_outlives_an_error_in_the_input(two_processors, tmp_path, mon
     assert started[0].returncode is not None
 
 
-def test_a_stopped_process_is_not_waited_for(two_processors):
+@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+def test_a_stopped_process_is_not_waited_for():
     tracker = loop()
     compilation = Compilation(tracker, MeshFlow)
     compilation.stop()
@@ -77,7 +86,8 @@ def test_a_stopped_process_is_not_waited_for(two_processors):
     assert not tracker.compiled
 
 
-def test_a_process_that_cannot_start_is_ignored(two_processors, monkeypatch):
+@pytest.mark.usefixtures("two_processors", "nothing_to_compile")
+def test_a_process_that_cannot_start_is_ignored(monkeypatch):
     monkeypatch.setattr("foamprb.run.compilation.sys.executable", "/bin/false")
     tracker = loop()
     Compilation(tracker, MeshFlow).wait()

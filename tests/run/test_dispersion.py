@@ -36,6 +36,7 @@ def test_without_epsilon_the_run_ends_with_one_message(case, capsys):
 
 
 def test_a_run_that_goes_on_ends_as_one_that_was_not_interrupted(case, tmp_path):
+    edit(case, r"shape\s+paper;", "shape stokes;")
     assert main(["run", "-case", str(case), "-threads", "2"]) == 0
     expected = fates(case)
     edit(case, r"endTime\s+\S+;", "endTime 0.003;")

@@ -65,7 +65,7 @@ def test_the_record_has_every_model_and_warning_of_the_log(case, capsys):
     models = "wallLift; faxenCorrection; BrownianMotion { T 30000; }"
     text = file.read_text().replace("gravity;", f"gravity; {models}", 1)
     file.write_text(text)
-    change(case, "shape", "rosenbrock")
+    change(case, "shape", "stokes")
     change(case, "deltaT", "2e-4")
     assert main(["run", "-case", str(case)]) == 0
     log, found = capsys.readouterr().out, record(case)

@@ -37,13 +37,9 @@ foamprb.add_material("fung", energy, parameter=foamprb.Parameter("stiffening", 0
 
 
 @pytest.fixture(autouse=True)
-def registry(monkeypatch):
-    """Solids that a test adds are gone after it."""
+def registry(monkeypatch, solids):
+    """No file has been loaded."""
     monkeypatch.setattr("foamprb.settings.libs._loaded", {})
-    before = dict(MATERIALS)
-    yield
-    MATERIALS.clear()
-    MATERIALS.update(before)
 
 
 def own_energy(I1, I2, J, mu, lame, k):
