@@ -50,6 +50,21 @@ def atomic_write(path: Path) -> Iterator[Path]:
         raise
 
 
+def refuse_other_kind(path: Path, *beginnings: bytes) -> None:
+    """Refuse to replace an existing file that is not of the kind to be written, as an input of the user.
+
+    Raises
+    ------
+    InputError
+        If the file has contents, and begins otherwise.
+    """
+    if path.is_file():
+        with path.open("rb") as file:
+            head = file.read(max(map(len, beginnings)))
+        if head and not head.startswith(beginnings):
+            raise InputError(f"{path}: a file of another kind, which is kept. Choose another name.")
+
+
 def write_text(path: Path, text: str) -> None:
     """Write a text file in one step.
 

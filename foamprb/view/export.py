@@ -14,6 +14,7 @@ from foamprb.errors import InputError
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
+from foamprb.results.atomic import refuse_other_kind
 from foamprb.results.foam import remove_lagrangian, write_lagrangian
 from foamprb.results.ovito import write_dump
 from foamprb.results.vtk import write_vtkhdf
@@ -23,6 +24,7 @@ __all__ = ["export"]
 
 _TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "ovito": "{}.dump"}
 """Default file or folder of each kind, beside the results."""
+_BEGINNINGS = {"vtkhdf": b"\x89HDF", "ovito": b"ITEM: TIMESTEP"}
 
 
 def export(
@@ -55,6 +57,8 @@ def export(
     run = open_run(case, cloud, source.region)
     source = run.source(source)
     target = output or run.folder / _TARGETS[kind].format(run.name)
+    if kind in _BEGINNINGS:
+        refuse_other_kind(target, _BEGINNINGS[kind])
     if kind == "vtkhdf":
         write_vtkhdf(target, [entry.time for entry in run.entries], run.cloud)
     elif kind == "ovito":
@@ -71,6 +75,12 @@ def _write_lagrangian(target: Path, run: Run, flow: MeshFlow) -> None:
     """Write ``<time>/lagrangian/<cloud>`` of all times, without escaped and failed particles."""
     # An earlier run may have had other times.
     remove_lagrangian(target, run.name)
+    for time in run.times:
+        for part in ("lagrangian", "uniform/lagrangian"):
+            if (found := target / f"{time:.12g}" / part / run.name).exists():
+                raise InputError(
+                    f"{found}: not written by foamprb; it is kept. Use another -output, or remove it."
+                )
     for index in range(len(run.entries)):
         cloud = run.cloud(index)
         inside = np.isin(cloud.arrays["status"], (Status.ACTIVE, Status.STUCK))

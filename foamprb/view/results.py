@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,13 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.read.source import FlowSource
+from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
-from foamprb.results.pvd import SnapshotFile, read_pvd
+from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
+from foamprb.results.vtk_check import is_compressed, require_sizes
 from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
@@ -239,7 +242,13 @@ class Run:
             vtk_to_numpy(part).astype(np.int64)
             for part in (data.GetLines().GetOffsetsArray(), data.GetLines().GetConnectivityArray())
         )
-        if any(name not in at_points for name in wanted) or len(at_lines.get("origId", ())) != len(start) - 1:
+        sound = (np.diff(start) >= 0).all() and ((order >= 0) & (order < data.GetNumberOfPoints())).all()
+        sound &= len(start) > 0 and start[0] == 0 and start[-1] == len(order)
+        if (
+            not sound
+            or any(name not in at_points for name in wanted)
+            or len(at_lines.get("origId", ())) != len(start) - 1
+        ):
             raise InputError(f"{file}: not the paths that the cloud function particleTracks writes.")
         values = {name: at_points[name][order] for name in wanted}
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
@@ -285,6 +294,7 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
     """Read a VTK file of points or lines, with all its point arrays or some of them."""
     if not path.exists():
         raise InputError(f"{path}: missing, though the list of files names it. {_AGAIN}")
+    _require_sound(path)
     reader = vtkXMLPPolyDataReader() if path.suffix == ".pvtp" else vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
     with vtk_messages() as said:
@@ -298,6 +308,19 @@ def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
     if said.errors:
         raise InputError(f"{path}: damaged ({said.errors[0].rstrip('.')}). {_AGAIN}")
     return reader.GetOutput()
+
+
+def _require_sound(path: Path) -> None:
+    """Refuse a file on which VTK could crash."""
+    try:
+        for file in files_of(path):
+            if file.suffix == ".vtp" and is_compressed(file):
+                require_sizes(file)
+            else:
+                # Of a cloud in pieces, or written by another program.
+                require_survival(file)
+    except (OSError, ValueError, KeyError, ElementTree.ParseError) as error:
+        raise InputError(f"{path}: damaged ({error}). {_AGAIN}") from error
 
 
 def _points(data: Any) -> NDArray[np.float64]:

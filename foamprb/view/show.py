@@ -17,7 +17,7 @@ import numpy as np
 from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
-from foamprb.results.atomic import atomic_write
+from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.settings.fluid import read_gravity
 from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
 from foamprb.view.colours import DARK, LIGHT
@@ -46,6 +46,7 @@ ORDER = ("taylorDeformation", "shearRate", "U", "Ca", "t0", "t1", "d", "rho", "a
 _BYTES_PER_STATE = 8
 """Least size of a body at one time in a page."""
 _TIMES_TOLERANCE = 1e-9
+PAGE_BEGINS = b"<!doctype html"
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,8 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     OSError
         If the file cannot be written.
     """
+    if path is not None:
+        refuse_other_kind(path, PAGE_BEGINS)
     if not megabytes >= 1.0:
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
@@ -232,6 +235,10 @@ def picture_of(
         If the file cannot be written.
     """
     style = DARK if dark else LIGHT
+    if png is not None:
+        refuse_other_kind(png, b"\x89PNG")
+    if movie is not None:
+        refuse_other_kind(movie, b"GIF8", b"\0\0\0")
     if png is None and movie is None and not has_display():
         raise InputError(
             "-window needs a display. Without one: -png FILE, -film FILE, or the page that view writes."

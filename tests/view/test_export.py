@@ -15,6 +15,7 @@ import foamprb
 from foamprb import read_case
 from foamprb.cli import main
 from foamprb.results.ovito import write_dump
+from foamprb.results.tables import write_table
 
 
 @pytest.fixture
@@ -103,6 +104,27 @@ def test_openfoams_files_go_into_the_case_if_asked(case):
     export(case, "openfoam", "-output", str(case))
     assert (case / "0.4/lagrangian/softCloud/positions").exists()
     assert not (case / "constant").is_symlink()
+
+
+def test_a_foreign_cloud_of_the_same_name_is_kept(case, capsys):
+    foreign = case / "0.4/lagrangian/softCloud/positions"
+    foreign.parent.mkdir(parents=True)
+    foreign.write_text("of a solver")
+    assert main(["export", "openfoam", "-case", str(case), "-output", str(case)]) == 1
+    assert "lagrangian/softCloud: not written by foamprb; it is kept" in capsys.readouterr().err
+    assert foreign.read_text() == "of a solver"
+    assert not list(case.glob("0.[0-3]/lagrangian"))
+
+
+@pytest.mark.parametrize("command", [["view"], ["report"], ["view", "-png"], ["export", "ovito"]])
+def test_an_output_replaces_no_file_of_another_kind(command, case, capsys):
+    file = case / "constant/softCloudProperties"
+    file.write_text("solution { }")
+    write_table(case / "postProcessing/softCloud/fates.csv", {"id": []})
+    option = [] if "-png" in command else ["-output"]
+    assert main([*command, *option, str(file), "-case", str(case)]) == 1
+    assert "softCloudProperties: a file of another kind, which is kept" in capsys.readouterr().err
+    assert file.read_text() == "solution { }"
 
 
 @pytest.mark.parametrize("inside", [False, True])

@@ -13,6 +13,7 @@ from view_run import PATCHES, motion, write_run
 
 from foamprb import memory
 from foamprb.cli import main
+from foamprb.errors import InputError
 from foamprb.results.tables import write_table
 from foamprb.view.geometry import Surface
 from foamprb.view.report import plots
@@ -200,3 +201,14 @@ def test_where_memory_is_short_the_report_has_no_picture(case, tmp_path, monkeyp
     monkeypatch.setattr(memory, "_limit", lambda _: 1e6)
     text = write_report(case, tmp_path / "report.html").read_text(encoding="utf-8")
     assert re.search(r"No picture: not enough memory for .*60 bodies drawn; needs", text)
+
+
+@pytest.mark.parametrize("record", ['{"warnings": 3}', '{"versions": 1}'])
+def test_an_edited_record_is_one_message(case, record):
+    file = case / "postProcessing/softCloud/run.json"
+    file.write_text(record)
+    try:
+        with pytest.raises(InputError, match=r"run\.json or a table is not as foamprb run wrote it"):
+            write_report(case)
+    finally:
+        file.unlink()

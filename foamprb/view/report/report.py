@@ -19,7 +19,7 @@ from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.source import FlowSource
 from foamprb.memory import OutOfMemory
-from foamprb.results.atomic import atomic_write
+from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.results.folder import RECORD_FORMAT, file_name
 from foamprb.view.colours import DARK, LIGHT, written
 from foamprb.view.geometry import Geometry, boundary
@@ -28,7 +28,7 @@ from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
-from foamprb.view.show import Request, make_scene, spread
+from foamprb.view.show import PAGE_BEGINS, Request, make_scene, spread
 
 __all__ = ["write_report"]
 
@@ -91,31 +91,38 @@ def write_report(
     """
     run = open_run(case, cloud, source.region if source else "")
     source = run.source(source)
+    target = output or run.results.report
+    refuse_other_kind(target, PAGE_BEGINS)
     fates = run.fates()
     if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
-    target = output or run.results.report
     given = _Given(run, fates, _geometry(case, source), tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
-    sections = [
-        _scene(given, Request(case, cloud, source), target),
-        _fates(given),
-        _deposition(given),
-        _residence(given),
-        _deformation(given),
-        _exposure(given),
-        _along_paths(given),
-        _record(given),
-    ]
-    # The list of files includes the plots of all other sections.
-    sections.append(_files(given, target, beside))
-    text = page(
-        f"{case.resolve().name}: {run.name}",
-        _subtitle(run),
-        _cards(fates),
-        run.record.get("warnings", ()),
-        [section for section in sections if section is not None],
-    )
+    try:
+        sections = [
+            _scene(given, Request(case, cloud, source), target),
+            _fates(given),
+            _deposition(given),
+            _residence(given),
+            _deformation(given),
+            _exposure(given),
+            _along_paths(given),
+            _record(given),
+        ]
+        # The list of files includes the plots of all other sections.
+        sections.append(_files(given, target, beside))
+        text = page(
+            f"{case.resolve().name}: {run.name}",
+            _subtitle(run),
+            _cards(fates),
+            run.record.get("warnings", ()),
+            [section for section in sections if section is not None],
+        )
+    except (AttributeError, LookupError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{run.folder}: run.json or a table is not as foamprb run wrote it "
+            f"({type(error).__name__}: {error}). Run the particles again: foamprb run."
+        ) from error
     for name, plot in given.made.items():
         for ending, data in ((".svg", plot.svg_file), (".png", plot.png)):
             with atomic_write(beside / f"{name}{ending}") as temporary:

@@ -1,0 +1,120 @@
+"""Check of ``.vtp`` files before VTK reads them: VTK trusts their headers, and may crash on damaged ones."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import BinaryIO
+from xml.etree import ElementTree
+
+__all__ = ["is_compressed", "require_sizes"]
+
+_HEAD, _DATA = b'compressor="vtkLZ4DataCompressor"', b'<AppendedData encoding="raw">'
+_BYTES = {"Int8": 1, "UInt8": 1, "Int16": 2, "UInt16": 2, "Int32": 4, "UInt32": 4, "Int64": 8, "UInt64": 8,
+          "Float32": 4, "Float64": 8}  # fmt: skip
+_MOST_HEADER = 1 << 24
+_CELLS = ("Verts", "Lines", "Strips", "Polys")
+
+
+def is_compressed(path: Path) -> bool:
+    """Return whether a file has the form in which foamprb writes VTK's files."""
+    with path.open("rb") as file:
+        return _HEAD in file.read(300)
+
+
+def require_sizes(path: Path) -> None:
+    """Check that the sizes in the header of a compressed ``.vtp`` file are those of its data.
+
+    Raises
+    ------
+    ValueError
+        If they are not, or the header cannot be read; with the reason.
+    """
+    with path.open("rb") as file:
+        head = file.read(_MOST_HEADER)
+        start = head.find(_DATA)
+        first = head.find(b"_", start + len(_DATA)) + 1
+        if start < 0 or first == 0:
+            raise ValueError("it has no data")
+        try:
+            root = ElementTree.fromstring(head[:start] + b"</VTKFile>")
+        except ElementTree.ParseError as error:
+            raise ValueError(f"its header cannot be read: {error}") from error
+        order = {"LittleEndian": "<", "BigEndian": ">"}.get(root.get("byte_order", ""))
+        word = {"UInt32": "I", "UInt64": "Q"}.get(root.get("header_type", ""))
+        pieces = root.findall("PolyData/Piece")
+        if order is None or word is None or len(pieces) != 1:
+            raise ValueError("its header cannot be read")
+        end = path.stat().st_size
+        counts = {name: int(pieces[0].get(f"NumberOf{name}", "0")) for name in ("Points", *_CELLS)}
+        counts |= {"PointData": counts["Points"], "CellData": sum(counts[name] for name in _CELLS)}
+        places = []
+        for section in (*root.findall("PolyData/FieldData"), *pieces[0]):
+            for array in (*section.iter("DataArray"), *section.iter("Array")):
+                name, kind, at = (array.get(key, "") for key in ("Name", "type", "offset"))
+                size, packed = _blocks(file, first + int(at), end, order + word)
+                places.append((int(at), packed[-1][0] + packed[-1][1] - first))
+                tuples = int(array.get("NumberOfTuples", str(counts.get(section.tag, -1))))
+                if kind == "String":
+                    _require_texts(name, b"".join(_unpacked(file, *block) for block in packed[1:]), tuples)
+                    continue
+                expected = tuples * int(array.get("NumberOfComponents", "1")) * _BYTES.get(kind, 0)
+                if name != "connectivity" and size != expected:
+                    raise ValueError(f"{name or section.tag} has {size} bytes of data, not {expected}")
+        places.sort()
+        begins, ends = ([place[k] for place in places] for k in (0, 1))
+        if begins != [0, *ends[:-1]]:
+            raise ValueError("its header does not match its data")
+
+
+def _blocks(file: BinaryIO, at: int, end: int, word: str) -> tuple[int, list[tuple[int, int]]]:
+    """Return the size of the decompressed data at a place of a file, and its head and blocks."""
+    n = struct.calcsize(word)
+    if not 0 <= at <= end - n:
+        raise ValueError("it is cut short")
+    file.seek(at)
+    (blocks,) = struct.unpack(word, file.read(n))
+    head = n * (3 + blocks)
+    if at + head > end:
+        raise ValueError("it is cut short")
+    size, last, *packed = struct.unpack(f"{word[0]}{2 + blocks}{word[1]}", file.read(head - n))
+    places = [(at, head)]
+    for length in packed:
+        places.append((sum(places[-1]), length))
+    if sum(places[-1]) > end:
+        raise ValueError("it is cut short")
+    return int((blocks - 1) * size + (last or size)) if blocks else 0, places
+
+
+def _require_texts(name: str, data: bytes, count: int) -> None:
+    if data.count(b"\0") != count or (count and not data.endswith(b"\0")):
+        raise ValueError(f"{name} has other texts than its header says")
+
+
+def _unpacked(file: BinaryIO, at: int, size: int) -> bytes:
+    """Decompress a block of LZ4, which holds some texts."""
+    file.seek(at)
+    data, found, k = file.read(size), bytearray(), 0
+    try:
+        while True:
+            token, k = data[k], k + 1
+            length, k = _length(data, k, token >> 4)
+            found += data[k : k + length]
+            k += length
+            if k >= size:
+                return bytes(found)
+            offset, k = data[k] | data[k + 1] << 8, k + 2
+            length, k = _length(data, k, token & 15)
+            for _ in range(length + 4):
+                found.append(found[-offset])
+    except IndexError:
+        raise ValueError("a text cannot be read") from None
+
+
+def _length(data: bytes, k: int, length: int) -> tuple[int, int]:
+    """Return a length of LZ4 and the place after it."""
+    if length < 15:
+        return length, k
+    while data[k] == 255:
+        length, k = length + 255, k + 1
+    return length + data[k], k + 1
