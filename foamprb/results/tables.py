@@ -24,6 +24,7 @@ _CHUNK = 2048
 _WIDE = {"i": np.dtype(np.int64), "u": np.dtype(np.uint64), "f": np.dtype(np.float64)}
 _QUOTE = '"'
 _SPECIAL = re.compile(r'[,"\r\n]')
+_FORMULA, _QUOTED = re.compile(r"'*[=+\-@\t]"), re.compile(r"''*[=+\-@\t]")
 
 
 def require_kind(kind: str) -> None:
@@ -160,7 +161,7 @@ def _typed(words: list[str], stay: bool) -> NDArray[Any]:
             return np.array(words, dtype=str).astype(kind)
         except ValueError:
             continue
-    return np.array(words, dtype=str)
+    return np.array([word[1:] if _QUOTED.match(word) else word for word in words], dtype=str)
 
 
 def _as_column(name: str, column: Column) -> NDArray[Any]:
@@ -186,4 +187,7 @@ def _texts(column: NDArray[Any]) -> list[str]:
 
 def _cell(value: object) -> str:
     text = str(value)
+    # Spreadsheets take such words for formulas; read_table removes the apostrophe.
+    if isinstance(value, str) and _FORMULA.match(text):
+        text = f"'{text}"
     return f'"{text.replace(_QUOTE, 2 * _QUOTE)}"' if _SPECIAL.search(text) else text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -91,6 +92,7 @@ class Results:
             "injector": job.injector_names,
         }
         self._series = Series(job.folder)
+        self._place = _identity(job.folder.path)
         self._sums: dict[str, Checksum] = {}
         self._manifest = Manifest(job.folder.path)
         self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
@@ -146,8 +148,15 @@ class Results:
         self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
 
     def check(self) -> None:
-        """Raise OSError if the thread could not write a file."""
+        """Raise OSError if the thread could not write a file, or the folder is no longer at its place."""
         self._writer.check()
+        self._require_place()
+
+    def _require_place(self) -> None:
+        """Raise OSError if the folder was moved or removed, instead of making another one."""
+        path = self._job.folder.path
+        if not path.is_dir() or _identity(path) != self._place:
+            raise FileNotFoundError(errno.ENOENT, "the folder was moved or removed during the run", str(path))
 
     def next_observation(self, last: int) -> int:
         """Return the step, at most ``last``, at which a cloud function samples next."""
@@ -169,6 +178,7 @@ class Results:
             If a file cannot be written, now or at the time before.
         """
         cloud = self._gathered(stepper)
+        self._require_place()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
@@ -188,6 +198,7 @@ class Results:
             If it cannot be written.
         """
         cloud = self._gathered(stepper)
+        self._require_place()
         self._manifest.expect(self._checkpoint_files())
         self._write_checkpoint(cloud, self._job.functions.state())
 
@@ -202,6 +213,7 @@ class Results:
             If a file cannot be written, now or at the time before.
         """
         stepper.gather()
+        self._require_place()
         failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
 
         def list_them() -> None:
@@ -235,6 +247,7 @@ class Results:
     def _end_write(
         self, write_cloud: Callable[[], object], snapshot: Snapshot, memory: Mapping[str, NDArray[Any]]
     ) -> None:
+        self._require_place()
         write_cloud()
         self._write_checkpoint(snapshot, memory)
 
@@ -326,6 +339,11 @@ class Results:
         }
         manifest.remove(sorted(manifest.files - kept))
         self._manifest = Manifest(job.folder.path, (file for file in kept if file.exists()))
+
+
+def _identity(path: Path) -> tuple[int, int]:
+    found = path.stat()
+    return found.st_dev, found.st_ino
 
 
 def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:

@@ -159,7 +159,7 @@ def test_what_excel_and_numpy_write_is_read(tmp_path: Path) -> None:
         ("x y z d\n0 0 0 1\n\n0 0 0 0", "line 4: found '0 0 0 0'. Expected: for d, a number > 0."),
         ("x y z d\n0 0 0", "line 2: found '0 0 0'. Expected: 4 numbers, x y z d."),
         ("x y z viscosity\n0 0 0 -1", "Expected: for viscosity, a number >= 0."),
-        ("some text\n1 2 3", "line 1: found 'some text'. Expected: a list ( (x y z) (x y z) … ), or lines x"),
+        ("some text\n1 2 3", "line 1: no positions. Expected: a list ( (x y z) (x y z) … ), or lines x"),
     ],
 )
 def test_mistakes_in_tables(tmp_path: Path, text: str, message: str) -> None:

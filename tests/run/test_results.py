@@ -301,3 +301,18 @@ def test_a_run_whose_last_checkpoint_fails_is_not_done(tables, case, monkeypatch
     monkeypatch.undo()
     execute(prepare(case, threads=1, tables=tables), "latestTime")
     assert (folder_of(case) / f"fates.{tables}").exists()
+
+
+def test_a_case_that_is_moved_ends_its_run(case):
+    """Else the results would be split between two folders."""
+    job, elsewhere = prepare(case, threads=1), case.with_name("elsewhere")
+
+    def move() -> bool:
+        if job.cloud.step and case.exists():
+            case.rename(elsewhere)
+        return False
+
+    with pytest.raises(RunStopped, match="the folder was moved or removed during the run"):
+        execute(job, stop=move)
+    assert not case.exists()
+    assert (elsewhere / "postProcessing/softCloud/softCloud.pvd").exists()

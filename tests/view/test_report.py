@@ -212,3 +212,8 @@ def test_an_edited_record_is_one_message(case, record):
             write_report(case)
     finally:
         file.unlink()
+
+
+def test_names_are_no_formulas():
+    """A dollar in the name of a patch began a formula, whose errors ended the report."""
+    assert "a$b_$^" in plots.shares({"a$b_$^": {"stuck": 3}}).svg

@@ -38,6 +38,8 @@ _STYLE: Any = {
     "font.size": 10.0,
     "font.family": "sans-serif",
     "svg.fonttype": "none",
+    # Names of patches may contain dollars.
+    "text.parse_math": False,
     "svg.hashsalt": "foamprb",
     "axes.spines.top": False,
     "axes.spines.right": False,
