@@ -7,8 +7,6 @@ derivatives need the integrals of :mod:`foamprb.body.ellipsoid` for semi-axes bc
 
 from __future__ import annotations
 
-from math import pi
-
 from foamprb.body.ellipsoid import integrals
 from foamprb.body.tensor import Scalar, Vector
 
@@ -20,13 +18,6 @@ def _pulls(stretches: Vector) -> Vector:
     g = integrals(products)
     x, y, z = products[0] * products[0], products[1] * products[1], products[2] * products[2]
     return x * (g.chi - x * g.alpha[0]), y * (g.chi - y * g.alpha[1]), z * (g.chi - z * g.alpha[2])
-
-
-def surface_area(semi_axes: Vector) -> Scalar:
-    """Return the surface S of an ellipsoid, in the square of the unit of its semi-axes."""
-    x, y, z = _pulls(semi_axes)
-    # S is homogeneous of degree 2 in the axes: half the sum of its logarithmic derivatives (Euler).
-    return pi * (x + y + z)
 
 
 def laplace_stress(stretches: Vector, tension: Scalar) -> Vector:

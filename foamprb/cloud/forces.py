@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from numbers import Real
-from types import FunctionType
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.drag import reduced_gravity
 from foamprb.body.tensor import Scalar, Vector, scale_vector
 from foamprb.cloud.block import Medium, at, load3
 from foamprb.cloud.layout import LANES
+from foamprb.compile.link import bound
 from foamprb.dictionary.constraints import Meaning, NonNegative, Only
 
 __all__ = [
@@ -27,7 +27,6 @@ __all__ = [
     "PressureGradient",
     "VirtualMass",
     "acceleration",
-    "bound",
     "coefficients",
     "compose",
     "forces_on",
@@ -174,11 +173,6 @@ def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
     for force in forces:
         nested = nested, force.coefficients
     return nested
-
-
-def bound(function: Any, **names: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the same function with other functions behind some of the names that it calls."""
-    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 
 
 def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:

@@ -36,7 +36,7 @@ from foamprb.compile.trace import TRACED, branch
 if TYPE_CHECKING:
     from foamprb.compile.internals import Role
 
-__all__ = ["compile_part", "is_compiled", "link", "linked", "read_by", "traced"]
+__all__ = ["bound", "compile_part", "is_compiled", "link", "linked", "read_by", "traced"]
 
 log = logging.getLogger("foamprb")
 
@@ -119,6 +119,12 @@ def linked(entry: Callable[..., Any], bindings: Mapping[str, Any]) -> Collection
                 reached.add(value)
                 pending.append(value)
     return reached
+
+
+def bound(function: Callable[..., Any], **names: Callable[..., Any]) -> Callable[..., Any]:
+    """Return a copy of a plain function, with other functions behind some of the names that it calls."""
+    assert isinstance(function, FunctionType)
+    return FunctionType(function.__code__, {**function.__globals__, **names}, function.__name__)
 
 
 def traced(stage: Callable[..., Any]) -> Callable[..., Any]:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, add, scale
+from foamprb.compile.link import bound
 from foamprb.errors import InputError
 from foamprb.flow import channels
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
@@ -353,18 +354,12 @@ def function(
     if gradient is not None:
         names["velocity_gradient"] = _of_place_and_time(gradient, "gradient", (3, 3))
         template = sample_function
-    names["_velocity"] = _with_names(_velocity, names)
-    names["_rate"] = _with_names(_rate, names)
-    sampled = _with_names(template, names)
-    curvature = _with_names(curvature_by_differences, names | {"sample": sampled})
+    names["_velocity"] = bound(_velocity, **names)
+    names["_rate"] = bound(_rate, **names)
+    sampled = bound(template, **names)
+    curvature = bound(curvature_by_differences, **names, sample=sampled)
     kernels = {"sample": sampled, "curvature": curvature, **_UNBOUNDED}
     return FunctionFlow(FunctionArrays(1e-3 * length, 1e-3 * time), kernels)
-
-
-def _with_names(template: Callable[..., Any], names: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return the function with other functions bound to some of the names that it calls."""
-    assert isinstance(template, FunctionType)
-    return FunctionType(template.__code__, {**template.__globals__, **names}, template.__name__)
 
 
 def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callable[..., Any]:
@@ -385,7 +380,7 @@ def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callabl
         found = np.shape(given(*(0.1, 0.2, 0.3, 0.4)[:count]))
     if found not in (None, shape):
         raise TypeError(f"{what} returns something of shape {found}, not {shape}.")
-    return given if count == 4 else _with_names(steady, {"of_place": given})
+    return given if count == 4 else bound(steady, of_place=given)
 
 
 def shear(rate: float) -> AnalyticFlow:

@@ -132,7 +132,6 @@ def test_surface_tension_stress_is_the_derivative_of_the_surface(stretch):
         return np.prod(x) * np.sum(weights[:, None] * stretched) * np.pi / 60
 
     x, h = np.array(stretch), 1e-5
-    np.testing.assert_allclose(surface_tension.surface_area(stretch), surface(x), rtol=1e-11)
     found = surface_tension.laplace_stress(stretch, 0.7)
     for a in range(3):
         step = np.exp(h * np.eye(3)[a])

@@ -6,13 +6,13 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from foamprb.cloud.block import Medium, Scratch
-from foamprb.cloud.forces import bound
 from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.compile.link import bound
 from foamprb.flow.base import Patch
 
 __all__ = ["SURROUNDINGS", "coefficients", "compose", "with_rows"]
