@@ -23,6 +23,9 @@ MU_F, R, T = 1e-3, 0.5e-6, 300.0
 KT = BOLTZMANN * T
 D = KT / (6.0 * np.pi * MU_F * R)
 WATER = Medium(MU_F, 1000.0, (0.0, 0.0, 0.0))
+HEAVY = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
+RHO_OF_SCALE_R = 1000.0 + KT / (R * 9.81 * 4.0 / 3.0 * np.pi * R**3)
+"""Density at which kT over the weight is R."""
 STILL = analytic.linear(np.zeros((3, 3)))
 STIFF = 1e4
 MOLECULES = (BrownianMotion(T=T),)
@@ -71,20 +74,34 @@ def test_a_spheroid_diffuses_and_turns_as_perrin_says(ratio):
 
 
 def test_heights_over_a_wall_come_to_boltzmanns():
-    """With the hindered mobility, whose drift lets heights come to exp(−W h/kT) and no other distribution."""
-    n = 1000
-    rho = 1000.0 + KT / (R * 9.81 * 4.0 / 3.0 * np.pi * R**3)
-    heavy = Medium(MU_F, 1000.0, (0.0, 0.0, -9.81))
-    p = beads(n, rho=rho)
+    """With the hindered mobility, heights come to exp(−W h/kT) in steps √(2 D Δt) of a tenth of kT/W."""
+    n = 2000
+    p = beads(n, rho=RHO_OF_SCALE_R)
     random = np.random.default_rng(3)
     # At equilibrium, in which it is to stay: gaps over R are exponential.
     p.x[:, 2] = R * (1.0 + random.exponential(1.0, n))
-    dt = 2e-3 * R**2 / D
+    dt = 0.5 * 0.1**2 * R**2 / D
     models = (WallLift(cutOff=20.0), BrownianMotion(T=T, shape=False))
-    carried(p, 400, dt, flow=analytic.shear_over_wall(0.0), medium=heavy, models=models)
+    carried(p, 200, dt, flow=analytic.shear_over_wall(0.0), medium=HEAVY, models=models)
     gaps = p.x[:, 2] / R - 1.0
     assert gaps.mean() == pytest.approx(1.0, abs=4.0 / np.sqrt(n))
     assert kstest(np.maximum(gaps, 0.0), "expon").pvalue > 1e-3
+    # Steps into the wall are reflected: no body lies on it, none is missing beside it.
+    assert np.mean(gaps < 1e-9) < 1e-3
+    near = n * (np.exp(-0.02) - np.exp(-0.1))
+    assert np.sum((gaps > 0.02) & (gaps < 0.1)) == pytest.approx(near, abs=4.0 * np.sqrt(near))
+
+
+def test_steps_too_long_for_the_scale_of_heights_are_warned_of():
+    p, model = beads(2, rho=RHO_OF_SCALE_R), BrownianMotion(T=T, shape=False)
+    flow = analytic.shear_over_wall(0.0)
+    assert not model.warnings(p, flow, HEAVY, 0.5 * 0.09**2 * R**2 / D)
+    (warning,) = model.warnings(p, flow, HEAVY, 0.5 * 0.2**2 * R**2 / D)
+    assert f"Use deltaT < {0.5 * 0.1**2 * R**2 / D:.2g}." in warning
+    # Without weight a channel limits the steps.
+    channel = analytic.pipe(10.0 * R, 0.0, 1.0)
+    assert not model.warnings(p, channel, WATER, 0.5 * 1.0**2 * R**2 / D)
+    assert model.warnings(p, channel, WATER, 0.5 * 2.0**2 * R**2 / D)
 
 
 @pytest.mark.parametrize("integrator", ["stokes", "rosenbrock"])

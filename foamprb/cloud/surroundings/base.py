@@ -80,8 +80,8 @@ class Surrounding:
         """Return the arguments of its functions: numbers and arrays, of the same types for any patches."""
         return ()
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Return functions by the names they bind, for an integrator with or without inertia."""
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+        """Return functions and constants by their names, for an integrator with or without inertia."""
         return {}
 
     def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002

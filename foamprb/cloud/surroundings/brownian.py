@@ -63,6 +63,8 @@ __all__ = ["BrownianMotion"]
 
 LARGE_STRAIN = 0.3
 """Thermal strain above which the user is warned."""
+LONG_STEP = 0.1
+"""√(2 D Δt) over the room of a particle above which the user is warned."""
 _KIND = np.uint64(1)
 """Second word of the key of these random numbers; the seed is the first."""
 
@@ -166,9 +168,9 @@ class BrownianMotion(Surrounding):
         """Return k_B T, J; the seed; whether the shape fluctuates."""
         return BOLTZMANN * self.T, np.uint64(self.seed), float(self.shape)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Return the force, which walls hinder too."""
-        return {"thermal_force": force_of_molecules}
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+        """Return the force, which walls hinder too; and that walls reflect steps."""
+        return {"thermal_force": force_of_molecules, "reflects_steps": 1}
 
     def refuses(self, inertia: bool, integrator: str) -> str:  # noqa: ARG002
         """Refuse ``paper``, whose resistances are those at the start of the step."""
@@ -183,16 +185,37 @@ class BrownianMotion(Surrounding):
         strain = self._strain(p)
         return (f"{'thermal strain':24s} {strain.min():.3g} to {strain.max():.3g}",)
 
-    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Warn of thermal strains that are too large for the model."""
-        strain = float(np.median(self._strain(p))) if p.size and self.shape else 0.0
-        if strain <= LARGE_STRAIN:
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
+        """Warn of thermal strains that are too large for the model, and of steps too long for walls."""
+        if p.size == 0:
             return ()
-        return (
-            f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that of "
-            "the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by the "
-            "flow alone.",
-        )
+        found = []
+        strain = float(np.median(self._strain(p))) if self.shape else 0.0
+        if strain > LARGE_STRAIN:
+            found.append(
+                f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that "
+                "of the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by "
+                "the flow alone."
+            )
+        step, room = self._step_over_room(p, flow, medium, dt)
+        if step > LONG_STEP * room:
+            allowed = dt * (LONG_STEP * room / step) ** 2
+            found.append(
+                f"molecules move particles by {step:.2g} m in a step, more than {LONG_STEP:g} of the "
+                f"{room:.2g} m that their weight or the walls leave them: their distribution at walls is "
+                f"inaccurate. Use deltaT < {allowed:.2g}."
+            )
+        return tuple(found)
+
+    def _step_over_room(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> tuple[float, float]:
+        """Return √(2 D Δt) and the scale of heights or the gap between walls, m, of the worst particle."""
+        kT, g = BOLTZMANN * self.T, float(np.linalg.norm(medium.gravity))
+        step = np.sqrt(2.0 * kT / (6.0 * math.pi * medium.mu * p.R) * dt)
+        weight = np.abs(p.rho - medium.rho) * (4.0 / 3.0 * math.pi * g) * p.R**3
+        with np.errstate(divide="ignore"):
+            room = np.minimum(kT / weight, np.maximum(flow.width - 2.0 * p.R, 1e-300))
+        worst = int(np.argmax(step / room))
+        return float(step[worst]), float(room[worst])
 
     def _strain(self, p: Particles) -> NDArray[np.float64]:
         """Return √(5 k_B T/(2 μ_s V)) of each particle."""
