@@ -151,7 +151,9 @@ def _names(path: Path, text: bytes, at: int, line: bytes, columns: Mapping[str, 
     """Read the names of columns."""
     names = _words(line)
     known = (*_COORDINATES, *columns)
-    if line and not set(names) & set(known):
+    if not line:
+        raise _mistake(path, text, at, "Expected: a list ( (x y z) (x y z) … ), or lines x y z")
+    if not set(names) & set(known):
         # The text is not quoted: a foreign case may name any file.
         line_number = text.count(b"\n", 0, at) + 1
         expected = "Expected: a list ( (x y z) (x y z) … ), or lines x y z."
