@@ -25,6 +25,7 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import AtLeastOne, Meaning, Words
 from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import patches_named
 from foamprb.results.folder import file_name
 from foamprb.results.tables import write_table
 
@@ -43,7 +44,7 @@ class PatchPostProcessing(CloudFunction):
     between the longest axis and the normal, both in degrees.
     """
 
-    patches: Annotated[Words, Meaning("`(name name)`")]
+    patches: Annotated[Words, Meaning("`(name name)`: names, groups or regular expressions")]
     maxStoredParcels: Annotated[
         int | None, AtLeastOne, Meaning("only the first of each patch", default="all")
     ] = None
@@ -57,7 +58,7 @@ class PatchPostProcessing(CloudFunction):
             If there is no such patch, or the cloud does not record the rebounds from it.
         """
         for name in self.patches:
-            if name not in cloud.patches:
+            if not _patches_named(cloud, name):
                 raise InputError(f"patch {name} is not in the mesh. {suggestion(name, cloud.patches)}")
         bouncing = self._bouncing(cloud)
         if bouncing and not cloud.cloud.models.rebounds:
@@ -69,7 +70,9 @@ class PatchPostProcessing(CloudFunction):
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
         """Return whether particles bounce off one of the patches."""
-        return any(i.code == REBOUND for name, i in interactions.items() if name in self.patches)
+        # A word that is no name may be that of a group.
+        words = not interactions.keys() >= set(self.patches)
+        return any(i.code == REBOUND for name, i in interactions.items() if words or name in self.patches)
 
     def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
         """Record the rebounds from these patches."""
@@ -82,9 +85,8 @@ class PatchPostProcessing(CloudFunction):
         bouncing = self._bouncing(cloud)
         if bouncing:
             self._drop(memory, bouncing)
-        for name in self.patches:
-            patch = cloud.patches.index(name)
-            path = folder / f"{file_name(name)}.{cloud.tables}"
+        for patch in self._chosen(cloud):
+            path = folder / f"{file_name(cloud.patches[patch])}.{cloud.tables}"
             if patch in bouncing:
                 found = rebounds_of(memory["rebounds"])
                 mine = found.patch == patch
@@ -92,10 +94,13 @@ class PatchPostProcessing(CloudFunction):
             else:
                 self._write(path, cloud, self._landings(cloud, patch))
 
+    def _chosen(self, cloud: ObservedCloud) -> list[int]:
+        """Return the indices of the patches."""
+        return list(dict.fromkeys(k for word in self.patches for k in _patches_named(cloud, word)))
+
     def _bouncing(self, cloud: ObservedCloud) -> list[int]:
         """Return the indices of the patches off which particles bounce."""
-        patches = (cloud.patches.index(name) for name in self.patches)
-        return [patch for patch in patches if cloud.cloud.interactions[patch].code == REBOUND]
+        return [patch for patch in self._chosen(cloud) if cloud.cloud.interactions[patch].code == REBOUND]
 
     def _drop(self, memory: Memory, bouncing: Sequence[int]) -> None:
         """Drop rebounds beyond ``maxStoredParcels``, when all particles are at the same time."""
@@ -135,6 +140,11 @@ class PatchPostProcessing(CloudFunction):
                 "impactAngle": _angle(met.v, -met.n), "axisAngle": _axis_angle(longest, met.n),
             },
         )  # fmt: skip
+
+
+def _patches_named(cloud: ObservedCloud, word: str) -> list[int]:
+    pairs = zip(cloud.cloud.flow.patches, cloud.patches, strict=True)
+    return patches_named([patch._replace(name=name) for patch, name in pairs], word)
 
 
 def _angle(a: Floats, b: Floats) -> Floats:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -28,6 +30,21 @@ class Patch(NamedTuple):
     type: str
     neighbour: str = ""
     """Patch on which a particle continues, if the two are coupled."""
+    groups: frozenset[str] = frozenset()
+    """Groups of the case to which it belongs."""
+
+
+def patches_named(patches: Sequence[Patch], word: str) -> list[int]:
+    """Return the indices of the patches of a name, or else of a group, or whose names a pattern matches."""
+    for matches in (
+        lambda patch: patch.name == word,
+        lambda patch: word in patch.groups,
+        lambda patch: re.fullmatch(word, patch.name) is not None,
+    ):
+        with suppress(re.error):
+            if found := [k for k, patch in enumerate(patches) if matches(patch)]:
+                return found
+    return []
 
 
 Turbulence: TypeAlias = tuple[float, float, Vector, Vector]

@@ -284,4 +284,5 @@ def _applies(rule: Rule, patch: Patch) -> bool:
     if isinstance(rule, KindRule):
         kind = "wall" if group == "wall" else "constrained" if constrained else "open"
         return rule.kind in (kind, "any")
-    return rule.matches(patch.name) or ((group == "wall" or constrained) and rule.matches(group))
+    groups = {*patch.groups, group} if group == "wall" or constrained else patch.groups
+    return any(map(rule.matches, (patch.name, *groups)))

@@ -7,7 +7,7 @@ from cloud_dictionary import CLOUD, Reader
 
 from foamprb.cloud.patches import Cyclic, Escape, Mirror, Rebound, Stick
 from foamprb.errors import InputError
-from foamprb.flow.base import Patch
+from foamprb.flow.base import Patch, patches_named
 from foamprb.settings import patches as module
 from foamprb.settings.patches import PatchRule
 
@@ -113,3 +113,23 @@ def test_patches_without_a_rule_and_rules_without_a_patch(rule: PatchRule, messa
     assert str(caught.value).startswith(
         "constant/softCloudProperties: subModels/localInteractionCoeffs/" + message
     )
+
+
+def test_a_rule_for_a_group_of_the_case() -> None:
+    patches = [
+        Patch("in", "patch", groups=frozenset({"ends"})),
+        Patch("a", "wall", groups=frozenset({"sides"})),
+    ]
+    for word, regex in (("ends", False), ("e.ds", True)):
+        rules = [PatchRule(word, Escape(), regex), PatchRule("sides", Stick())]
+        assert match_patches(rules, patches) == [Escape(), Stick()]
+
+
+def test_names_groups_and_patterns_of_patches() -> None:
+    patches = [
+        Patch("in", "patch"),
+        Patch("in2", "patch", groups=frozenset({"ends", "in"})),
+        Patch("out", "patch", groups=frozenset({"ends"})),
+    ]
+    words = {"in": [0], "ends": [1, 2], "in.*": [0, 1], "(": [], "none": []}
+    assert {word: patches_named(patches, word) for word in words} == words

@@ -29,7 +29,7 @@ from foamprb.dictionary.constraints import (
 )
 from foamprb.dictionary.schema import Schema
 from foamprb.errors import InputError
-from foamprb.flow.base import Flow
+from foamprb.flow.base import Flow, PatchFaces, patches_named
 from foamprb.memory import announce, memory, size_text
 
 Floats = NDArray[np.float64]
@@ -153,7 +153,12 @@ class ManualInjection(Injection):
 class PatchInjection(Injection):
     """Particles spread over a patch, uniform in flux, from ``SOI`` on for ``duration``."""
 
-    patch: Annotated[str, Meaning("random places, with a density proportional to the inflow")]
+    patch: Annotated[
+        str,
+        Meaning(
+            "a name, group or regular expression; random places, with a density proportional to the inflow"
+        ),
+    ]
     parcelsPerSecond: Annotated[float, Positive, Meaning("rate of injection, at even intervals", "1/s")]
     duration: Annotated[float, Positive, Meaning("of the injection", "s")]
     U0: _U0 = None
@@ -173,7 +178,9 @@ class PatchInjection(Injection):
             f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
             f"duration {self.duration:g} s",
         )
-        faces = flow.patch_faces(self.patch, SOI)
+        named = [flow.patches[k].name for k in patches_named(flow.patches, self.patch)] or [self.patch]
+        parts = [flow.patch_faces(name, SOI) for name in named]
+        faces = PatchFaces(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
         if not flux.sum() > 0.0:

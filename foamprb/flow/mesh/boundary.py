@@ -45,6 +45,7 @@ class PatchSurface(NamedTuple):
     neighbour: str = ""
     """Neighbour of a cyclic patch."""
     transform: Transform = Transform()
+    groups: frozenset[str] = frozenset()
 
 
 class PolyMesh(NamedTuple):

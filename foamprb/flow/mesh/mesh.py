@@ -175,7 +175,7 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         for patch, first, end in zip(surfaces, patch_start[:-1], patch_start[1:], strict=True)
     ]
     patches, couplings = couple(
-        [Patch(patch.name, patch.type, patch.neighbour) for patch in surfaces],
+        [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in surfaces],
         *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )
     centres, volumes = cell_geometry(points, faces, cell_middles(points, faces))

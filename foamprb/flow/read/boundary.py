@@ -174,7 +174,7 @@ def patches_of_mesh(patches: Sequence[PatchInfo]) -> list[PatchSurface]:
 
     A nonConformalCyclic patch has no faces: it couples those of its ``originalPatch``.
     """
-    found = {p.name: PatchSurface(p.name, p.type, None, p.neighbour, p.transform) for p in patches}
+    found = {p.name: PatchSurface(p.name, p.type, None, p.neighbour, p.transform, p.groups) for p in patches}
     originals = {
         p.name: p.entries.get("originalPatch", "") for p in patches if p.type == "nonConformalCyclic"
     }
