@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from foamprb.errors import InputError
-from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.flows import read_flow, read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
 from foamprb.settings.fluid import read_gravity
@@ -208,18 +208,18 @@ def _run_of(request: Request) -> Run:
 
 def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | None]:
     """Return the geometry, and the plane through the flow if requested."""
+    source = run.source(request.source)
     try:
-        flow = read_flow(request.case, request.flow_time, run.source(request.source))
+        if request.slice is None:
+            return boundary(read_mesh(request.case, request.flow_time, source)), None
+        flow = read_flow(request.case, request.flow_time, source)
     except InputError as error:
         given = request.source not in (None, FlowSource())
         if given or request.slice is not None or request.flow_time != LATEST:
             raise
         log.warning("No geometry is shown: %s", error)
         return None, None
-    plane = None
-    if request.slice is not None:
-        plane = cut(flow, *read_plane(request.slice, *flow.bounds))
-    return boundary(flow.mesh), plane
+    return boundary(flow.mesh), cut(flow, *read_plane(request.slice, *flow.bounds))
 
 
 def picture_of(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foamprb.errors import InputError
+from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import later_times, processor_folders, regions, require_region
 from foamprb.flow.read.decomposed import DecomposedCase, is_only_decomposed
@@ -15,7 +16,15 @@ from foamprb.flow.read.mrf import Rotation, read_rotations
 from foamprb.flow.read.openfoam import Case, steady_flow, transient_flow
 from foamprb.flow.read.source import FlowSource
 
-__all__ = ["check_region", "describe_source", "open_case", "read_flow", "read_transient_flow", "rotations_of"]
+__all__ = [
+    "check_region",
+    "describe_source",
+    "open_case",
+    "read_flow",
+    "read_mesh",
+    "read_transient_flow",
+    "rotations_of",
+]
 
 
 def open_case(case: Path, source: FlowSource) -> Case:
@@ -69,6 +78,20 @@ def read_flow(case: Path, time: float | str = "latestTime", source: FlowSource |
     return read_mesh_file(
         source.file, source.velocity, time=time, gradient=source.gradient, division=source.division
     )
+
+
+def read_mesh(case: Path, time: float | str, source: FlowSource) -> Mesh:
+    """Read the mesh of a case or of a mesh file at a time, without the flow of a case.
+
+    Raises
+    ------
+    InputError
+        See :func:`read_flow`.
+    """
+    if source.file is not None:
+        return read_flow(case, time, source).mesh
+    opened = open_case(case, source)
+    return opened.mesh(opened.select_time(time)).mesh
 
 
 def read_transient_flow(case: Path, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:

@@ -83,11 +83,15 @@ def _plot(draw: Callable[[Any, Any], None], height: float = 3.2) -> Plot:
         figure = load("matplotlib.figure").Figure(figsize=(6.4, height), layout="constrained")
         load("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
         draw(figure, figure.add_subplot())
-        text, alone, png = io.StringIO(), io.BytesIO(), io.BytesIO()
-        figure.savefig(text, format="svg", metadata={"Date": None})
-        figure.savefig(alone, format="svg", facecolor=_PAPER, metadata={"Date": None})
+        figure.draw_without_rendering()
+        # The layout is found once, not for each file.
+        figure.set_layout_engine("none")
+        file, png = io.StringIO(), io.BytesIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
         figure.savefig(png, format="png", facecolor=_PAPER, dpi=200)
-    return Plot(_inline(text.getvalue()), alone.getvalue(), png.getvalue())
+    text = file.getvalue()
+    alone = re.sub(r"(<svg[^>]*>)", rf'\1<rect width="100%" height="100%" fill="{_PAPER}"/>', text, count=1)
+    return Plot(_inline(text), alone.encode(), png.getvalue())
 
 
 def _inline(svg: str) -> str:
@@ -248,8 +252,9 @@ def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
             )  # fmt: skip
             shown.set_clim(0.0, high or 1.0)
             panel.add_collection(shown)
-            for start, end in geometry.edges[:, :, [first, second]] / factor:
-                panel.plot([start[0], end[0]], [start[1], end[1]], color=_SOFT, linewidth=0.5)
+            edges = geometry.edges[:, :, [first, second]] / factor
+            lines = load("matplotlib.collections").LineCollection(edges, colors=_SOFT, linewidths=0.5)
+            panel.add_collection(lines)
             panel.autoscale_view()
             panel.set_aspect("equal")
             panel.grid(False)

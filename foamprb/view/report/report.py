@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.state import Status
 from foamprb.errors import InputError
-from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.flows import read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.memory import OutOfMemory
 from foamprb.results.atomic import atomic_write, refuse_other_kind
@@ -28,6 +28,7 @@ from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
+from foamprb.view.scene import Scene
 from foamprb.view.show import PAGE_BEGINS, Request, make_scene, spread
 
 __all__ = ["write_report"]
@@ -96,11 +97,17 @@ def write_report(
     fates = run.fates()
     if fates is None:
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
-    given = _Given(run, fates, _geometry(case, source), tuple(paths) if paths else None, {})
+    scene: Scene | InputError
+    try:
+        scene = make_scene(Request(case, cloud, source), run, range(len(run.entries)))
+        geometry = scene.geometry
+    except InputError as error:
+        scene, geometry = error, _geometry(case, source)
+    given = _Given(run, fates, geometry, tuple(paths) if paths else None, {})
     beside = target.parent / f"{target.stem}Plots"
     try:
         sections = [
-            _scene(given, Request(case, cloud, source), target),
+            _scene(given, scene, target),
             _fates(given),
             _deposition(given),
             _residence(given),
@@ -136,7 +143,7 @@ def write_report(
 
 def _geometry(case: Path, source: FlowSource) -> Geometry | None:
     try:
-        return boundary(read_flow(case, "latestTime", source).mesh)
+        return boundary(read_mesh(case, "latestTime", source))
     except InputError as error:
         log.warning("No walls are shown: %s", error)
         return None
@@ -160,11 +167,12 @@ def _cards(fates: Table) -> list[tuple[str, str]]:
     return cards
 
 
-def _scene(given: _Given, request: Request, target: Path) -> PageSection:
+def _scene(given: _Given, scene: Scene | InputError, target: Path) -> PageSection:
     live = given.run.results.page
     try:
+        if isinstance(scene, InputError):
+            raise scene
         require_graphics()
-        scene = make_scene(request, given.run, range(len(given.run.entries)))
         drawn = []
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "scene.png"
