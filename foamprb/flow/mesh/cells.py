@@ -52,6 +52,12 @@ def poly_of_grid(grid: Any, surfaces: Sequence[PatchSurface] | None, source: str
     mate[mate[apart]] = mate[apart]
     mate[apart] = apart
     faces = order_faces(points, half, mate)
+    flat = np.unique(faces.neighbour[faces.owner[: len(faces.neighbour)] == faces.neighbour])
+    if len(flat):
+        raise InputError(
+            f"{source}: {len(flat)} of {len(half.first) - 1} cells have no positive volume; the first is "
+            f"cell {flat[0]}, of which two faces are the same."
+        )
     n_boundary = len(faces.owner) - len(faces.neighbour)
     if surfaces is None:
         return PolyMesh(points, faces, (PatchSurface("boundary", "wall", None),), np.array([0, n_boundary]))

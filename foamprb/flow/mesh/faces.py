@@ -26,6 +26,7 @@ __all__ = [
     "list_faces",
     "list_points",
     "measure_faces",
+    "number_tetrahedra",
     "pair_faces",
     "split_cells",
 ]
@@ -383,16 +384,34 @@ def _quality(points: Floats, centres: Floats, cell: int, a: int, b: int, c: int)
     return float(volume / (edges * np.sqrt(edges)))
 
 
+def number_tetrahedra(
+    first: Ints, face_of: Ints, start: Ints, owner: Ints, cell_start: Ints, face_tet: Ints
+) -> None:
+    """Number the tetrahedra: the first of each cell, (n_cells + 1,), and of each face in its owner."""
+    tet = 0
+    for c in range(first.shape[0] - 1):
+        cell_start[c] = tet
+        for h in range(first[c], first[c + 1]):
+            f = face_of[h]
+            if owner[f] == c:
+                face_tet[f] = tet
+            tet += start[f + 1] - start[f] - 2
+    cell_start[first.shape[0] - 1] = tet
+
+
 def split_cells(
+    begin_cell: int,
+    end_cell: int,
     n_points: int,
     first: Ints,
     face_of: Ints,
     start: Ints,
     lists: Ints,
+    owner: Ints,
     n_internal: int,
     face_tet: Ints,
-    edges: Ints,
     cell_start: Ints,
+    edges: Ints,
     tets: Ints,
     neighbours: Ints,
     triangle_tet: Ints,
@@ -402,34 +421,32 @@ def split_cells(
 
     Parameters
     ----------
+    begin_cell, end_cell
+        The cells to cut, from the first to before the last.
     n_points
         Number of mesh points; the centre of cell c is node ``n_points + c``.
     first, face_of
-        The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``. A face turns outwards
-        from its first cell.
-    start, lists, n_internal
-        The faces, interior ones first.
-    face_tet
-        (n_faces,) work array for the first tetrahedron of each face in its owner; must hold −1.
+        The faces of cell c are ``face_of[first[c]]`` to ``face_of[first[c + 1] - 1]``.
+    start, lists, owner, n_internal
+        The faces, interior ones first, which turn outwards from their owners.
+    face_tet, cell_start
+        Results of :func:`number_tetrahedra`.
     edges
         (5, m) work array of :func:`_join`; must hold −1. m is a power of two, at least the number of points
         of all faces of any cell.
-    cell_start, tets, neighbours, triangle_tet
+    tets, neighbours, triangle_tet
         Results; see :class:`foamprb.flow.mesh.mesh.Mesh`.
     state
         (n_cells,) result, :data:`OPEN` or :data:`TWISTED`; must hold zeros.
     """
     boundary = start[n_internal] - 2 * n_internal
-    tet = 0
-    for c in range(state.shape[0]):
-        cell_start[c] = tet
+    for c in range(begin_cell, end_cell):
+        tet = cell_start[c]
         found = loose = 0
         for h in range(first[c], first[c + 1]):
             f = face_of[h]
             begin, size = start[f], start[f + 1] - start[f]
-            owned = face_tet[f] < 0
-            if owned:
-                face_tet[f] = tet
+            owned = owner[f] == c
             for k in range(size - 2):
                 # In the neighbour the fan turns the other way about the same base.
                 i, j = (k + 1, k + 2) if owned else (size - 1 - k, size - 2 - k)
@@ -462,7 +479,6 @@ def split_cells(
             state[c] |= OPEN
         for e in range(found):
             edges[0, (edges[2, e] + edges[3, e]) & (edges.shape[1] - 1)] = -1
-    cell_start[state.shape[0]] = tet
 
 
 def _join(a: int, b: int, place: int, edges: Ints, found: int, neighbours: Ints) -> tuple[int, int]:

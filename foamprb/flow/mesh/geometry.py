@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -14,15 +13,13 @@ from foamprb.flow.mesh.faces import (
     add_at,
     add_pyramids,
     bound,
+    choose_bases,
     gather_faces,
     group_faces,
     list_points,
     measure_faces,
 )
-from foamprb.flow.mesh.lists import Index, ragged
-
-# Number of faces per chunk: the temporary arrays then stay in the cache.
-_CHUNK = 1 << 15
+from foamprb.flow.mesh.lists import Index, ragged, share, starts, together
 
 
 class HalfFaces(NamedTuple):
@@ -79,67 +76,85 @@ def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> Faces:
     )
     link(gather_faces)(*half, mate, start, lists, owner, neighbour, of_cell)
     faces = Faces(start, lists, owner, neighbour, half.first, of_cell)
-    middles = cell_middles(points, faces)
-    for part, centres, areas in _measured(points, faces):
-        own, beyond = owner[part], neighbour[part]
-        ahead = centres - middles[own]
-        ahead[: len(beyond)] = middles[beyond] - middles[own[: len(beyond)]]
-        faces.turn(part.start + np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0))
+    centres, areas = measured(points, faces)
+    middles = cell_middles(faces, centres)
+    ahead = centres - middles[owner]
+    ahead[:n_internal] = middles[neighbour] - middles[owner[:n_internal]]
+    faces.turn(np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0))
     return faces
 
 
 def points_of_cells(faces: Faces, n_points: int) -> tuple[Ints, Ints]:
     """Return the start of each cell's points, (n_cells + 1,), and the points."""
-    begin, nothing, run = np.empty_like(faces.first), np.empty(0, dtype=np.int32), link(list_points)
-    given = faces.first, faces.of_cell, faces.start, faces.points
-    run(*given, np.full(n_points, -1, dtype=np.int32), begin, nothing)
-    points = np.empty(begin[-1], dtype=np.int32)
-    run(*given, np.full(n_points, -1, dtype=np.int32), begin, points)
-    return begin, points
+    nothing, run = np.empty(0, dtype=np.int32), link(list_points)
+
+    def listed(begin: int, end: int) -> tuple[Ints, Ints]:
+        first = faces.first[begin : end + 1]
+        given = first, faces.of_cell, faces.start, faces.points
+        start, last = np.empty(len(first), dtype=np.int32), np.full(n_points, -1, dtype=np.int32)
+        run(*given, last, start, nothing)
+        points = np.empty(start[-1], dtype=np.int32)
+        last[:] = -1
+        run(*given, last, start, points)
+        return start, points
+
+    parts = share(len(faces.first) - 1, listed)
+    ends = starts(np.array([len(points) for _, points in parts]))
+    start = [part[:-1] + np.int32(end) for (part, _), end in zip(parts, ends, strict=False)]
+    return np.concatenate([*start, ends[-1:].astype(np.int32)]), np.concatenate(
+        [points for _, points in parts]
+    )
 
 
-def _measured(points: Floats, faces: Faces, first: int = 0) -> Iterator[tuple[slice, Floats, Floats]]:
-    """Yield centres and area vectors of the faces from ``first`` on, chunk by chunk."""
-    n, measure = len(faces.owner), link(measure_faces)
-    for low in range(first, n, _CHUNK):
-        part = slice(low, min(low + _CHUNK, n))
-        centres, areas = np.empty((part.stop - low, 3)), np.empty((part.stop - low, 3))
-        measure(points, faces.start[low : part.stop + 1], faces.points, centres, areas)
-        yield part, centres, areas
+def rotate_faces(points: Floats, centres: Floats, faces: Faces) -> int:
+    """Choose the bases of the fans; see :func:`choose_bases`."""
+    n_internal, choose = len(faces.neighbour), link(choose_bases)
+
+    def chosen(begin: int, end: int) -> int:
+        own = points, centres, faces.start[begin : end + 1], faces.points, faces.owner[begin:end]
+        inside = faces.neighbour[begin:end] if end <= n_internal else faces.neighbour[:0]
+        return int(choose(*own, inside))
+
+    inner: list[int] = share(n_internal, chosen)
+    return sum(inner) + chosen(n_internal, len(faces.owner))
 
 
-def boundary_geometry(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
-    """Return centres and area vectors of the boundary faces."""
-    n_internal = len(faces.neighbour)
-    centres, areas = np.empty((2, len(faces.owner) - n_internal, 3))
-    for part, *measured in _measured(points, faces, n_internal):
-        to = slice(part.start - n_internal, part.stop - n_internal)
-        centres[to], areas[to] = measured
+def measured(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
+    """Return centres and area vectors of the faces, (n_faces, 3)."""
+    centres, areas = np.empty((2, len(faces.owner), 3))
+    measure = link(measure_faces)
+    share(
+        len(centres),
+        lambda begin, end: measure(
+            points, faces.start[begin : end + 1], faces.points, centres[begin:end], areas[begin:end]
+        ),
+    )
     return centres, areas
 
 
-def cell_middles(points: Floats, faces: Faces) -> Floats:
+def cell_middles(faces: Faces, centres: Floats) -> Floats:
     """Return the mean of the face centres of each cell."""
     middles, add = np.zeros((len(faces.first) - 1, 3)), link(add_at)
-    for part, centres, _ in _measured(points, faces):
-        for cells in (faces.owner[part], faces.neighbour[part]):
-            add(cells, centres, middles)
+    for cells in (faces.owner, faces.neighbour):
+        add(cells, centres, middles)
     middles /= np.diff(faces.first)[:, None]
     return middles
 
 
-def cell_geometry(points: Floats, faces: Faces, middles: Floats) -> tuple[Floats, Floats]:
+def cell_geometry(faces: Faces, centres: Floats, areas: Floats) -> tuple[Floats, Floats]:
     """Return cell centres and volumes, by pyramids about the means of the face centres.
 
     A centre outside the box of the face centres, as where the volume is round-off, is replaced by their mean.
     """
     add, widen = link(add_pyramids), link(bound)
+    middles = cell_middles(faces, centres)
     moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
     low, high = np.full((len(middles), 3), np.inf), np.full((len(middles), 3), -np.inf)
-    for part, centres, areas in _measured(points, faces):
-        for cells, sign in ((faces.owner[part], 1.0), (faces.neighbour[part], -1.0)):
-            add(cells, sign, centres, areas, middles, volumes, moments)
-            widen(cells, centres, low, high)
+    sides = (faces.owner, 1.0), (faces.neighbour, -1.0)
+    together(
+        lambda: [add(cells, sign, centres, areas, middles, volumes, moments) for cells, sign in sides],
+        lambda: [widen(cells, centres, low, high) for cells, _ in sides],
+    )
     moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
     moments += middles
     # Tolerance for round-off.

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -63,6 +68,25 @@ def cell_types(grid: Any) -> NDArray[np.uint8]:
     if grid.GetNumberOfCells() == 0:
         return np.empty(0, dtype=np.uint8)
     return np.ascontiguousarray(vtk_to_numpy(grid.GetCellTypes()), dtype=np.uint8)
+
+
+_LEAST_SHARE = 10_000
+_MOST_THREADS = 8
+
+
+def together(*calls: Callable[[], Any]) -> list[Any]:
+    """Return the results of calls that run at the same time, in threads."""
+    if len(calls) == 1 or len(os.sched_getaffinity(0)) == 1:
+        return [call() for call in calls]
+    with ThreadPoolExecutor(len(calls)) as pool:
+        return list(pool.map(lambda call: call(), calls))
+
+
+def share(n: int, part: Callable[[int, int], Any]) -> list[Any]:
+    """Return the results of ``part(begin, end)`` for parts of 0 to n, computed at the same time."""
+    count = max(1, min(len(os.sched_getaffinity(0)), _MOST_THREADS, n // _LEAST_SHARE))
+    ends = [n * k // count for k in range(count + 1)]
+    return together(*(partial(part, begin, end) for begin, end in pairwise(ends)))
 
 
 def int32(values: NDArray[Any]) -> Ints:

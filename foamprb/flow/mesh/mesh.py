@@ -20,16 +20,16 @@ from foamprb.flow.base import Floats, Ints, Patch
 from foamprb.flow.mesh.boundary import PatchSurface, PolyMesh, part_points, with_surface
 from foamprb.flow.mesh.cells import poly_of_grid
 from foamprb.flow.mesh.coupling import Coupling, couple
-from foamprb.flow.mesh.faces import OPEN, TWISTED, choose_bases, split_cells
+from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
 from foamprb.flow.mesh.geometry import (
     Faces,
-    boundary_geometry,
     cell_geometry,
-    cell_middles,
     inward_normals,
+    measured,
     points_of_cells,
+    rotate_faces,
 )
-from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32
+from foamprb.flow.mesh.lists import MOST_INDICES, Index, Mask, int32, share
 from foamprb.memory import announce
 
 _MOST_TURNS = 5
@@ -167,7 +167,8 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
     owner, neighbour = faces.owner, faces.neighbour
     n_internal = len(neighbour)
 
-    boundary_centres, boundary_areas = boundary_geometry(points, faces)
+    face_centres, face_areas = measured(points, faces)
+    boundary_centres, boundary_areas = face_centres[n_internal:].copy(), face_areas[n_internal:].copy()
     surfaces = [
         with_surface(patch, points, faces, slice(n_internal + first, n_internal + end))
         if patch.type == "cyclicAMI" and patch.surface is None
@@ -178,8 +179,9 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in surfaces],
         *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )
-    centres, volumes = cell_geometry(points, faces, cell_middles(points, faces))
-    inverted = link(choose_bases)(points, centres, faces.start, faces.points, owner, neighbour)
+    centres, volumes = cell_geometry(faces, face_centres, face_areas)
+    del face_centres, face_areas
+    inverted = rotate_faces(points, centres, faces)
 
     cell_start, tets, neighbours, triangle_tet, astray = cut_into_tetrahedra(faces, len(points), source)
     triangles = tets[triangle_tet][:, 1:]
@@ -219,18 +221,23 @@ def cut_into_tetrahedra(faces: Faces, n_points: int, source: str) -> tuple[Ints,
     n_cells, n_internal = len(faces.first) - 1, len(faces.neighbour)
     sizes = np.diff(faces.start)
     n_tets = int(sizes.sum() + sizes[:n_internal].sum()) - 2 * len(faces.of_cell)
-    if 4 * n_tets > MOST_INDICES:
+    if n_tets > MOST_INDICES:
         raise InputError(f"{source}: {n_tets} tetrahedra are too many for 32-bit indices.")
     n_triangles = int(sizes[n_internal:].sum() - 2 * (len(sizes) - n_internal))
     cell_start, triangle_tet = np.empty(n_cells + 1, dtype=np.int32), np.empty(n_triangles, dtype=np.int32)
     tets, neighbours = np.empty((n_tets, 4), dtype=np.int32), np.empty((n_tets, 4), dtype=np.int32)
-    state = np.zeros(n_cells, dtype=np.uint8)
-    link(split_cells)(
-        n_points,
-        *(faces.first, faces.of_cell, faces.start, faces.points, n_internal),
-        np.full(len(sizes), -1, dtype=np.int32),
-        np.full((5, 1 << int(np.diff(faces.first).max() * sizes.max()).bit_length()), -1, dtype=np.int32),
-        *(cell_start, tets, neighbours, triangle_tet, state),
+    state, face_tet = np.zeros(n_cells, dtype=np.uint8), np.empty(len(sizes), dtype=np.int32)
+    link(number_tetrahedra)(faces.first, faces.of_cell, faces.start, faces.owner, cell_start, face_tet)
+    slots, split = 1 << int(np.diff(faces.first).max() * sizes.max()).bit_length(), link(split_cells)
+    given = n_points, faces.first, faces.of_cell, faces.start, faces.points, faces.owner, n_internal
+    share(
+        n_cells,
+        lambda begin, end: split(
+            *(begin, end, *given, face_tet, cell_start),
+            # 64 bits: it holds four numbers for each tetrahedron.
+            np.full((5, slots), -1, dtype=np.int64),
+            *(tets, neighbours, triangle_tet, state),
+        ),
     )
     gaping = np.flatnonzero(state & OPEN)
     if len(gaping):

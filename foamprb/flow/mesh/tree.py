@@ -13,6 +13,7 @@ traversal visits the nodes whose boxes pass a test::
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,8 +21,11 @@ import numpy as np
 from foamprb.body.tensor import Vector
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.mesh.lists import together
 
 _LEAF = 8
+_LEAST_APART = 20_000
+"""Number of boxes from which the two halves of a tree are built at the same time."""
 
 
 class Tree(NamedTuple):
@@ -84,7 +88,12 @@ def build_tree(boxes: Floats) -> Tree:
     centres = np.full((size * n_leaves, 3), np.inf)
     centres[:n] = 0.5 * (boxes[:, :3] + boxes[:, 3:])
     order = np.arange(size * n_leaves, dtype=np.int32)
-    link(_halve)(centres, order, depth)
+    halve, middle = link(_halve), len(order) // 2
+    if len(order) < _LEAST_APART:
+        halve(centres, order, depth)
+    else:
+        halve(centres, order, 1)
+        together(*(partial(halve, centres, half, depth - 1) for half in (order[:middle], order[middle:])))
     order = np.sort(order.reshape(n_leaves, size), axis=1)
     leaves = np.where(order < n, order, np.int32(-1))
 

@@ -80,6 +80,9 @@ def checked_poly(
             raise InputError(
                 f"{path}: face {wrong[0]} belongs to cell {labels[wrong[0]]}, but there are {n_cells} cells."
             )
+    same = np.flatnonzero(owner[:n_internal] == neighbour)
+    if len(same):
+        raise InputError(f"{paths[3]}: face {same[0]} has cell {neighbour[same[0]]} on both sides.")
     faces = faces_of(start, lists, owner, neighbour, n_cells)
     few = np.flatnonzero(np.diff(faces.first) < _LEAST_FACES)
     if len(few):

@@ -7,7 +7,7 @@ import pytest
 from mesh_shapes import HEXAHEDRON_FACES, KINDS, block
 
 from foamprb.flow.mesh import faces
-from foamprb.flow.mesh.faces import OPEN, TWISTED, split_cells
+from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
 from foamprb.flow.mesh.geometry import inward_normals
 from foamprb.flow.mesh.mesh import build_mesh
 
@@ -76,9 +76,12 @@ def split(cells):
     n = int(sum(len(f) - 2 for f in found))
     tets, neighbours = np.full((2, n, 4), -99)
     cell_start, triangle_tet = np.empty(len(cells) + 1, dtype=int), np.full(n, -99)
-    state = np.zeros(len(cells), dtype=np.uint8)
-    split_cells(100, first, np.arange(len(found)), start, lists, 0, np.full(len(found), -1),
-                np.full((5, 64), -1), cell_start, tets, neighbours, triangle_tet, state)  # fmt: skip
+    state, face_tet = np.zeros(len(cells), dtype=np.uint8), np.empty(len(found), dtype=int)
+    owner, own = np.repeat(np.arange(len(cells)), np.diff(first)), np.arange(len(found))
+    number_tetrahedra(first, own, start, owner, cell_start, face_tet)
+    for c in range(len(cells)):
+        split_cells(c, c + 1, 100, first, own, start, lists, owner, 0, face_tet, cell_start,
+                    np.full((5, 64), -1), tets, neighbours, triangle_tet, state)  # fmt: skip
     return cell_start, tets, neighbours, triangle_tet, state.tolist()
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 from mesh_shapes import block, box_patches
 
 from foamprb.flow.mesh import boundary
-from foamprb.flow.mesh.lists import ragged, starts, take_lists
+from foamprb.flow.mesh.lists import ragged, share, starts, take_lists, together
 from foamprb.flow.mesh.mesh import build_mesh
 
 
@@ -18,6 +20,13 @@ def test_lists_begin_where_those_before_them_end():
     start, entries = take_lists(np.array([0, 2, 2, 5]), np.array([7, 8, 1, 2, 3]), np.array([2, 1, 0, 2]))
     assert start.tolist() == [0, 3, 3, 5, 8]
     assert entries.tolist() == [1, 2, 3, 7, 8, 1, 2, 3]
+
+
+@pytest.mark.parametrize("n", [0, 9, 10_000, 25_000])
+def test_parts_that_are_computed_at_the_same_time_make_the_whole(n):
+    parts = share(n, lambda begin, end: list(range(begin, end)))
+    assert [i for part in parts for i in part] == list(range(n))
+    assert together(*(partial(divmod, 7, k) for k in (2, 3))) == [(3, 1), (2, 1)]
 
 
 def codes(*lists, reverse=False):

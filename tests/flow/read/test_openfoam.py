@@ -357,6 +357,10 @@ BREAKAGES = {
         rewrite(POLY + "neighbour", r"\n7\n", "\n77\n"),
         "belongs to cell 77, but there are 8",
     ),
+    "a cell on both sides": (
+        rewrite(POLY + "neighbour", r"\n\(\n1\n", "\n(\n0\n"),
+        "neighbour: face 0 has cell 0 on both sides",
+    ),
     "a face of some billion points": (
         rewrite(POLY + "faces", r"\n4\(", "\n2147483647("),
         "faces: line 5: a list of 36 faces expected",
