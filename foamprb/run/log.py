@@ -20,7 +20,9 @@ from foamprb.cloud.stability import longest_stable_steps
 from foamprb.cloud.state import Status
 from foamprb.flow.base import Caveat
 from foamprb.results.folder import FAILURES
+from foamprb.run.checks import SMALL_REYNOLDS
 from foamprb.run.job import Job
+from foamprb.run.slip import SlipRecord, drag_excess
 
 log = logging.getLogger("foamprb")
 
@@ -105,6 +107,7 @@ class RunLog:
         self._started, self._cpu = clock.perf_counter(), clock.process_time()
         self._failed = self._failures()
         self._unstable = 0
+        self._slip = SlipRecord()
 
     def begin(self) -> None:
         """Log the start of the time loop."""
@@ -124,6 +127,7 @@ class RunLog:
         self._log_clocks()
         self._log_failures()
         self._log_unstable()
+        self._log_slip()
 
     def end(self, finished: bool) -> None:
         """Log the fates of the particles, the folder of the results, and End if the run has ``finished``."""
@@ -175,6 +179,16 @@ class RunLog:
                         "of %d particles: their deformation is wrong; use deltaT < %.3g or integrator "
                         "rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
 
+    def _log_slip(self) -> None:
+        """Record the slip of the particles, and warn of the first Reynolds number that is too large."""
+        before = self._slip.worst.reynolds[0]
+        self._slip.add(self._job.cloud)
+        worst = self._slip.worst.reynolds[0]
+        if before <= SMALL_REYNOLDS < worst:
+            log.warning(
+                "the Reynolds number of slip is up to %.3g: drag is that of Stokes flow, which is %.2g %% "
+                "too small for a sphere there.", worst, 100.0 * drag_excess(worst))  # fmt: skip
+
     def _log_fates(self) -> None:
         """Log the number of particles by fate and patch; the numbers sum to those injected."""
         job = self._job
@@ -191,6 +205,8 @@ class RunLog:
         for model in job.cloud.models.surroundings:
             for line in model.summary(p, job.cloud.dt):
                 log.info("    %s", line)
+        for line in self._slip.lines():
+            log.info("    %s", line)
         if counts[Status.PENDING]:
             log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
         if job.cloud.recovered:

@@ -1,0 +1,53 @@
+"""Reynolds and Stokes numbers of slip over a run."""
+
+from __future__ import annotations
+
+import logging
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from foamprb import Medium, analytic, spheres
+from foamprb.run.log import RunLog
+from foamprb.run.slip import SlipRecord, drag_excess
+
+WATER = Medium(1e-3, 1000.0, (0.0, 0.0, 0.0))
+RATE, D, RHO = 100.0, 1e-4, 2500.0
+
+
+def sliding(speeds):
+    """Active particles on the line where the fluid of a simple shear is at rest, with these velocities."""
+    p = spheres(np.zeros((len(speeds), 3)), d=D, rho=RHO, mu=10.0)
+    p.v[:, 0], p.status[:], p.host[:] = speeds, 1, 0
+    return SimpleNamespace(particles=p, medium=WATER, flow=analytic.shear(RATE), time=0.0)
+
+
+def test_quantiles_and_worst_of_both_numbers():
+    record = SlipRecord()
+    assert record.lines() == []
+    # 0.1 m/s of 1e-4 m in water are a Reynolds number of 10.
+    record.add(sliding(np.full(990, 1e-4)))
+    record.add(sliding(np.full(10, 0.1)))
+    assert record.worst.reynolds[0] == pytest.approx(10.0)
+    assert record.worst.stokes[0] == pytest.approx(RATE * RHO * D**2 / (18.0 * WATER.mu))
+    reynolds, stokes = record.lines()
+    assert reynolds == "Reynolds number of slip  0.01, 99 % below 0.01, at most 10"
+    assert stokes.startswith("Stokes number            0.139")
+
+
+def test_drag_of_a_sphere_exceeds_that_of_stokes():
+    assert drag_excess(0.1) == pytest.approx(0.0308, abs=1e-4)
+
+
+def test_a_large_reynolds_number_is_warned_of_once(caplog):
+    cloud = sliding([1e-4])
+    log = RunLog(SimpleNamespace(cloud=cloud))
+    with caplog.at_level(logging.WARNING, "foamprb"):
+        log._log_slip()
+        assert not caplog.records
+        cloud.particles.v[:, 0] = 0.01
+        log._log_slip()
+        log._log_slip()
+    (record,) = caplog.records
+    assert "slip is up to 1: drag is that of Stokes flow, which is 15 % too small" in record.message
