@@ -20,13 +20,13 @@ from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import available_times
+from foamprb.flow.read.caveats import is_steady, turbulence_fields
 from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
-from foamprb.flow.read.turbulence import turbulence_fields
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
@@ -389,21 +389,11 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
 def _transient(case: Path, source: FlowSource) -> list[str]:
     """Return a hint if the flow was written at several times."""
     names = [name for name in available_times(case) if float(name) > 0.0]
-    if len(names) < 2 or _steady(case, source.region):
+    if len(names) < 2 or is_steady(case, source.region):
         return []
     return [
         f"// transient       true;   // transient flow, times {names[0]} to {names[-1]}; default: the latest"
     ]
-
-
-def _steady(case: Path, region: str) -> bool:
-    """Return True if ``fvSchemes`` is steady, so that the times of a case are iterations."""
-    try:
-        schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
-    except InputError:
-        return False
-    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
-    return isinstance(default, Stream) and default.text == "steadyState"
 
 
 def _injection(scales: FlowScales, end: float) -> list[str]:

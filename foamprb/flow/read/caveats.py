@@ -10,7 +10,8 @@ import numpy as np
 
 from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
 from foamprb.dictionary.files import existing, read_bytes
-from foamprb.dictionary.tree import Dictionary
+from foamprb.dictionary.grammar import read_dictionary
+from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
@@ -56,7 +57,35 @@ def caveats_of_case(
     found = [*_rotating(case, region, relative), *_porous(case, region)]
     found += () if turbulent else _turbulent(folder)
     found += [*_compressible(read), *_phases(folder)]
-    return [*found, *(_moving(case, region, folder) if moving else ())]
+    return [*found, *([*_moving(case, region, folder), *_frozen(case, region)] if moving else ())]
+
+
+def refuse_absolute(case: Path, region: str, folder: Path, velocity: str) -> None:
+    """Raise InputError if the velocity is absolute in a mesh that rotates with its frame."""
+    rotating = _zones(case, region, "SRFProperties") is not None
+    if rotating and velocity == "U" and existing(folder / "Urel") is not None:
+        raise InputError(
+            f"{folder / 'U'} is the absolute velocity of a flow in a rotating frame (SRFProperties), whose "
+            "mesh and blades stand still. Allowed: -velocity Urel, the velocity relative to them."
+        )
+
+
+def is_steady(case: Path, region: str) -> bool | None:
+    """Return True if ``fvSchemes`` is steady, so that the times of a case are iterations; None without it."""
+    try:
+        schemes = read_dictionary(case / "system" / region / "fvSchemes", case).entries.get("ddtSchemes")
+    except InputError:
+        return None
+    default = schemes.entries.get("default") if isinstance(schemes, Dictionary) else None
+    return default.text == "steadyState" if isinstance(default, Stream) else None
+
+
+def _frozen(case: Path, region: str) -> Iterator[Caveat]:
+    if is_steady(case, region) is False:
+        yield Caveat(
+            "the flow is one instant of an unsteady solver (ddtSchemes), which stands still for the "
+            "particles: right if it is steady by then. solution/transient true follows all times."
+        )
 
 
 def caveat_of_flux(
@@ -127,12 +156,22 @@ def _porous(case: Path, region: str) -> Iterator[Caveat]:
 def _turbulent(folder: Path) -> Iterator[Caveat]:
     name = "nut" if existing(folder / "nut") is not None else "k"
     if is_not_zero(folder / name):
+        fields = turbulence_fields(folder)
+        hint = "The case does not have k and epsilon or omega, which a dispersionModel needs."
+        if fields:
+            hint = "subModels/dispersionModel stochasticDispersionRAS adds the dispersion, from "
+            hint += f"{' and '.join(fields)}."
         yield Caveat(
             f"the flow is the mean or the resolved part of a turbulent one (there is {name}): particles "
             "follow and feel that part alone, without dispersion by the eddies and without their stresses. "
-            "subModels/dispersionModel stochasticDispersionRAS adds the dispersion, from k and epsilon or "
-            "omega."
+            f"{hint}"
         )
+
+
+def turbulence_fields(folder: Path) -> tuple[str, ...]:
+    """Return the names of the fields in a time directory that give k and ε, or ()."""
+    found = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
+    return next(found, ()) if is_not_zero(folder / "k") else ()
 
 
 def is_not_zero(path: Path) -> bool:

@@ -30,7 +30,7 @@ from foamprb.flow.read.case import (
     select_time,
     select_times,
 )
-from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, refuse_absolute
 from foamprb.flow.read.checks import (
     at_cells,
     notes_of_types,
@@ -202,6 +202,7 @@ def read_series(
 def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     """Read the flow of a case at one time; see :func:`read_case` and :class:`FlowSource`."""
     name = case.select_time(time)
+    refuse_absolute(case.root, case.region, case.folder(name), source.velocity)
     rotations = read_rotations(case.root, case.region) if source.relative else ()
     field = case.field(name, source.velocity, VELOCITY_FIELD)
     whole = case.mesh(name)
@@ -236,6 +237,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     if len(names) == 1:
         return steady_flow(case, names[0], source)
     _refuse_moving(case, names)
+    refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)

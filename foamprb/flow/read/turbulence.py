@@ -13,12 +13,11 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import CaseMesh
 from foamprb.flow.read.case import MissingFieldError
-from foamprb.flow.read.caveats import is_not_zero
 from foamprb.flow.read.checks import at_cells
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["read_turbulence", "turbulence_fields"]
+__all__ = ["read_turbulence"]
 
 _K = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
@@ -72,12 +71,6 @@ def read_turbulence(
     boundary = np.stack([at_patches, wall, _diffusivity(at_patches, wall)], axis=1)
     values, slopes = reconstruct.scalars(cells, boundary)
     return np.concatenate([values[:, :2], slopes[:, 0], slopes[:, 2]], axis=1)
-
-
-def turbulence_fields(folder: Path) -> tuple[str, ...]:
-    """Return the names of the fields in a time directory that :func:`read_turbulence` reads, or ()."""
-    found = (("k", second) for second in ("epsilon", "omega") if is_not_zero(folder / second))
-    return next(found, ()) if is_not_zero(folder / "k") else ()
 
 
 _WANTED = "The dispersionModel needs k and epsilon, or k and omega, at the time of the flow."

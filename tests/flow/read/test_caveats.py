@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
 
+from foamprb.errors import InputError
 from foamprb.flow.base import Caveat
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow
@@ -48,6 +49,7 @@ CASES = {
     "rotating zones": (("constant/MRFProperties", MRF), r"rotating zones \(MRFProperties: rotor\), but"),
     "zones that cannot be read": (("constant/MRFProperties", "rotor {"), r"MRFProperties: which cannot be"),
     "a rotating frame": (("constant/SRFProperties", "SRFModel rpm;"), r"a rotating frame \(SRFProperties\)"),
+    "an instant": (("system/fvSchemes", "ddtSchemes { default Euler; }"), r"instant of an unsteady solver"),
     "porous zones": (("constant/fvOptions", POROUS), r"porous zones \(filter\): particles go through"),
     "porous zones elsewhere": (("system/fvOptions", POROUS), r"porous zones \(filter\)"),
     "porous zones of old": (("constant/porosityProperties", PORES), r"porous zones \(bed\)"),
@@ -70,6 +72,7 @@ def test_one_warning_for_what_particles_do_not_feel(name, case):
 
 
 NOTHING = {
+    "iterations": ("system/fvSchemes", "ddtSchemes { default steadyState; }"),
     "no zone is active": ("constant/MRFProperties", "rotor { active false; }"),
     "no source is porous": ("constant/fvOptions", "heat { type scalarSemiImplicitSource; }"),
     "laminar": ("1e1/nut", NUT.replace("1e-5", "0"), "volScalarField"),
@@ -83,6 +86,22 @@ def test_no_warning_where_it_would_say_nothing(name, case):
     file = NOTHING[name]
     put(case / file[0], *file[1:])
     assert caveats(case) == []
+
+
+def test_the_absolute_velocity_of_a_rotating_frame_is_refused(case):
+    put(case / "constant/SRFProperties", "SRFModel rpm;")
+    shutil.copy(case / "1e1/U", case / "1e1/Urel")
+    with pytest.raises(InputError, match=r"Allowed: -velocity Urel"):
+        read_case(case)
+    assert "a rotating frame" in caveats(case, velocity="Urel")[0]
+
+
+def test_the_hint_about_eddies_names_the_fields_of_the_case(case):
+    put(case / "1e1/nut", NUT, "volScalarField")
+    assert "The case does not have k and epsilon or omega" in caveats(case)[0]
+    for name in ("k", "omega"):
+        put(case / "1e1" / name, NUT, "volScalarField")
+    assert "stochasticDispersionRAS adds the dispersion, from k and omega." in caveats(case)[0]
 
 
 def test_the_files_of_a_region_go_before_those_of_the_case(case):
