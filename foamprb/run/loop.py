@@ -69,6 +69,8 @@ def execute(
     compile_run(cloud, job.compilation, alone=ranks is None)
     with open_results(job) as results:
         results.begin(start_from or job.settings.solution.startFrom)
+        if results.finished:
+            return cloud.particles.counts()
         log = RunLog(job)
         stepper = Stepper(cloud) if ranks is None else RankStepper(cloud, ranks)
         schedule = _Schedule(stepper)

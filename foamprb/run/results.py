@@ -93,6 +93,8 @@ class Results:
         }
         self._series = Series(job.folder)
         self._place = _identity(job.folder.path)
+        self.finished = False
+        """Whether the run had ended before."""
         self._sums: dict[str, Checksum] = {}
         self._manifest = Manifest(job.folder.path)
         self._fates, self._failures = (job.folder.table(name, job.tables) for name in (FATES, FAILURES))
@@ -123,6 +125,7 @@ class Results:
             )
         checkpoint = self._checkpoints.latest() if start_from == "latestTime" else None
         if checkpoint is not None:
+            self.finished = self._is_finished(checkpoint)
             self._resume(checkpoint)
             return
         if start_from == "latestTime":
@@ -303,6 +306,12 @@ class Results:
         self._manifest.expect([self._job.folder.record])
         write_record(self._job.folder.record, self._job.description)
 
+    def _is_finished(self, checkpoint: Checkpoint) -> bool:
+        """Return whether the run has ended at a checkpoint, and has written its tables."""
+        status = checkpoint.arrays["particles/status"]
+        ended = checkpoint.header["step"] >= self._job.steps or bool((status > Status.ACTIVE).all())
+        return ended and self._fates.exists()
+
     def _resume(self, checkpoint: Checkpoint) -> None:
         """Restore a checkpoint, and remove the files of later times."""
         job = self._job
@@ -310,6 +319,9 @@ class Results:
         refuse_changes(checkpoint, self._fingerprint, where)
         entries = snapshots_until(checkpoint, self._job.folder.pvd, where)
         restore(job.cloud, job.functions, checkpoint, where)
+        if self.finished:
+            log.info("The run has ended at t = %.12g s: there is nothing to continue.", job.cloud.time)
+            return
         self._sums = checkpoint.header["sums"]
         log.info(
             "Continuing from the checkpoint at t = %.12g s in %s", job.cloud.time, self._checkpoints.folder

@@ -333,3 +333,13 @@ def test_recovered_walks_before_an_interruption_are_counted(case, capsys):
         execute(job, stop=lambda: job.cloud.time > 0.99 * EARLIER)
     go_on(case)
     assert re.search(r"walks mended by the tree +5\n", capsys.readouterr().out)
+
+
+def test_a_finished_run_is_left_as_it_is(case, capsys):
+    assert main(["run", "-case", str(case)]) == 0
+    folder = case / "postProcessing/softCloud"
+    before = {file: file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file()}
+    capsys.readouterr()
+    assert main(["run", "-case", str(case), "-resume"]) == 0
+    assert "The run has ended at t = 0.006 s: there is nothing to continue.\n" in capsys.readouterr().out
+    assert {file: file.stat().st_mtime_ns for file in folder.rglob("*") if file.is_file()} == before

@@ -217,3 +217,10 @@ def test_an_edited_record_is_one_message(case, record):
 def test_names_are_no_formulas():
     """A dollar in the name of a patch began a formula, whose errors ended the report."""
     assert "a$b_$^" in plots.shares({"a$b_$^": {"stuck": 3}}).svg
+
+
+def test_the_flow_is_not_reconstructed(case, tmp_path, monkeypatch):
+    """The report shows walls, which need the mesh alone."""
+    monkeypatch.setattr("foamprb.flow.read.openfoam.Reconstruction", None)
+    write_report(case, tmp_path / "report.html")
+    assert (tmp_path / "reportPlots/depositsOnGeometry.svg").exists()
