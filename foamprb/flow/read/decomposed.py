@@ -38,6 +38,8 @@ from foamprb.flow.read.processors import (
 )
 from foamprb.flow.read.times import choose_times, pick_time
 
+_JOINED = "The parts have no files *ProcAddressing: they were joined over their processor patches."
+
 
 def is_only_decomposed(case: Path, region: str = "") -> bool:
     """Return True if only the processor folders hold the solution: no mesh beside them, or no time but 0."""
@@ -76,6 +78,7 @@ class DecomposedCase(Case):
         self._files: tuple[Path, ...] = ()
         self._poly: PolyMesh | None = None
         self._parts: list[Address] = []
+        self._mesh_notes: list[str] = []
         self._patches: list[PatchInfo] = []
         self._ranges: Labels = np.zeros(1, dtype=np.int64)
         self.notes = (f"The flow was put together from {self._processors.n} processor folders.", note)[
@@ -130,7 +133,7 @@ class DecomposedCase(Case):
         if poly is None:
             self._files = ()
             return self.poly(time)
-        return poly, tuple(self._patches), []
+        return poly, tuple(self._patches), self._mesh_notes
 
     def _open(self, time: str | None) -> None:
         """Read and join the mesh at a time, unless it is that of the last call."""
@@ -138,7 +141,9 @@ class DecomposedCase(Case):
         if files == self._files:
             return
         pieces = read_pieces(self._processors, files, self.root)
-        parts = read_addresses(self._processors, files[1].parent, pieces) or found_addresses(pieces)
+        parts = read_addresses(self._processors, files[1].parent, pieces)
+        self._mesh_notes = [] if parts else [_JOINED]
+        parts = parts or found_addresses(pieces)
         self._patches, self._ranges = whole_patches(self.root, parts)
         self._poly = join_meshes(self.root, pieces, parts, self._patches, self._ranges)
         self._parts, self._files = parts, files

@@ -65,6 +65,7 @@ def test_meshes_without_addressing_are_joined_over_their_processor_patches(case,
     for path in case.glob("processor*/constant/polyMesh/*Addressing"):
         path.unlink()
     whole, parts = read_case(case, 0.5), read_parts(case, 0.5)
+    assert any("joined over their processor patches" in note for note in parts.notes)
     assert parts.patches == whole.patches
     assert len(parts.mesh.points) == len(whole.mesh.points)
     assert np.diff(parts.mesh.patch_start).tolist() == np.diff(whole.mesh.patch_start).tolist()
