@@ -15,7 +15,6 @@ from foamprb.cloud.integrators.registry import SMALL_STOKES
 from foamprb.cloud.measures import shear_rate
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
-from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import WALLS, Patch
 from foamprb.flow.meshflow import MeshFlow
@@ -23,7 +22,16 @@ from foamprb.flow.read.case import available_times
 from foamprb.flow.read.caveats import is_steady, turbulence_fields
 from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
-from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.flow.read.fluid import (
+    apparent_viscosity,
+    fluid_file,
+    mean_density,
+    mean_temperature,
+    phase_values,
+    phases_of,
+    read_density,
+    read_viscosity,
+)
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
@@ -104,11 +112,12 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
 def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
-    rho, nu, fluid = _fluid(case, source)
-    step, interval, end = times(scales)
+    rho, nu, fluid = _fluid(case, source, scales.shear)
     rho0 = 1050.0 if rho > 500.0 else 1000.0
     rotating = _rotating(case, flow, source)
     d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
+    settling = _settling_time(case, source.region, flow, (rho0 - rho) * d * d / (18.0 * rho * nu))
+    step, interval, end = times(scales, settling)
     rate = scales.shear or 1.0
     modulus = _rounded(rho * nu * max(rate / _CAPILLARY, scales.most_shear / _MOST_CAPILLARY))
     of_rate = "the mean shear rate" if scales.shear else "as the fluid is at rest"
@@ -255,10 +264,27 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
     return max(rates, key=lambda name: rates[name]), total
 
 
-def times(scales: FlowScales) -> tuple[float, float, float]:
-    """Return step, write interval and end of a first run, s: integer multiples of each other, rounded."""
+def _settling_time(case: Path, region: str, flow: MeshFlow, speed_over_g: float) -> float:
+    """Return the time in which particles settle through the domain, s; 0 without gravity.
+
+    ``speed_over_g`` is their speed over the gravity, s.
+    """
+    try:
+        g = np.array(read_gravity(case, region))
+    except InputError:
+        return 0.0
+    extent = float(np.abs(g) @ (flow.bounds[1] - flow.bounds[0])) / (float(g @ g) or math.inf)
+    return extent / abs(speed_over_g) if speed_over_g != 0.0 else 0.0
+
+
+def times(scales: FlowScales, settling: float = 0.0) -> tuple[float, float, float]:
+    """Return step, write interval and end of a first run, s: integer multiples of each other, rounded.
+
+    Where nothing flows, the end is the time of ``settling``, s, if that is known.
+    """
     if scales.speed == 0.0:
-        return 0.01, 0.02, 1.0
+        step = _nice(settling / (20 * _TIMES), up=True) if settling > 0.0 else 0.01
+        return (step, 20.0 * step, 20.0 * _TIMES * step) if settling > 0.0 else (0.01, 0.02, 1.0)
     shortest = scales.duration / _MOST_STEPS
     step = _nice(max(shortest, min(scales.step, scales.duration / (4 * _TIMES))), up=scales.step < shortest)
     steps = _nice(max(1.0, scales.duration / step / _TIMES), up=True)
@@ -287,8 +313,11 @@ def _rounded(value: float) -> float:
     return float(f"{value:.1e}")
 
 
-def _fluid(case: Path, source: FlowSource) -> tuple[float, float, list[str]]:
-    """Return density and kinematic viscosity of the fluid, and entries for values that the case lacks."""
+def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]]:
+    """Return density and kinematic viscosity of the fluid, and entries for values that the case lacks.
+
+    ``rate`` is the shear rate, 1/s, at which a fluid that is not Newtonian is taken.
+    """
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
     nu, mu, lines = None, None, []
@@ -297,15 +326,21 @@ def _fluid(case: Path, source: FlowSource) -> tuple[float, float, list[str]]:
             nu, mu, _ = read_viscosity(file, case)
             lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: from {where}")
     except InputError as error:
+        assert file is not None
+        phases = _phases(file, case, rate)
+        if phases:
+            return phases
         try:
-            assert file is not None
-            nu, mu, temperature = read_viscosity(file, case, _TEMPERATURE)
+            T, origin = _temperature(case, source.region)
+            nu, mu, temperature = read_viscosity(file, case, T)
             if temperature is None:
                 raise error
-            lines.append(f"TInf {_TEMPERATURE:g}; // {_said('constantProperties', 'TInf')}")
+            lines.append(f"TInf {T:g}; // {_said('constantProperties', 'TInf')}{origin}")
         except InputError:
-            nu = _some_viscosity(file, case)
-            lines.append(f"nu {nu:g}; // m2/s, kinematic viscosity; {where} has no constant value")
+            nu, what = _viscosity_of_model(file, case, rate)
+            lines.append(
+                f"nu {nu:g}; // m2/s, kinematic viscosity; {what or f'{where} has no constant value'}"
+            )
     if nu is None and mu is None:
         nu = 1e-6
         lines.append("nu 1e-06; // m2/s, kinematic viscosity; not in the case: like water")
@@ -320,6 +355,40 @@ def _fluid(case: Path, source: FlowSource) -> tuple[float, float, list[str]]:
     return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
 
 
+def _temperature(case: Path, region: str) -> tuple[float, str]:
+    """Return the mean temperature of the fluid, K, and its source for a comment."""
+    try:
+        found = mean_temperature(case, region, "latestTime")
+    except InputError:
+        found = None
+    return (_TEMPERATURE, "") if found is None else (float(f"{found[0]:.4g}"), f", mean of T at {found[1]}")
+
+
+def _phases(file: Path, case: Path, rate: float) -> tuple[float, float, list[str]] | None:
+    """Return the result of :func:`_fluid` for the first of several phases; the others are in comments."""
+    try:
+        phases = [(phase.key, *phase_values(phase, rate)) for phase in phases_of(read_dictionary(file, case))]
+    except InputError:
+        return None
+    known = [(name, nu, rho) for name, nu, rho in phases if nu is not None and rho is not None]
+    if not known:
+        return None
+    lines = []
+    for index, (name, nu, rho) in enumerate(known):
+        start, why = ("// ", "") if index else ("", ", in which the particles move")
+        lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
+    return known[0][2], known[0][1], lines
+
+
+def _viscosity_of_model(file: Path, case: Path, rate: float) -> tuple[float, str]:
+    """Return the viscosity of the selected model at a shear rate (1/s), m²/s, and its source."""
+    try:
+        found = apparent_viscosity(read_dictionary(file, case), rate)
+    except InputError:
+        found = None
+    return (1e-6, "") if found is None else (float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s")
+
+
 def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:
     try:
         if file is not None and (rho := read_density(file, case)) is not None:
@@ -328,31 +397,6 @@ def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[fl
     except InputError:
         return None, ""
     return (field[0], f"the field rho at time {field[1]}") if field else (None, "")
-
-
-def _some_viscosity(file: Path | None, case: Path) -> float:
-    """Return a viscosity of another model's dictionary, m²/s: at rest, if it has one."""
-    try:
-        root = read_dictionary(file, case) if file is not None else None
-    except InputError:
-        root = None
-    found = dict(_numbers(root)) if root else {}
-    return next(
-        (found[key] for key in ("nu", "nu0", "nuMax", "nuInf", "k") if found.get(key, 0.0) > 0.0), 1e-6
-    )
-
-
-def _numbers(dictionary: Dictionary) -> list[tuple[str, float]]:
-    found = []
-    for entry in dictionary.entries.values():
-        if isinstance(entry, Dictionary):
-            found += _numbers(entry)
-        elif isinstance(entry, Stream) and entry.tokens:
-            try:
-                found.append((entry.key, float(entry.tokens[-1])))
-            except ValueError:
-                continue
-    return found
 
 
 def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:

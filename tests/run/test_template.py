@@ -13,10 +13,13 @@ from foam_writer import header, put_scalar, write_case
 from paths import PIPE
 
 from foamprb.cli import main
+from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
+from foamprb.flow.read.flows import read_flow
+from foamprb.flow.read.fluid import apparent_viscosity
 from foamprb.run.job import prepare
-from foamprb.run.template import FlowScales, _nice, diameter, times, write_template
+from foamprb.run.template import FlowScales, _nice, diameter, scales_of, times, write_template
 from foamprb.settings.patches import match_patches
 from foamprb.settings.settings import read_settings
 
@@ -82,12 +85,45 @@ def test_without_a_case_or_a_flow(tmp_path, case):
 
 
 def test_a_fluid_of_another_model_gets_a_viscosity(case):
+    """At the mean shear rate, by the model that is selected, not by the one beside it."""
     (case / "constant/transportProperties").write_text(
-        "transportModel CrossPowerLaw; CrossPowerLawCoeffs { nu0 nu0 [0 2 -1 0 0 0 0] 0.01; nuInf 1; }"
+        "transportModel CrossPowerLaw; CrossPowerLawCoeffs { nu0 nu0 [0 2 -1 0 0 0 0] 0.01; nuInf 10; m 0.4; "
+        "n 3; } BirdCarreauCoeffs { nu0 1e-06; nuInf 1e-06; k 0; n 1; }"
+    )
+    rate = scales_of(read_flow(case)).shear
+    text = write_template(case).read_text()
+    assert f"CrossPowerLaw at {rate:.3g} 1/s" in text
+    nu = 10.0 - 9.99 / (1.0 + (0.4 * rate) ** 3)
+    assert read_settings(case).fluid.nu == pytest.approx(nu, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("model", "expected"),
+    [
+        ("BirdCarreau; nu0 1.6e-5; nuInf 1e-6; k 1; n 0", 1e-6 + 1.5e-5 / np.sqrt(17.0)),
+        ("powerLaw; k 1e-5; n 0.5; nuMin 1e-6; nuMax 1e-3", 5e-6),
+        ("HerschelBulkley; nu0 1; tau0 1e-5; k 1e-5; n 1", 1.25e-5),
+        ("Casson; m 1e-6; tau0 4e-6; nuMin 1e-7; nuMax 1", 4e-6),
+        ("Newtonian; nu 2e-6", 2e-6),
+    ],
+)
+def test_viscosities_at_four_per_second(tmp_path, model, expected):
+    file = tmp_path / "transportProperties"
+    file.write_text(f"transportModel {model};")
+    name, nu = apparent_viscosity(read_dictionary(file, tmp_path), 4.0)
+    assert model.startswith(name)
+    assert nu == pytest.approx(expected)
+
+
+def test_both_phases_of_a_case_are_written(case):
+    (case / "constant/transportProperties").write_text(
+        "phases (water air); water { transportModel Newtonian; nu 1e-06; rho 1000; } "
+        "air { transportModel Newtonian; nu 1.48e-05; rho 1; } sigma 0.07;"
     )
     text = write_template(case).read_text()
-    assert "nu                  0.01;" in text
-    assert read_settings(case).fluid.nu == 0.01
+    assert re.search(r"// nu 1.48e-05; +// m2/s, of air", text)
+    fluid = read_settings(case).fluid
+    assert (fluid.nu, fluid.rho) == (1e-6, 1000.0)
 
 
 def test_a_fluid_that_depends_on_temperature_gets_one(case):
@@ -97,6 +133,19 @@ def test_a_fluid_that_depends_on_temperature_gets_one(case):
     )
     assert re.search(r"TInf +300; +// K, temperature of the fluid", write_template(case).read_text())
     assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
+
+
+def test_the_temperature_is_that_of_the_field(case):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
+    )
+    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
+    (time / "T").write_text(
+        header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
+        'boundaryField { ".*" { type zeroGradient; } }'
+    )
+    assert re.search(r"TInf +977; +// K, .*mean of T", write_template(case).read_text())
 
 
 @pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])
@@ -125,6 +174,9 @@ def test_times_are_multiples_of_each_other():
 
 def test_times_of_a_fluid_at_rest():
     assert times(scales(speed=0.0)) == (0.01, 0.02, 1.0)
+    # Long enough to settle.
+    dt, interval, end = times(scales(speed=0.0), 900.0)
+    assert (dt, interval, end) == pytest.approx((1.0, 20.0, 1000.0))
 
 
 def test_the_diameter_keeps_the_reynolds_number_small():
@@ -155,7 +207,7 @@ def test_patches_with_odd_names_and_many_walls_are_matched(case):
     changed = f"{text[:start]}patches\n(\n{inner}\n{text[end:]}"
     (case / "constant/softCloudProperties").write_text(changed)
     names = [type(i).__name__ for i in match_patches(read_settings(case).patches, patches, "file")]
-    assert names == ["Escape", "Escape", "Mirror", *["Stick"] * 9]
+    assert names == ["Escape", "Cyclic", "Mirror", *["Stick"] * 9]
 
 
 @pytest.mark.parametrize(("second", "unit"), [("epsilon", "0 2 -3"), ("omega", "0 0 -1")])

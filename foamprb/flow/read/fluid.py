@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -16,9 +17,10 @@ from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.case import available_times, find_file, word_of
-from foamprb.flow.read.field import DENSITY_FIELD, read_field
+from foamprb.flow.read.field import DENSITY_FIELD, Kind, read_field
 from foamprb.flow.read.times import pick_time
 
+_TEMPERATURE_FIELD = Kind("volScalarField", "scalar", ((0, 0, 0, 1, 0, 0, 0),), "a temperature")
 FILES = ("transportProperties", "physicalProperties", "thermophysicalProperties")
 """Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
 
@@ -158,12 +160,89 @@ def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str
     InputError
         The field is broken, or there is no such time.
     """
+    return _mean(case, region, time, "rho", DENSITY_FIELD)
+
+
+def mean_temperature(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
+    """Return the mean of ``T`` over the cells, K, and the time's name; see :func:`mean_density`."""
+    return _mean(case, region, time, "T", _TEMPERATURE_FIELD)
+
+
+def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) -> tuple[float, str] | None:
     names = available_times(case) if case.is_dir() else ()
     if not names:
         return None
     name = names[pick_time(case, names, time)]
-    path = case / name / region / "rho"
+    path = case / name / region / field
     if existing(path) is None:
         return None
-    mean = float(read_field(path, DENSITY_FIELD, case).cells.mean())
+    mean = float(read_field(path, kind, case).cells.mean())
     return (mean, name) if 0.0 < mean < math.inf else None
+
+
+def apparent_viscosity(fluid: Dictionary, rate: float) -> tuple[str, float] | None:
+    """Return the selected model of a fluid and its viscosity at a shear rate (1/s), m²/s; None if unknown."""
+    model = word_of(fluid, "transportModel") or word_of(fluid, "viscosityModel")
+    coefficients = fluid.entries.get(f"{model}Coeffs", fluid)
+    if not isinstance(coefficients, Dictionary) or model not in _APPARENT:
+        return None
+    names, formula = _APPARENT[model]
+    values = [_number(coefficients, name) for name in names]
+    try:
+        nu = formula(max(rate, 1e-9), *values) if None not in values else math.nan
+    except (ArithmeticError, ValueError):
+        return None
+    return (model, float(nu)) if 0.0 < nu < math.inf else None
+
+
+def phases_of(root: Dictionary) -> list[Dictionary]:
+    """Return the dictionaries of the phases of a two-phase case."""
+    listed = root.entries.get("phases")
+    names = re.findall(r"[\w.]+", listed.text) if isinstance(listed, Stream) else []
+    found = [root.entries.get(name) for name in names]
+    return [phase for phase in found if isinstance(phase, Dictionary)]
+
+
+def phase_values(phase: Dictionary, rate: float) -> tuple[float | None, float | None]:
+    """Return the viscosity of a phase at a shear rate (1/s), m²/s, and its density, kg/m³, if it has them."""
+    found = apparent_viscosity(phase, rate)
+    return (found[1] if found else _number(phase, "nu")), _number(phase, "rho")
+
+
+def _number(dictionary: Dictionary, key: str) -> float | None:
+    """Return the number at the end of an entry, behind a name and dimensions; None if there is none."""
+    entry = dictionary.entries.get(key)
+    try:
+        return float(entry.tokens[-1]) if isinstance(entry, Stream) and entry.tokens else None
+    except ValueError:
+        return None
+
+
+def _limited(nu: float, least: float, most: float) -> float:
+    return max(least, min(most, nu))
+
+
+_APPARENT: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
+    "Newtonian": (("nu",), lambda _r, nu: nu),
+    "CrossPowerLaw": (
+        ("nu0", "nuInf", "m", "n"),
+        lambda r, nu0, inf, m, n: (nu0 - inf) / (1.0 + (m * r) ** n) + inf,
+    ),
+    "BirdCarreau": (
+        ("nu0", "nuInf", "k", "n"),
+        lambda r, nu0, inf, k, n: inf + (nu0 - inf) * (1.0 + (k * r) ** 2) ** (0.5 * (n - 1.0)),
+    ),
+    "powerLaw": (
+        ("k", "n", "nuMin", "nuMax"),
+        lambda r, k, n, least, most: _limited(k * r ** (n - 1.0), least, most),
+    ),
+    "HerschelBulkley": (
+        ("nu0", "tau0", "k", "n"),
+        lambda r, nu0, tau0, k, n: min(nu0, (tau0 + k * r**n) / r),
+    ),
+    "Casson": (
+        ("m", "tau0", "nuMin", "nuMax"),
+        lambda r, m, tau0, least, most: _limited((math.sqrt(tau0 / r) + math.sqrt(m)) ** 2, least, most),
+    ),
+}
+"""OpenFOAM's models: their coefficients, and the viscosity at a shear rate."""
