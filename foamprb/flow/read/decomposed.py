@@ -49,7 +49,7 @@ def is_only_decomposed(case: Path, region: str = "") -> bool:
     last = (available_times(case) or (None,))[-1]
     if existing(mesh_folder(case, last, region) / "faces") is None:
         return not regions(case) or bool(region)
-    return last in (None, "0") and float((available_times(folders[0]) or ("0",))[-1]) != 0.0
+    return float(last or 0) == 0.0 and float((available_times(folders[0]) or (0,))[-1]) != 0.0
 
 
 class DecomposedCase(Case):

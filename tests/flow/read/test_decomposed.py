@@ -229,6 +229,8 @@ def test_a_mesh_beside_parts_that_alone_have_times_after_0(case):
     for time in TIMES[1:]:
         shutil.rmtree(case / time)
     assert is_only_decomposed(case)
+    (case / "0").rename(case / "0.0")
+    assert is_only_decomposed(case)
     for folder in case.glob("processor*"):
         for time in TIMES[1:]:
             shutil.rmtree(folder / time)
