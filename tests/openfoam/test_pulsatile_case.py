@@ -65,7 +65,7 @@ def test_the_case_runs_from_the_command_line(live):
     assert [entry.time for entry in read_pvd(folder / "softCloud.pvd")] == pytest.approx([3, 4, 5, 6, 7])
 
 
-@pytest.fixture(scope="module", params=["ascii", "ascii, compressed", "binary"])
+@pytest.fixture(scope="module", params=["ascii, compressed", "binary"])
 def decomposed(live, request, tmp_path_factory):
     """Two times of the case, and the same cut into 2 × 2 × 1 parts."""
     case = tmp_path_factory.mktemp("decomposed") / "case"
