@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import logging
 import os
 import re
@@ -86,12 +87,34 @@ class _Handler(logging.StreamHandler[TextIO]):
 
     def handleError(self, record: logging.LogRecord) -> None:
         """End the program where the reader of its log has gone."""
-        if isinstance(sys.exception(), BrokenPipeError):
+        error = sys.exception()
+        if isinstance(error, BrokenPipeError):
             raise
+        if isinstance(error, OSError):
+            # A full disk, for example: the command goes on without its log.
+            print(f"--> foamprb Warning : the log cannot be written: {error.strerror}.", file=sys.stderr)
+            _drop_output()
+            return
         super().handleError(record)
 
 
+def _drop_output() -> None:
+    """Drop buffered output; otherwise Python reports at its end that it could not be written."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def _log_to_stdout() -> None:
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            # Closed by the caller. Another file would take its number.
+            with suppress(OSError):
+                os.dup2(os.open(os.devnull, os.O_RDWR), number)
+            setattr(sys, name, open(os.devnull, "r" if number == 0 else "w"))  # noqa: PTH123, SIM115
+    for stream in (sys.stdout, sys.stderr):
+        # File names need not be text.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     logger = logging.getLogger("foamprb")
     logger.handlers[:] = [_Handler(sys.stdout)]
     logger.setLevel(logging.INFO)
@@ -101,8 +124,8 @@ def _log_to_stdout() -> None:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status.
 
-    It is 0; 1 for a mistake in the input or a run that had to end early; 130 after Ctrl-C, 143 after
-    SIGTERM, and 141 if the reader of the output has closed it.
+    It is 0; 1 for a mistake in the input or a run that had to end early; 141 if the reader of the output has
+    closed it; and 128 plus the number of the signal that ended a run: 130 for Ctrl-C, 143 for SIGTERM.
     """
     given = sys.argv[1:] if arguments is None else arguments
     words = [re.sub(r"^-(?=[A-Za-z]{2})", "--", word) for word in given]
@@ -120,6 +143,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _do(words: Sequence[str], ranks: Ranks | None) -> int:
     """Execute the command line."""
+    for word in words:
+        if not word.isprintable() and word != word.encode(errors="replace").decode():
+            raise InputError(f"{word}: a name that is not UTF-8, which VTK cannot open. Rename it.")
     if words and not words[0].startswith("-") and words[0] not in COMMANDS:
         raise InputError(f"unknown command '{words[0]}'. {suggestion(words[0], COMMANDS)}")
     parsed = _parser().parse_args(words)
@@ -145,9 +171,7 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
         print(f"--> foamprb {stopped}", file=sys.stderr)
         return 128 + stopped.signal
     except BrokenPipeError:
-        # Buffered output is dropped; otherwise Python reports at its end that it could not be written.
-        with suppress(OSError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         return 128 + signal.SIGPIPE
     except Exception as error:
         reason = ran_out(error) or error
@@ -155,6 +179,10 @@ def _exit_status(words: Sequence[str], command: Callable[[], int]) -> int:
         if not known or "--debug" in words:
             raise
         print(f"--> foamprb Error : {reason}", file=sys.stderr)
+        try:
+            sys.stdout.flush()
+        except OSError:
+            _drop_output()
         return 1
     except KeyboardInterrupt:
         print("--> foamprb stopped by the user.", file=sys.stderr)

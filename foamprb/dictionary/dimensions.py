@@ -19,6 +19,7 @@ __all__ = [
     "Dimensions",
     "described",
     "read_dimensions",
+    "read_unit",
     "written",
 ]
 
@@ -67,6 +68,21 @@ _UNITS: dict[str, Dimensions] = {
     "N": (1, 1, -2, 0, 0, 0, 0),
     "Pa": (1, -1, -2, 0, 0, 0, 0),
 }
+_WORDS: dict[str, Dimensions] = {
+    "length": (0, 1, 0, 0, 0, 0, 0), "area": (0, 2, 0, 0, 0, 0, 0), "volume": (0, 3, 0, 0, 0, 0, 0),
+    "time": (0, 0, 1, 0, 0, 0, 0), "mass": (1, 0, 0, 0, 0, 0, 0), "rate": RATE, "velocity": VELOCITY,
+    "acceleration": ACCELERATION, "density": DENSITY, "kinematicViscosity": KINEMATIC_VISCOSITY,
+    "dynamicViscosity": DYNAMIC_VISCOSITY, "volumetricFlux": VOLUME_FLUX, "massFlux": MASS_FLUX,
+    "kinematicPressure": SPECIFIC_ENERGY, "pressure": (1, -1, -2, 0, 0, 0, 0),
+    "force": (1, 1, -2, 0, 0, 0, 0),
+}  # fmt: skip
+"""Dimensions that OpenFOAM.org's versions write by name."""
+_SCALED = {
+    "km": (1e3, "m"), "dm": (0.1, "m"), "cm": (1e-2, "m"), "mm": (1e-3, "m"), "um": (1e-6, "m"),
+    "ms": (1e-3, "s"), "us": (1e-6, "s"), "min": (60.0, "s"), "hr": (3600.0, "s"), "g": (1e-3, "kg"),
+    "kPa": (1e3, "Pa"), "mPa": (1e-3, "Pa"),
+}  # fmt: skip
+_SCALED_UNIT = re.compile(rf"(/\s*)?(?<![A-Za-z])({'|'.join(_SCALED)})(?![A-Za-z])(?:\^([-+]?\d+))?")
 _UNIT = re.compile(rf"(/\s*)?({'|'.join(sorted(_UNITS, key=len, reverse=True))})(?:\^([-+]?\d+))?")
 
 
@@ -76,6 +92,8 @@ def read_dimensions(text: str) -> Dimensions | None:
     if not (text.startswith("[") and text.endswith("]")):
         return None
     words = text[1:-1].split()
+    if len(words) == 1 and words[0] in _WORDS:
+        return _WORDS[words[0]]
     if not words or not _EXPONENT.fullmatch(words[0]):
         return _of_units(text[1:-1].strip())
     if len(words) not in (5, 7):
@@ -99,6 +117,23 @@ def _of_units(text: str) -> Dimensions | None:
             return None
         at += len(text[at:]) - len(text[at:].lstrip(" "))
     return tuple(sum_of_exponents)
+
+
+def read_unit(text: str) -> tuple[Dimensions, float] | None:
+    """Read dimensions, or a unit of OpenFOAM.org's versions, ``[mm^2/s]``, with its factor to SI."""
+    dimensions = read_dimensions(text)
+    if dimensions is not None:
+        return dimensions, 1.0
+    found, factor = text.strip(), 1.0
+
+    def plain(match: re.Match[str]) -> str:
+        nonlocal factor
+        scale, unit = _SCALED[match[2]]
+        factor *= scale ** (int(match[3] or 1) * (-1 if match[1] else 1))
+        return f"{match[1] or ''}{unit}{f'^{match[3]}' if match[3] else ''}"
+
+    dimensions = read_dimensions(_SCALED_UNIT.sub(plain, found))
+    return None if dimensions is None else (dimensions, factor)
 
 
 def written(dimensions: Dimensions) -> str:

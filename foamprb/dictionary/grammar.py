@@ -327,6 +327,10 @@ class _Parser:
                 for used in _upward(entry):
                     used.used = True
                 return entry
+        if "/" in name or "!" in name or ":-" in name or ":+" in name:
+            raise self.mistake(
+                token, "is a macro of OpenFOAM that is not supported. Allowed: $name, ${name}, $a.b, $:a.b."
+            )
         raise self.mistake(token, "is not defined above.")
 
     def merge(self, token: _Token, dictionary: Dictionary) -> None:

@@ -16,7 +16,7 @@ from foamprb.dictionary.dimensions import (
     KINEMATIC_VISCOSITY,
     Dimensions,
     described,
-    read_dimensions,
+    read_unit,
     written,
 )
 from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList, Stream, unquoted
@@ -59,7 +59,9 @@ class Reader(NamedTuple):
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _INTEGER = re.compile(r"[-+]?\d{1,18}", re.ASCII)
-_DIMENSIONED = re.compile(r"(?:(?:[^\W\d]\S* )?(?P<dimensions>\[ .* \]) )?(?P<value>\S+)")
+_DIMENSIONED = re.compile(
+    r"(?:(?:[^\W\d]\S* )?(?P<dimensions>\[ .* \]|\[[^ ]*\]) )?(?P<value>[^\s\[]+)(?: (?P<unit>\[.*\]))?"
+)
 _SWITCHES = {"yes": True, "on": True, "true": True, "no": False, "off": False, "false": False}
 
 
@@ -73,24 +75,30 @@ def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
 
     def read(entry: Stream) -> float | None:
         match = _DIMENSIONED.fullmatch(entry.text)
-        if match and match["dimensions"]:
-            _require(match["dimensions"], expected)
-        return _number(match["value"]) if match else None
+        if not match or (value := _number(match["value"])) is None:
+            return None
+        for text in (match["dimensions"], match["unit"]):
+            if text:
+                value *= _require(text, expected)
+        return value
 
     return read
 
 
-def _require(text: str, expected: Dimensions) -> None:
-    """Raise ValueError with a description if dimensions differ from the expected ones."""
-    dimensions = read_dimensions(text)
-    if dimensions is None:
+def _require(text: str, expected: Dimensions) -> float:
+    """Return the factor of a unit to SI; raise ValueError if its dimensions differ from the expected ones."""
+    found = read_unit(text)
+    if found is None:
         raise ValueError("whose dimensions cannot be read")
+    dimensions, factor = found
     if dimensions != expected:
         raise ValueError(f"with the dimensions {described(dimensions)}, not {described(expected)}")
+    return factor
 
 
 def _dimensions_of_acceleration(entry: Stream) -> str:
-    _require(entry.text, ACCELERATION)
+    if _require(entry.text, ACCELERATION) != 1.0:
+        raise ValueError("which is not in m s^-2")
     return entry.text
 
 

@@ -14,6 +14,7 @@ from foamprb.errors import InputError
 from foamprb.parallel.ranks import Ranks
 from foamprb.parallel.worker import Worker
 
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU)
 _RANK_VARIABLES = ("OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID")
 
 
@@ -89,7 +90,9 @@ def connect() -> Ranks | Worker | None:
 
 @contextmanager
 def caught_signals() -> Iterator[list[int]]:
-    """Collect the first Ctrl-C or SIGTERM in a list; a second one ends the process.
+    """Collect the first of the signals that end a process in a list; a second one ends the process.
+
+    These are Ctrl-C, SIGTERM, SIGHUP when a terminal closes, and SIGXCPU at a limit of processor time.
 
     Python catches signals in the main thread only.
     """
@@ -97,7 +100,9 @@ def caught_signals() -> Iterator[list[int]]:
     if threading.current_thread() is not threading.main_thread():
         yield caught
         return
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    before = {number: signal.getsignal(number) for number in _SIGNALS}
+    # nohup ignores SIGHUP.
+    before = {number: handler for number, handler in before.items() if handler is not signal.SIG_IGN}
 
     def restore() -> None:
         for number, handler in before.items():

@@ -67,7 +67,8 @@ def open_results(job: Job) -> Iterator[Results]:
         reason = ran_out(error) or error
         if not isinstance(reason, OSError | OutOfMemory):
             raise
-        raise RunStopped(f"{str(reason).rstrip('.')}. {HOW_TO_GO_ON}") from error
+        how = f" {HOW_TO_GO_ON}" if job.folder.path.exists() else ""
+        raise RunStopped(f"{str(reason).rstrip('.')}.{how}") from error
 
 
 class Results:

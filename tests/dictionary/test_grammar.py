@@ -175,3 +175,10 @@ def test_dictionary_agrees_with_foamlib(file):
 def test_a_word_without_end_does_not_hide_the_message():
     message = str(Mistake("constant/x", 3, f"{'y' * 1_000_000} is not known."))
     assert message == f"constant/x, line 3: {'y' * 60}... is not known."
+
+
+@pytest.mark.parametrize("macro", ["$/x", "$!x", "${x:-1}", "${x:+1}"])
+def test_macros_of_later_versions_are_named(macro, tmp_path):
+    (tmp_path / "d").write_text(f"x 1;\na {macro};\n")
+    with pytest.raises(InputError, match=r"line 2: .* is a macro of OpenFOAM that is not supported"):
+        read_dictionary(tmp_path / "d", tmp_path)

@@ -108,3 +108,17 @@ def test_a_closed_pipe_ends_every_command_quietly(words):
     finally:
         os.close(writer)
     assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, "")
+
+
+@pytest.mark.parametrize(("shell", "status"), [(">&-", 0), ("> /dev/full", 1)])
+def test_a_closed_or_full_output_is_no_traceback(shell, status):
+    command = f"exec {sys.executable} -m foamprb info -case {PIPE} {shell}"
+    done = subprocess.run(["sh", "-c", command], env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    assert done.returncode == status
+    assert done.stderr.count("\n") == status
+    assert ("No space left" in done.stderr) == bool(status)
+
+
+def test_names_that_are_no_text_are_one_message(capsys):
+    assert main(["info", "-case", "caf\udce9"]) == 1
+    assert "a name that is not UTF-8" in capsys.readouterr().err

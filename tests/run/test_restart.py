@@ -237,9 +237,11 @@ def test_a_damaged_checkpoint_costs_one_write_interval(stopped, truth, capsys):
     assert results(stopped) == truth
 
 
-@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "status"), [(signal.SIGINT, 130), (signal.SIGHUP, 129), (signal.SIGXCPU, 152)]
+)
 def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case, truth, capsys, monkeypatch):
-    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGTERM)}
+    before = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGHUP, signal.SIGXCPU)}
     begin = Writer.begin
 
     writes = itertools.count(1)

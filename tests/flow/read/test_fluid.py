@@ -202,3 +202,20 @@ def test_a_mean_that_is_no_density_is_none(tmp_path):
     assert mean_density(tmp_path / "nothing", "", 1) is None
     (tmp_path / "2").mkdir()
     assert mean_density(tmp_path, "", 2) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["1e-05 [m^2/s]", "10 [mm^2/s]", "[kinematicViscosity] 1e-05", "nu [m^2 s^-1] 1e-5"],
+)
+def test_units_of_openfoam_org(text, tmp_path):
+    """Its version 12 writes a unit after the value; other units than SI are applied."""
+    (tmp_path / "nu").write_text(f"viscosityModel constant;\nnu {text};\n")
+    assert read_viscosity(tmp_path / "nu", tmp_path).nu == pytest.approx(1e-5)
+
+
+@pytest.mark.parametrize("text", ["1e-05 [m/s]", "1e-05 [Pa s]", "1 [furlong^2/s]", "[m^2/s] 1e-5 [m^2/s] 1"])
+def test_wrong_units_are_refused(text, tmp_path):
+    (tmp_path / "nu").write_text(f"viscosityModel constant;\nnu {text};\n")
+    with pytest.raises(InputError, match="nu is '"):
+        read_viscosity(tmp_path / "nu", tmp_path)
