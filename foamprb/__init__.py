@@ -34,6 +34,7 @@ Particles in a flow:
     Models              names of traction, drag, solid, wall test and integrator, and the forces
     Limits              how far a particle may be stretched, how large and how costly it may become
     FailedParticlesWarning  particles of a cloud failed: how many, and why
+    ValidityWarning     steps are too long for a model
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates

@@ -52,6 +52,9 @@ from .errors import (
 from .errors import (
     RunStopped as RunStopped,
 )
+from .errors import (
+    ValidityWarning as ValidityWarning,
+)
 from .flow import analytic as analytic
 from .flow.read.case import select_times as select_times
 from .flow.read.meshfile import read_mesh_file as read_mesh_file
@@ -91,6 +94,7 @@ __all__ = [
     "Status",
     "Stick",
     "StochasticDispersion",
+    "ValidityWarning",
     "VirtualMass",
     "WallLift",
     "add_material",

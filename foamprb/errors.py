@@ -17,6 +17,10 @@ class FailedParticlesWarning(UserWarning):
     """
 
 
+class ValidityWarning(UserWarning):
+    """Step or particles beyond the range in which a model or an integrator is right."""
+
+
 class RunStopped(Exception):  # noqa: N818
     """End of a run before its end time; the message gives the reason, and how to continue."""
 

@@ -13,20 +13,24 @@ from numpy.typing import NDArray
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
+from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
 from foamprb.cloud.measures import shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
+from foamprb.cloud.stability import instability
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
 from foamprb.compile.link import link, read_by
-from foamprb.errors import FailedParticlesWarning, InputError
+from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
 
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
+_CHECKS = 8
+"""Number of times that the stability of ``paper`` is checked in a call of :meth:`Cloud.advance`."""
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
 
@@ -125,6 +129,7 @@ class Cloud:
             for kernel in model.required_kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
+        self._warned: set[str] = set()
         self._reach_grows = True
         self._largest = float(p.R.max(initial=0.0))
         self._refuse_large()
@@ -148,8 +153,9 @@ class Cloud:
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps with the threads of this process.
 
-        A :class:`~foamprb.errors.FailedParticlesWarning` reports failed particles; the others continue. After
-        Ctrl-C the cloud can be advanced further.
+        A :class:`~foamprb.errors.FailedParticlesWarning` reports failed particles; the others continue. A
+        :class:`~foamprb.errors.ValidityWarning` reports, once, that steps are too long for a model of the
+        surroundings or for the integrator ``paper``. After Ctrl-C the cloud can be advanced further.
 
         Raises
         ------
@@ -158,7 +164,15 @@ class Cloud:
         """
         p = self.particles
         before = p.counts()[Status.FAILED]
-        Stepper(self).advance(steps)
+        for model in self.models.surroundings:
+            self._warn_once(type(model).__name__, model.long_step(p, self.flow, self.medium, self.dt))
+        # A shape beyond the limit oscillates, and is at times within it.
+        checks = _CHECKS if self.models.integrator == PAPER.name and PAPER.name not in self._warned else 1
+        for part in np.diff(np.linspace(0, steps, checks + 1).astype(int)).tolist():
+            Stepper(self).advance(part)
+            if checks > 1 and part:
+                _, text = instability(p, self.medium.mu, self.dt, self.models.material)
+                self._warn_once(PAPER.name, text)
         failed = p.counts()[Status.FAILED] - before
         if failed:
             k = int(np.flatnonzero(p.status == Status.FAILED)[-1])
@@ -168,6 +182,12 @@ class Cloud:
                 FailedParticlesWarning,
                 stacklevel=2,
             )
+
+    def _warn_once(self, subject: str, text: str) -> None:
+        """Warn about a subject from :meth:`advance`, if there is a text and there was none before."""
+        if text and subject not in self._warned:
+            self._warned.add(subject)
+            warnings.warn(text, ValidityWarning, stacklevel=3)
 
     @property
     def bounds(self) -> LoopLimits:

@@ -13,7 +13,7 @@ from foamprb.body.tensor import Tensor, add, cofactor, ddot, det, dot, principal
 from foamprb.cloud.state import Particles, Status
 from foamprb.compile.link import link
 
-__all__ = ["longest_stable_steps"]
+__all__ = ["instability", "longest_stable_steps"]
 
 Floats = NDArray[np.float64]
 _HALVINGS = 12
@@ -39,6 +39,22 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
     starts = range(0, p.size, _CHUNK)
     parts = [_limits(p.take(slice(k, k + _CHUNK)), mu_f, dt, material) for k in starts]
     return np.concatenate([np.empty(0), *parts])
+
+
+def instability(p: Particles, mu_f: float, dt: float, material: str) -> tuple[int, str]:
+    """Return the number of particles for whose shapes Δt is too long, and a sentence about them.
+
+    The parameters are those of :func:`longest_stable_steps`.
+    """
+    limits = longest_stable_steps(p, mu_f, dt, material)
+    beyond = int(np.isfinite(limits).sum())
+    if beyond == 0:
+        return 0, ""
+    return beyond, (
+        f"deltaT is up to {dt / limits.min():.3g} times what the integrator paper is stable with for the "
+        f"shapes of {beyond} particles: their deformation is wrong; use deltaT < {limits.min():.3g} or "
+        "integrator rosenbrock."
+    )
 
 
 def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:

@@ -16,7 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from foamprb.cloud.cloud import explain
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import SMALL_STOKES
-from foamprb.cloud.stability import longest_stable_steps
+from foamprb.cloud.stability import instability
 from foamprb.cloud.state import Status
 from foamprb.flow.base import Caveat
 from foamprb.results.folder import FAILURES
@@ -171,13 +171,11 @@ class RunLog:
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        limits = longest_stable_steps(cloud.particles, cloud.medium.mu, cloud.dt, cloud.models.material)
-        beyond = int(np.isfinite(limits).sum())
+        p, mu = cloud.particles, cloud.medium.mu
+        beyond, sentence = instability(p, mu, cloud.dt, cloud.models.material)
         if beyond > self._unstable:
             self._unstable = beyond
-            log.warning("deltaT is up to %.3g times what the integrator paper is stable with for the shapes "
-                        "of %d particles: their deformation is wrong; use deltaT < %.3g or integrator "
-                        "rosenbrock.", cloud.dt / limits.min(), beyond, limits.min())  # fmt: skip
+            log.warning("%s", sentence)
 
     def _log_slip(self) -> None:
         """Record the slip of the particles, and warn of the first Reynolds number that is too large."""

@@ -16,7 +16,7 @@ from foamprb.cloud.state import set_rest_shape, spheres
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.cloud.tracker import Models
-from foamprb.errors import InputError
+from foamprb.errors import InputError, ValidityWarning
 from foamprb.flow import analytic
 
 MU_F, R, T = 1e-3, 0.5e-6, 300.0
@@ -98,6 +98,8 @@ def test_steps_too_long_for_the_scale_of_heights_are_warned_of():
     assert not model.warnings(p, flow, HEAVY, 0.5 * 0.09**2 * R**2 / D)
     (warning,) = model.warnings(p, flow, HEAVY, 0.5 * 0.2**2 * R**2 / D)
     assert f"Use deltaT < {0.5 * 0.1**2 * R**2 / D:.2g}." in warning
+    with pytest.warns(ValidityWarning, match="Use deltaT <"):
+        carried(p, 1, 0.5 * 0.2**2 * R**2 / D, flow=flow, medium=HEAVY, models=(WallLift(cutOff=20.0), model))
     # Without weight a channel limits the steps.
     channel = analytic.pipe(10.0 * R, 0.0, 1.0)
     assert not model.warnings(p, channel, WATER, 0.5 * 1.0**2 * R**2 / D)

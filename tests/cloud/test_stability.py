@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import logging
+import warnings
 
 import numpy as np
 import pytest
 from pipe_case import copy_of_pipe, edit
 
-from foamprb import Medium, Models, analytic, spheres
+from foamprb import Medium, Models, ValidityWarning, analytic, spheres
 from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.stability import longest_stable_steps
@@ -42,6 +43,15 @@ def test_shape_that_saturates_below_its_length_is_beyond_the_limit(share):
     beyond = np.isfinite(found)
     assert beyond.sum() >= 2
     assert (np.array(found)[beyond] < cloud.dt).all()
+
+
+def test_a_cloud_warns_once_of_a_step_beyond_the_limit():
+    """|F| is 7.19 where 11.87 is right."""
+    with pytest.warns(ValidityWarning, match=r"stable with for the shapes of 1 particles.*use deltaT <"):
+        cloud = sheared(0.17)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cloud.advance(round(4e-3 / cloud.dt))
 
 
 def test_shape_that_is_right_is_within_the_limit():

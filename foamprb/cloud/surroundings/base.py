@@ -100,6 +100,10 @@ class Surrounding:
         """Return warnings before a run with steps Δt (s), as sentences."""
         return ()
 
+    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
+        """Return a warning that Δt (s) is too long for the model; empty if it is not."""
+        return ""
+
     def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002
         """Return lines for the log after a run with steps Δt (s)."""
         return ()

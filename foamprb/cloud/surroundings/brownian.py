@@ -189,33 +189,34 @@ class BrownianMotion(Surrounding):
         """Warn of thermal strains that are too large for the model, and of steps too long for walls."""
         if p.size == 0:
             return ()
-        found = []
         strain = float(np.median(self._strain(p))) if self.shape else 0.0
-        if strain > LARGE_STRAIN:
-            found.append(
-                f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that "
-                "of the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by "
-                "the flow alone."
-            )
-        step, room = self._step_over_room(p, flow, medium, dt)
-        if step > LONG_STEP * room:
-            allowed = dt * (LONG_STEP * room / step) ** 2
-            found.append(
-                f"molecules move particles by {step:.2g} m in a step, more than {LONG_STEP:g} of the "
-                f"{room:.2g} m that their weight or the walls leave them: their distribution at walls is "
-                f"inaccurate. Use deltaT < {allowed:.2g}."
-            )
-        return tuple(found)
+        large = (
+            f"molecules deform the particles by a strain of {strain:.2g} (median), which may hide that of "
+            "the flow: they are too small or too soft. BrownianMotion { shape no; } deforms them by the "
+            "flow alone."
+        )
+        return tuple(
+            filter(None, (large if strain > LARGE_STRAIN else "", self.long_step(p, flow, medium, dt)))
+        )
 
-    def _step_over_room(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> tuple[float, float]:
-        """Return √(2 D Δt) and the scale of heights or the gap between walls, m, of the worst particle."""
+    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:
+        """Warn if √(2 D Δt) is long for the scale of heights or for the gap between walls."""
+        if p.size == 0:
+            return ""
         kT, g = BOLTZMANN * self.T, float(np.linalg.norm(medium.gravity))
-        step = np.sqrt(2.0 * kT / (6.0 * math.pi * medium.mu * p.R) * dt)
+        steps = np.sqrt(2.0 * kT / (6.0 * math.pi * medium.mu * p.R) * dt)
         weight = np.abs(p.rho - medium.rho) * (4.0 / 3.0 * math.pi * g) * p.R**3
         with np.errstate(divide="ignore"):
-            room = np.minimum(kT / weight, np.maximum(flow.width - 2.0 * p.R, 1e-300))
-        worst = int(np.argmax(step / room))
-        return float(step[worst]), float(room[worst])
+            rooms = np.minimum(kT / weight, np.maximum(flow.width - 2.0 * p.R, 1e-300))
+        worst = int(np.argmax(steps / rooms))
+        step, room = float(steps[worst]), float(rooms[worst])
+        if step <= LONG_STEP * room:
+            return ""
+        return (
+            f"molecules move particles by {step:.2g} m in a step, more than {LONG_STEP:g} of the {room:.2g} "
+            "m that their weight or the walls leave them: their distribution at walls is inaccurate. Use "
+            f"deltaT < {dt * (LONG_STEP * room / step) ** 2:.2g}."
+        )
 
     def _strain(self, p: Particles) -> NDArray[np.float64]:
         """Return √(5 k_B T/(2 μ_s V)) of each particle."""
