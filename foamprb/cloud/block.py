@@ -113,7 +113,7 @@ class Medium(NamedTuple):
     """Pa s."""
     rho: float
     """kg/m³."""
-    gravity: Vector
+    gravity: Vector = (0.0, 0.0, 0.0)
     """m/s²."""
     coefficients: Any = ()
     """Of the forces on the barycentre; a cloud takes them from its models."""

@@ -117,7 +117,8 @@ def _read_text(path: Path, spent: _Spent, mistake: Callable[[str], InputError]) 
         with gzip.open(found) if found.suffix == ".gz" else found.open("rb") as stream:
             data = stream.read(MOST_BYTES - spent.bytes + 1)
             spent.bytes += len(data)
-            text = data.decode("utf-8")
+            # Editors of Windows begin a text with a byte order mark.
+            text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise mistake("is not a text file") from error
     except (OSError, EOFError, ValueError, zlib.error) as error:
@@ -157,6 +158,7 @@ _CASE_FOLDERS = {
     "<constant>": "constant",
     "<system>": "system",
 }
+_HOME = ("$HOME", "${HOME}", "~")
 
 
 def _tokens(source: CaseFile, text: str) -> Iterator[_Token]:
@@ -366,10 +368,13 @@ class _Parser:
         dictionary.entries.pop(_HEADER, None)
 
     def in_case(self, name: str) -> str:
-        """Replace a tag at the beginning by a folder of the case."""
+        """Replace a tag at the beginning by a folder of the case, or the user's."""
         for tag, folder in _CASE_FOLDERS.items():
             if name.startswith(tag):
                 return f"{real(self.source.case) / folder}{name.removeprefix(tag)}"
+        for tag in _HOME:
+            if name.startswith(f"{tag}/"):
+                return f"{Path.home()}{name.removeprefix(tag)}"
         return name
 
     def in_etc(self, name: _Token) -> Path:

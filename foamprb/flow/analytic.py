@@ -377,7 +377,11 @@ def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callabl
         raise TypeError(f"{what} has {count} arguments, not (x, y, z) or (x, y, z, t).")
     found: Any = None
     with suppress(ArithmeticError, ValueError):
-        found = np.shape(given(*(0.1, 0.2, 0.3, 0.4)[:count]))
+        value = given(*(0.1, 0.2, 0.3, 0.4)[:count])
+        found = np.shape(value)
+        if found == shape and isinstance(value, np.ndarray):
+            wanted = "a tuple of three numbers" if shape == (3,) else "a tuple of three tuples of numbers"
+            raise TypeError(f"{what} returns an array. Return {wanted}.")
     if found not in (None, shape):
         raise TypeError(f"{what} returns something of shape {found}, not {shape}.")
     return given if count == 4 else bound(steady, of_place=given)

@@ -182,3 +182,11 @@ def test_macros_of_later_versions_are_named(macro, tmp_path):
     (tmp_path / "d").write_text(f"x 1;\na {macro};\n")
     with pytest.raises(InputError, match=r"line 2: .* is a macro of OpenFOAM that is not supported"):
         read_dictionary(tmp_path / "d", tmp_path)
+
+
+@pytest.mark.parametrize("name", ["$HOME/own", "${HOME}/own", "~/own"])
+def test_the_users_folder_and_a_byte_order_mark(name, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "own").write_text("x 1;\n")
+    (tmp_path / "d").write_bytes(f'\ufeff#include "{name}"\n'.encode())
+    assert read_dictionary(tmp_path / "d", tmp_path).entries["x"].text == "1"

@@ -131,3 +131,9 @@ def test_what_is_no_such_function_is_refused(u, message):
 def test_a_gradient_has_three_rows():
     with pytest.raises(TypeError, match=r"gradient returns something of shape \(9,\), not \(3, 3\)"):
         analytic.function(abc, lambda x, y, z: (0.0,) * 9)
+
+
+def test_an_array_in_place_of_a_tuple_is_one_message():
+    """Numba would say it in a hundred lines, when the loop is compiled."""
+    with pytest.raises(TypeError, match=r"u returns an array. Return a tuple of three numbers\."):
+        analytic.function(lambda x, y, z: np.array([y, z, x]))

@@ -224,3 +224,11 @@ def test_the_flow_is_not_reconstructed(case, tmp_path, monkeypatch):
     monkeypatch.setattr("foamprb.flow.read.openfoam.Reconstruction", None)
     write_report(case, tmp_path / "report.html")
     assert (tmp_path / "reportPlots/depositsOnGeometry.svg").exists()
+
+
+def test_few_deposits_are_dots():
+    """A density of one particle would paint a large part of the wall."""
+    for n, painted in ((1, False), (100, True)):
+        x = np.column_stack([np.linspace(0.1, 0.9, n), np.full(n, 0.5), np.zeros(n)])
+        svg = plots.unrolled(deposits(tube(), x)).svg
+        assert ("particles per area" in svg) == painted

@@ -13,6 +13,8 @@ __all__ = ["Deposits", "deposits"]
 
 Floats = NDArray[np.float64]
 
+FEW = 30
+"""Fewer particles than this on a wall are dots."""
 _SAMPLES = 100_000
 """Number of points over which the area of a wall is distributed."""
 _ROUND = 0.5
@@ -39,6 +41,13 @@ class Deposits(NamedTuple):
     """Density on each triangle of the surface, (t,), 1/m²."""
     points: Floats
     """Coordinates of the particles, (n, 2), m."""
+    places: Floats
+    """Positions of the particles, (n, 3), m."""
+
+    @property
+    def few(self) -> bool:
+        """Whether there are too few particles for a density; they are drawn as dots."""
+        return self.number < FEW
 
 
 def deposits(surface: Surface, x: Floats) -> Deposits:
@@ -82,7 +91,7 @@ def deposits(surface: Surface, x: Floats) -> Deposits:
     i, j = (np.clip(np.searchsorted(edges[k], middles[:, k]) - 1, 0, bins[k] - 1) for k in range(2))
     names = ("along", "around") if rolled else ("along", "across")
     return Deposits(
-        surface.name, len(x), total, names, (edges[0], edges[1]), density, np.nan_to_num(density[i, j]), at
+        surface.name, len(x), total, names, (edges[0], edges[1]), density, np.nan_to_num(density[i, j]), at, x
     )
 
 

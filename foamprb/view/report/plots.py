@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from foamprb.view.colours import NAMES, readable
 from foamprb.view.geometry import Geometry
 from foamprb.view.libraries import load
-from foamprb.view.report.deposits import Deposits
+from foamprb.view.report.deposits import FEW, Deposits
 
 __all__ = [
     "FATES",
@@ -210,17 +210,21 @@ def unrolled(found: Deposits) -> Plot:
     factor, name = readable("m", float(max(np.ptp(edges) for edges in found.edges)))
 
     def draw(figure: Any, axes: Any) -> None:
-        image = axes.pcolormesh(
-            found.edges[0] / factor, found.edges[1] / factor, found.density.T, rasterized=True, vmin=0.0
-        )
-        if found.number <= 2000:
+        if found.few:
+            axes.plot(*(found.points / factor).T, "o", color=FATES["stuck"], markersize=4.0)
+            axes.set(xlim=found.edges[0][[0, -1]] / factor, ylim=found.edges[1][[0, -1]] / factor)
+        else:
+            image = axes.pcolormesh(
+                found.edges[0] / factor, found.edges[1] / factor, found.density.T, rasterized=True, vmin=0.0
+            )
+            _colour_bar(figure, image, axes)
+        if FEW <= found.number <= 2000:
             axes.plot(*(found.points / factor).T, ".", color="#ffffff", markersize=1.4, markeredgewidth=0.0)
         axes.grid(False)
         ratio = np.ptp(found.edges[0]) / max(np.ptp(found.edges[1]), 1e-300)
         axes.set_aspect("equal" if 0.2 < ratio < 5.0 else "auto")
         axes.xaxis.set_major_locator(load("matplotlib.ticker").MaxNLocator(6))
         axes.set(xlabel=f"{found.across[0]} {found.name} [{name}]", ylabel=f"{found.across[1]} [{name}]")
-        _colour_bar(figure, image, axes)
 
     return _plot(draw)
 
@@ -229,7 +233,11 @@ def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
     """Return the particles per area on all walls, seen from two sides; nearer parts hide others."""
     corner = np.concatenate([surface.points[surface.triangles] for surface in geometry.surfaces])
     value = np.concatenate([
-        walls[surface.name].triangles if surface.name in walls else np.full(len(surface.triangles), np.nan)
+        np.full(len(surface.triangles), np.nan)
+        if surface.name not in walls
+        else np.zeros(len(surface.triangles))
+        if walls[surface.name].few
+        else walls[surface.name].triangles
         for surface in geometry.surfaces
     ])  # fmt: skip
     extent = np.ptp(corner.reshape(-1, 3), axis=0)
@@ -255,6 +263,10 @@ def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
             edges = geometry.edges[:, :, [first, second]] / factor
             lines = load("matplotlib.collections").LineCollection(edges, colors=_SOFT, linewidths=0.5)
             panel.add_collection(lines)
+            for wall in walls.values():
+                if wall.few:
+                    dots = wall.places[:, [first, second]] / factor
+                    panel.plot(*dots.T, "o", color=FATES["stuck"], markersize=3.0)
             panel.autoscale_view()
             panel.set_aspect("equal")
             panel.grid(False)
