@@ -123,6 +123,13 @@ class Particles(NamedTuple):
         """Number of particles n, the pending included."""
         return len(self.R)
 
+    @property
+    def D(self) -> NDArray[np.float64]:
+        """Taylor's deformation (a − c)/(a + c) of the longest and the shortest semi-axis, (n,)."""
+        stretches = np.linalg.svd(self.F.reshape(-1, 3, 3), compute_uv=False)
+        a, c = stretches[:, 0], stretches[:, 2]
+        return np.asarray((a - c) / (a + c))
+
     def counts(self) -> dict[Status, int]:
         """Return the number of particles of each status; the numbers sum to :attr:`size`."""
         return {status: int(np.count_nonzero(self.status == status)) for status in Status}

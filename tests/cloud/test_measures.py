@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from foamprb import Cloud, Medium, analytic, spheres
+from foamprb import Cloud, Medium, analytic, set_rest_shape, spheres
 from foamprb.body.ellipsoid import integrals, sorted_frame
 from foamprb.body.tensor import (
     add,
@@ -189,3 +189,9 @@ def test_the_shape_stokes_number_is_the_largest_shear_rate_times_relaxation_time
     for rate in (3.0, 6.0):
         found = shape_stokes_number(p, analytic.shear(rate), 0.05, 0.0)
         assert found == pytest.approx(rate * 900.0 * 4e-6 / (15.0 * 0.05), rel=1e-9)
+
+
+def test_the_deformation_of_particles():
+    p = spheres(np.zeros((2, 3)), d=1e-5, rho=1e3, mu=1.0)
+    set_rest_shape(p, [[2.0, 1.0, 0.5], [1.0, 1.0, 1.0]])
+    np.testing.assert_allclose(p.D, [0.6, 0.0], atol=1e-15)
