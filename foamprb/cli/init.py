@@ -22,6 +22,9 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
     from foamprb.run.template import write_template
 
-    file = write_template(arguments.case, source_of(arguments))
-    print(f"{file} is written. Look through it, then: foamprb run -dry-run, foamprb run, foamprb view.")
+    source = source_of(arguments)
+    file = write_template(arguments.case, source)
+    region = f" -region {source.region}" if source.region else ""
+    commands = ", ".join(f"foamprb {name}{region}" for name in ("run -dry-run", "run", "view"))
+    print(f"{file} is written. Look through it, then: {commands}.")
     return 0

@@ -100,7 +100,7 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
     if file.exists() or present.exists():
         raise InputError(
             f"{file if file.exists() else present} exists and is not changed. Check it with "
-            "foamprb run -dry-run, or rename it to get a new one."
+            f"foamprb run -dry-run{_region(source)}, or rename it to get a new one."
         )
     text = template(case, read_flow(case, "latestTime", source), source)
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -126,8 +126,8 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     modulus = _rounded(rho * nu * max(rate / _CAPILLARY, np.quantile(largest, 0.9) / _MOST_CAPILLARY))
     of_rate = "the largest on half of the paths" if largest.any() else "as the fluid is at rest"
     text = f"""\
-// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run. Explain an entry:
-// foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
+// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{_region(source)}.
+// Explain an entry: foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
 FoamFile
 {{
     version     2.0;
@@ -205,6 +205,11 @@ cloudFunctions
 }}
 """
     return re.sub(r"^( *)(\w+)(?: ([^{}\n]*?))?;(?: // (.*))?$", _aligned, text, flags=re.MULTILINE)
+
+
+def _region(source: FlowSource) -> str:
+    """Return the option of the region for a command in a hint."""
+    return f" -region {source.region}" if source.region else ""
 
 
 def _aligned(entry: re.Match[str]) -> str:

@@ -74,6 +74,20 @@ def test_nothing_is_ever_overwritten(case, capsys):
     assert file.read_text() == "mine"
 
 
+def test_hints_name_the_region(tmp_path, capsys):
+    write_case(tmp_path)
+    for folder in (tmp_path / "constant", tmp_path / "1e1"):
+        parts = list(folder.iterdir())
+        (folder / "air").mkdir()
+        for part in parts:
+            part.rename(folder / "air" / part.name)
+    assert main(["init", "-case", str(tmp_path), "-region", "air"]) == 0
+    assert "foamprb run -dry-run -region air, foamprb run -region air" in capsys.readouterr().out
+    assert "foamprb run -dry-run -region air" in (tmp_path / "constant/air/softCloudProperties").read_text()
+    assert main(["init", "-case", str(tmp_path), "-region", "air"]) == 1
+    assert "foamprb run -dry-run -region air, or rename it" in capsys.readouterr().err
+
+
 def test_without_a_case_or_a_flow(tmp_path, case):
     with pytest.raises(InputError, match="no such folder"):
         write_template(tmp_path / "none")
