@@ -184,5 +184,7 @@ def patches_of_mesh(patches: Sequence[PatchInfo]) -> list[PatchSurface]:
         if name in found:
             # Of an original with several neighbours, particles cannot know which one they enter.
             other = originals.get(patch.neighbour, "") if names.count(name) == 1 else ""
-            found[name] = PatchSurface(name, "cyclicAMI", None, other, patch.transform)
+            # It is no wall, even if its type is.
+            groups = found[name].groups - {"wall"}
+            found[name] = PatchSurface(name, "cyclicAMI", None, other, patch.transform, groups)
     return list(found.values())
