@@ -153,8 +153,8 @@ class Results:
 
     def check(self) -> None:
         """Raise OSError if the thread could not write a file, or the folder is no longer at its place."""
-        self._writer.check()
         self._require_place()
+        self._writer.check()
 
     def _require_place(self) -> None:
         """Raise OSError if the folder was moved or removed, instead of making another one."""
@@ -182,7 +182,6 @@ class Results:
             If a file cannot be written, now or at the time before.
         """
         cloud = self._gathered(stepper)
-        self._require_place()
         self._snapshot = snapshot = cloud.snapshot(self._snapshot)
         tables = self._write_functions()
         memory = {name: array.copy() for name, array in self._job.functions.state().items()}
@@ -202,7 +201,6 @@ class Results:
             If it cannot be written.
         """
         cloud = self._gathered(stepper)
-        self._require_place()
         self._manifest.expect(self._checkpoint_files())
         self._write_checkpoint(cloud, self._job.functions.state())
 
@@ -231,6 +229,8 @@ class Results:
     def _gathered(self, stepper: Stepper) -> Cloud:
         """Return the cloud with the state of the last step, after earlier writes have ended."""
         stepper.gather()
+        # Before the error of a file that could not be written there.
+        self._require_place()
         self._writer.finish()
         return stepper.cloud
 

@@ -388,7 +388,7 @@ def test_a_table_gives_each_particle_its_own_properties(case, capsys):
             "injection model Ca025: sizeDistribution is missing, and the file of positions has no column d.",
         ),
         ("shearModulus,Ca", "injection model Ca025: the file of positions gives shearModulus and Ca"),
-        ("diameter", "table.csv, line 1: found 'x,y,z,diameter'. There is no column diameter."),
+        ("diameter", "sizeDistribution is missing, and the file of positions has no column d."),
     ],
 )
 def test_without_a_size_distribution_the_table_must_give_sizes(case, capsys, columns, expected):

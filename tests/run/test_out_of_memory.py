@@ -45,7 +45,7 @@ def run(case, limit):
 
 
 # Before anything is read, while particles are placed, while they move or are written, and after all is well.
-@pytest.mark.parametrize("megabytes", [100, 960, 1120, 1200])
+@pytest.mark.parametrize("megabytes", [100, 930, 1120, 1200])
 def test_a_run_ends_in_one_message_or_as_it_should(case, megabytes):
     done = run(case, megabytes * MB)
     assert done.returncode in ((1,) if megabytes < 1000 else (0, 1)), done.stderr
