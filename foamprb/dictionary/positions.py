@@ -88,6 +88,10 @@ def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floa
     """Read OpenFOAM's list, given the match of its opening."""
     rows = _ROWS.match(text, opening.end())
     end = rows.end() if rows else opening.end()
+    # Until Python 3.11.4 a match may end within a row that does not fit.
+    begun = text.rfind(b"(", opening.end(), end)
+    if begun > text.rfind(b")", opening.end(), end):
+        end = begun
     if text[end : end + 1] != b")":
         raise _mistake(path, text, end, "Expected: (x y z), three numbers, or the list's closing )")
     if text[end + 1 :].strip():
@@ -126,6 +130,8 @@ def _table(path: Path, data: bytes, columns: Mapping[str, Bounds]) -> Positions:
     match = rows.match(text, body)
     end = match.end() if match else body
     if end < len(text):
+        # Until Python 3.11.4 a match may end within a row that does not fit.
+        end = max(body, text.rfind(b"\n", 0, end) + 1)
         expected = f"{len(names)} numbers, {' '.join(names)}"
         hint = "" if names is not _COORDINATES else ", or a first line with the names of the columns"
         raise _mistake(path, text, end, f"Expected: {expected}{hint}")

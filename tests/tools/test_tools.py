@@ -16,7 +16,7 @@ from foamprb.results.tables import write_table
 GRID = pipe.Grid(6, 3, 8)
 
 
-def test_pipe_mesh_holds_the_exact_flow(tmp_path, random):
+def test_pipe_mesh_holds_the_exact_flow(tmp_path):
     flow = foamprb.read_case(pipe.write_case(tmp_path, GRID))
     mesh = flow.mesh
     assert mesh.n_cells == GRID.cells
@@ -25,10 +25,9 @@ def test_pipe_mesh_holds_the_exact_flow(tmp_path, random):
     # A polygon of 24 sides in the circle.
     facets = 12.0 / np.pi * np.sin(np.pi / 12.0)
     assert mesh.volumes.sum() == pytest.approx(facets * np.pi * pipe.RADIUS**2 * pipe.LENGTH, rel=1e-5)
-    x = pipe.positions(200)
-    hosts = flow.locate(x)
-    u, _ = flow.sample(x[hosts >= 0], hosts[hosts >= 0], 0.0)
-    assert np.abs(u - pipe.poiseuille(x[hosts >= 0])).max() < 0.05 * pipe.MEAN
+    u = flow.at_nodes()[1][mesh.n_points :]
+    # The values belong to the means of the cells' corners, which are not quite their centres.
+    assert u == pytest.approx(pipe.poiseuille(mesh.centres), abs=0.02 * pipe.MEAN)
 
 
 def test_the_scheme_in_plain_numpy_is_the_compiled_one():

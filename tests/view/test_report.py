@@ -88,7 +88,7 @@ def test_every_picture_has_a_name_and_every_id_is_there_once(page):
     reader = Reader()
     reader.feed(page)
     assert reader.unnamed == 0
-    assert len(reader.ids) == len(set(reader.ids))
+    assert [name for name in set(reader.ids) if reader.ids.count(name) > 1] == []
     inner = [link[1:] for link in reader.links if link.startswith("#")]
     assert inner
     assert set(inner) <= set(reader.ids)

@@ -98,6 +98,8 @@ def _inline(svg: str) -> str:
     """Return an SVG as a part of a page: without its head, in the page's colours and fonts."""
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    # Equal images of a plot have the same id, to which nothing refers.
+    svg = re.sub(r'(<image [^>]*?) ?\bid="[^"]*"', r"\1", svg)
     # Clip paths of different plots have the same ids; a checksum makes them different.
     mark = f"p{zlib.crc32(svg.encode())}"
     svg = re.sub(r'id="([^"]+)"', rf'id="{mark}\1"', svg)
