@@ -197,17 +197,7 @@ class Reconstruction:
         )  # fmt: skip
         low = np.minimum.reduceat(values[around], start[:-1])
         high = np.maximum.reduceat(values[around], start[:-1])
-        apart = np.any(low != high, axis=1)
-        u_points[on_wall] = np.where(apart[:, None], mean, low)
-        normals = mesh.boundary_areas[faces]
-        normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-        tight = np.abs(np.einsum("ni,ni->n", normals, values)) <= 1e-9 * np.linalg.norm(values, axis=1)
-        for row in np.flatnonzero(apart):
-            own = around[start[row] : start[row + 1]]
-            if tight[own].all():
-                # Nothing flows through walls that meet at a point, though one of them moves.
-                excess = normals[own] @ u_points[on_wall[row]]
-                u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
+        u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean)
 
 
 def _continued(

@@ -10,12 +10,11 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
+from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -39,19 +38,12 @@ Weights: TypeAlias = tuple[float, float, float, float]
 
 
 def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
-    """Return u + c (m/s), l_ij = ∂u_i/∂x_j (1/s) and −l·c (m/s²) at x; see :func:`parts`.
+    """Return u (m/s) and l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
 
-    With a velocity v the acceleration of the fluid is l·v − l·c, in which the jumps of c cancel.
+    The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
     """
-    u, c, l = parts(flow, host, x)
-    return plus(u, c), l, minus(STEADY, dot_vector(l, c))
-
-
-def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tensor]:
-    """Return u at x, linear in the tetrahedron ``host``, its correction c, both m/s, and l, 1/s."""
-    w = shape(flow, host, x)
-    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), w)
-    return u, correction_at(flow, flow.correction, host, host, w), l
+    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
+    return u, l, STEADY
 
 
 def sample_ahead(
@@ -79,12 +71,10 @@ def sample_ahead(
         w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
         least = min(w0, w1, w2, w3)
     s = 1.0 / volume
-    w = (s * w0, s * w1, s * w2, s * w3)
-    u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), w)
-    c = correction_at(flow, flow.correction, last, last, w)
+    u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), (s * w0, s * w1, s * w2, s * w3))
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
-    return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
+    return last, room, entered, u, l, STEADY
 
 
 def _components(v: Vector) -> Any:
@@ -131,41 +121,6 @@ def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, 
         blend(f, k + 9, nodes, w), blend(f, k + 10, nodes, w), blend(f, k + 11, nodes, w),
     )  # fmt: skip
     return u, l
-
-
-def correction_at(
-    flow: MeshArrays, correction: NDArray[np.float32], row: int, host: int, w: Weights
-) -> Vector:
-    """Return the velocity, m/s, that keeps volume (:mod:`foamprb.flow.fluxes`), at weights ``w`` in a host.
-
-    Row ``row`` of ``correction`` holds its fluxes q over volume and free nodes. A flux through the side
-    opposite vertex k moves along the edges from k to the free vertices j of the side, as λ_j q_k (x_j − x_k).
-    With f_j = 1 for free vertices, else 0, the sum is Σ_j x_j (f_j λ_j Σ_k q_k − q_j Σ_k f_k λ_k).
-    """
-    if correction.shape[0] == 0:
-        return 0.0, 0.0, 0.0
-    a, b, c, d = nodes_of(flow, host)
-    at, nodes = np.uint64(row), flow.nodes
-    qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
-    fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
-    count = fa + fb + fc + fd
-    if count == 0.0:
-        fa = fb = fc = fd = 1.0
-    q, f = qa + qb + qc + qd, fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
-    sb, sc, sd = fb * w[1] * q - qb * f, fc * w[2] * q - qc * f, fd * w[3] * q - qd * f
-    if count == 1.0:
-        # The side opposite the only free vertex has a uniform flux.
-        q = fa * qa + fb * qb + fc * qc + fd * qd
-        sb += q * (w[1] - fb)
-        sc += q * (w[2] - fc)
-        sd += q * (w[3] - fd)
-    o = point(nodes, a)
-    p, s, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
-    return (
-        sb * p[0] + sc * s[0] + sd * r[0],
-        sb * p[1] + sc * s[1] + sd * r[1],
-        sb * p[2] + sc * s[2] + sd * r[2],
-    )
 
 
 def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001

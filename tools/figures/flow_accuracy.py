@@ -18,7 +18,6 @@ import numpy as np
 import pyvista
 from numpy.typing import NDArray
 
-from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_time
@@ -50,9 +49,8 @@ class Pipe(NamedTuple):
 
 
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
-    """Return u and ∇u of foamprb, with the fluxes that follow from them."""
-    u, l = Reconstruction(mesh)(cells, boundary)
-    flow = MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l))
+    """Return nodal u and ∇u of foamprb."""
+    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, boundary))
     return lambda x: flow.sample(x, flow.locate(x), 0.0)
 
 

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.read.boundary import CaseMesh
+from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
-from foamprb.flow.read.field import FoamField, Kind
-from foamprb.flow.read.flux import boundary_flux, density, varies
+from foamprb.flow.read.field import DENSITY_FIELD, FoamField, Kind
 
+_FLUX = Kind("surfaceScalarField", "scalar", (VOLUME_FLUX, MASS_FLUX), "a flux")
 _STATIC = "staticFvMesh"
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
@@ -106,8 +107,8 @@ def caveat_of_flux(
         Name of the velocity; ``phi`` is the flux of ``U`` only.
     """
     mesh = whole.mesh
-    phi = boundary_flux(read, whole.patches) if velocity == "U" else None
-    if phi is None and varies(density(read)):
+    phi = _flux(read, whole.patches) if velocity == "U" else None
+    if phi is None and _spread(_density(read)):
         # Without phi the flux of mass is unknown.
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
@@ -180,8 +181,8 @@ def is_not_zero(path: Path) -> bool:
 
 
 def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
-    values = density(read)
-    if varies(values):
+    values = _density(read)
+    if _spread(values):
         yield Caveat(
             f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf, and so is the viscosity."
@@ -225,3 +226,37 @@ def _zones(
     except InputError:
         return "which cannot be read"
     return None if root is None else ", ".join(zone.key for zone in active_zones(root) if meant(zone))
+
+
+def _flux(
+    read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
+) -> tuple[Floats, str, str] | None:
+    """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
+    try:
+        phi = read("phi", _FLUX)
+    except InputError:
+        return None
+    values = []
+    for patch in patches:
+        entry = phi.of(patch)
+        found = entry.fields.get("value") if entry else None
+        if found is None or len(found) not in (1, patch.faces):
+            if patch.faces and patch.type != "empty":
+                return None
+            found = np.zeros((1, 1))
+        values.append(np.broadcast_to(found, (patch.faces, 1))[:, 0])
+    unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
+    return np.concatenate([np.empty(0), *values]), "phi", unit
+
+
+def _density(read: Callable[[str, Kind], FoamField]) -> Floats:
+    """Return the density at the cells, kg/m³, or no values."""
+    try:
+        return read("rho", DENSITY_FIELD).cells
+    except InputError:
+        return np.empty((0, 1))
+
+
+def _spread(values: Floats) -> bool:
+    """Return True if the values differ by more than round-off."""
+    return bool(np.ptp(values) > 1e-6 * np.abs(values).max(initial=0.0)) if len(values) else False

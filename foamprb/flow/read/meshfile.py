@@ -18,7 +18,6 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
-from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -74,8 +73,7 @@ def read_mesh_file(
     path = Path(path)
     grid, mesh, surfaces, note = open_file(path, velocity, time, division)
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    u, l = field(grid, surfaces)
-    return MeshFlow(mesh, u, l, [note, *field.notes], correction=Conservation(mesh)(u, l))
+    return MeshFlow(mesh, *field(grid, surfaces), [note, *field.notes])
 
 
 def read_mesh_series(
@@ -113,9 +111,9 @@ def read_mesh_series(
         return read_mesh_file(path, velocity, time=time, gradient=gradient, division=division)
     grid, mesh, surfaces, note = open_file(path, velocity, names[0], division, among=names)
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    topology, conserve = _topology(grid, surfaces), Conservation(mesh)
+    topology = _topology(grid, surfaces)
 
-    def read(name: str) -> tuple[Any, ...]:
+    def read(name: str) -> tuple[Floats, Floats]:
         whole, now = grid_and_surfaces(read_file(path, name), path)
         cells = solid_cells(whole, path)[0]
         join_components(velocity, cells, *(surface for _, surface in now))
@@ -125,10 +123,9 @@ def read_mesh_series(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
             )
-        u, l = field(cells, now)
-        return u, l, conserve(u, l)
+        return field(cells, now)
 
-    return series_of(path, mesh, names, read, period, [note, *field.notes], conservative=True)
+    return series_of(path, mesh, names, read, period, [note, *field.notes])
 
 
 class _NodalVelocity:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
-from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
@@ -41,7 +39,6 @@ from foamprb.flow.read.checks import (
     require_volumes,
 )
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
-from foamprb.flow.read.flux import volume_flux
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.source import FlowSource
@@ -215,8 +212,7 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
-    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
-    at_nodes = _at_nodes(case, name, source, whole, operators, cells, boundary, bool(rotating))
+    at_nodes = _at_nodes(case, name, source, whole, Reconstruction(whole.mesh), cells, boundary)
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
@@ -231,8 +227,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     u, l = at_nodes[:2]
     zones, turbulence = partial(case.zones, name), at_nodes[2] if source.turbulent else None
     if rotating:
-        return RotatingFlow(rotating, whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
-    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
+        return RotatingFlow(rotating, whole.mesh, u, l, notes, zones, name, turbulence)
+    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence)
 
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
@@ -245,20 +241,17 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
-    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
+    reconstruct = Reconstruction(whole.mesh)
 
-    def read(name: str) -> tuple[Any, ...]:
+    def read(name: str) -> tuple[Floats, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        return _at_nodes(case, name, source, whole, operators, *values)
+        return _at_nodes(case, name, source, whole, reconstruct, *values)
 
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
     notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
     zones = partial(case.zones, names[0])
-    notes += flux
-    return series_of(
-        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True
-    )
+    return series_of(case.root, whole.mesh, names, read, period, [*notes, *flux], zones, source.turbulent)
 
 
 def _at_nodes(
@@ -266,28 +259,18 @@ def _at_nodes(
     time: str,
     source: FlowSource,
     whole: CaseMesh,
-    operators: tuple[Reconstruction, Conservation],
+    reconstruct: Reconstruction,
     cells: Floats,
     boundary: Floats,
-    rotating: bool = False,
-) -> tuple[Any, ...]:
-    """Return u and l at the nodes, the turbulence if the source requests it, and the correction of u.
-
-    ``phi`` of a flow with ``rotating`` zones is relative there, and VTK's reader has an order of faces of its
-    own: then fluxes follow from the velocity.
-    """
-    reconstruct, conserve = operators
-    read, given = partial(case.field, time), None
+) -> tuple[Floats, ...]:
+    """Return u and l at the nodes, and the turbulence if the source requests it."""
+    given = None
     if source.gradient:
-        given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
+        given = gradients(case.field(time, source.gradient, GRADIENT_FIELD), whole.mesh)
     u, l = reconstruct(cells, boundary, given)
-    phi, solenoidal = volume_flux(read, whole, source.velocity, cells)
-    if rotating or case.reader == "vtk":
-        phi = None
-    correction = conserve(u, l, phi, balance=solenoidal)
     if not source.turbulent:
-        return u, l, correction
-    return u, l, read_turbulence(read, case.folder(time), whole, reconstruct), correction
+        return u, l
+    return u, l, read_turbulence(partial(case.field, time), case.folder(time), whole, reconstruct)
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
