@@ -7,7 +7,7 @@ at a time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, NamedTuple
 
@@ -90,6 +90,8 @@ class Context(NamedTuple):
     """Particle frame, axes in falling order of length."""
     stretches: tuple[Floats, Floats, Floats]
     """In the same order."""
+    u: Floats
+    """(n, 3), velocity of the fluid at the centres, m/s; NaN where the fluid is unknown."""
     l_f: Tensor
     """∂u_i/∂x_j of the fluid, 1/s; NaN where the fluid is unknown."""
     found: Mapping[str, Floats]
@@ -101,11 +103,13 @@ class Context(NamedTuple):
     """Viscosity of the fluid, Pa s."""
 
 
-class Gradients(NamedTuple):
-    """Velocity gradients around the particles of a cloud at one time."""
+class FlowSamples(NamedTuple):
+    """Flow at the particles of a cloud at one time; NaN where the fluid is unknown."""
 
+    u: Floats
+    """Velocity, (n, 3), m/s."""
     l_f: Floats
-    """∂u_i/∂x_j, (n, 9), 1/s; NaN where the fluid is unknown."""
+    """∂u_i/∂x_j, (n, 9), 1/s."""
 
 
 class Measure(NamedTuple):
@@ -113,6 +117,8 @@ class Measure(NamedTuple):
 
     unit: str
     value: Callable[[Context], NDArray[Any]]
+    optional: bool = False
+    """Whether files contain it on request only."""
 
 
 # ---------------------------------------------------------------------------------------------------------
@@ -259,6 +265,11 @@ def shear_rate_at(flow: Flow, p: Particles, time: float) -> Floats:
     return rate
 
 
+def carrier_velocity(p: Particles, u: Floats) -> Floats:
+    """Return the velocity of the fluid that carries particles, (n, 3), m/s: u and that of their eddies."""
+    return u + p.eddy
+
+
 def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
     """Return the largest γ̇ τ_s of the particles at ``time`` (s) in a fluid of viscosity μ_f (Pa s)."""
     if p.size == 0:
@@ -293,19 +304,24 @@ MEASURES: dict[str, Measure] = {
     "reason": Measure("", lambda c: c.particles.reason),
     "patch": Measure("", lambda c: c.particles.patch),
     "injector": Measure("", lambda c: c.particles.injector),
+    "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), optional=True),
+    "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), optional=True),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
 ``deformationGradient`` is F·F₀⁻¹, from the shape at rest; ``glyph`` is what ParaView's Tensor Glyph draws
 as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the frame; ``taylorDeformation`` is
 that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
-``capillaryNumber`` is that of the shear rate where the particle is.
+``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
+fluid at the centre and the particle's velocity relative to it.
 """
+OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
+"""Names of the measures that files contain on request only."""
 
 
 def context(
     particles: Particles,
-    flow: Sampled | Gradients,
+    flow: Sampled | FlowSamples,
     mu: float,
     time: float,
     ids: NDArray[np.int64] | None = None,
@@ -330,7 +346,7 @@ def context(
 
 def contexts(
     particles: Particles,
-    flow: Sampled | Gradients,
+    flow: Sampled | FlowSamples,
     mu: float,
     time: float,
     ids: NDArray[np.int64] | None = None,
@@ -371,38 +387,41 @@ def released(particles: Particles, flow: Sampled, time: float) -> Particles:
     return particles._replace(status=np.where(now, Status.ACTIVE, particles.status).astype(np.int8), v=v)
 
 
-def measure(c: Context) -> dict[str, NDArray[Any]]:
-    """Return all :data:`MEASURES` by name."""
-    return {name: np.asarray(m.value(c)) for name, m in MEASURES.items()}
+def measure(c: Context, further: Collection[str] = ()) -> dict[str, NDArray[Any]]:
+    """Return all :data:`MEASURES` by name; of the optional ones, only the ``further``."""
+    return {name: np.asarray(m.value(c)) for name, m in MEASURES.items() if name in further or not m.optional}
 
 
-def gradients(particles: Particles, flow: Sampled, time: float) -> Gradients:
-    """Return the velocity gradients at a time (s) around the injected particles of a cloud."""
-    l_f = np.full((particles.size, 9), np.nan)
+def flow_samples(particles: Particles, flow: Sampled, time: float) -> FlowSamples:
+    """Return the flow at a time (s) at the injected particles of a cloud."""
+    u, l_f = np.full((particles.size, 3), np.nan), np.full((particles.size, 9), np.nan)
     rows = injected(particles)
     for start in range(0, len(rows), PER_CONTEXT):
         chosen = as_slice(rows[start : start + PER_CONTEXT])
-        l_f[chosen] = _sampled(particles.x[chosen], particles.host[chosen], flow, time)
-    return Gradients(l_f)
+        u[chosen], l_f[chosen] = _sampled(particles.x[chosen], particles.host[chosen], flow, time)
+    return FlowSamples(u, l_f)
 
 
 def _prepare(
     particles: Particles,
     rows: NDArray[np.int64],
-    flow: Sampled | Gradients,
+    flow: Sampled | FlowSamples,
     mu: float,
     time: float,
     ids: NDArray[np.int64] | None,
 ) -> Context:
     chosen = as_slice(rows)
     p = particles.take(chosen)
-    l = flow.l_f[chosen] if isinstance(flow, Gradients) else _sampled(p.x, p.host, flow, time)
+    if isinstance(flow, FlowSamples):
+        u, l = flow.u[chosen], flow.l_f[chosen]
+    else:
+        u, l = _sampled(p.x, p.host, flow, time)
     frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
     found = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
     _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, frames, tuple(found.values()))
     F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
-    return Context(p, F, frame, (frames[9], frames[10], frames[11]), l_f, found, numbers, time, mu)
+    return Context(p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu)
 
 
 @cache
@@ -417,12 +436,11 @@ def as_slice(rows: NDArray[np.int64]) -> NDArray[np.int64] | slice:
     return slice(rows[0], rows[-1] + 1) if follow else rows
 
 
-def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> Floats:
-    """Return ∂u_i/∂x_j at points, (n, 9); NaN outside the flow."""
+def _sampled(x: Floats, hosts: NDArray[np.int32], flow: Sampled, time: float) -> tuple[Floats, Floats]:
+    """Return u, (n, 3), and ∂u_i/∂x_j, (n, 9), at points; NaN outside the flow."""
     known = (hosts >= 0) & np.isfinite(x).all(axis=1)
-    if known.all():
-        return flow.sample(x, hosts, time)[1].reshape(-1, 9)
-    gradient = np.full((len(x), 9), np.nan)
+    velocity, gradient = np.full((len(x), 3), np.nan), np.full((len(x), 9), np.nan)
     if known.any():
-        gradient[known] = flow.sample(x[known], hosts[known], time)[1].reshape(-1, 9)
-    return gradient
+        u, l = flow.sample(x, hosts, time) if known.all() else flow.sample(x[known], hosts[known], time)
+        velocity[known], gradient[known] = u, l.reshape(-1, 9)
+    return velocity, gradient

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.measures import (
     MEASURES,
-    Gradients,
+    FlowSamples,
     contexts,
     injected,
     measure,
@@ -22,10 +22,11 @@ from foamprb.results.vtk import Parts, PointCloud
 
 def report(
     particles: Particles,
-    flow: Sampled | Gradients,
+    flow: Sampled | FlowSamples,
     mu: float,
     time: float,
     names: Mapping[str, Sequence[str]],
+    further: Collection[str] = (),
     ids: NDArray[np.int64] | None = None,
 ) -> Parts:
     """Return all measures of the injected particles, computed part by part on request.
@@ -36,11 +37,13 @@ def report(
         See :func:`foamprb.cloud.measures.context`.
     names
         For each array of codes, the meanings of the codes 0, 1, ….
+    further
+        Names of the optional measures to include.
     """
-    units = {name: m.unit for name, m in MEASURES.items()}
+    units = {name: m.unit for name, m in MEASURES.items() if name in further or not m.optional}
 
     def parts() -> Iterator[PointCloud]:
         for c in contexts(particles, flow, mu, time, ids):
-            yield PointCloud(time, c.particles.x, measure(c), units, names)
+            yield PointCloud(time, c.particles.x, measure(c, further), units, names)
 
     return Parts(time, number_of_contexts(len(injected(particles))), parts())

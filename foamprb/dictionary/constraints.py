@@ -31,13 +31,13 @@ class Bounds:
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Allowed words, in most cases the names of a registry."""
+    """Allowed words of an entry or of its list, in most cases the names of a registry."""
 
     names: Collection[str]
 
-    def admits(self, value: str) -> bool:
-        """Return whether ``value`` is one of the names."""
-        return value in self.names
+    def admits(self, value: str | Words) -> bool:
+        """Return whether ``value`` is one of the names, or all words of a list are."""
+        return all(word in self.names for word in ([value] if isinstance(value, str) else value))
 
 
 @dataclass(frozen=True)

@@ -130,7 +130,9 @@ class RankStepper(Stepper):
         total = np.sum(self._counts, axis=0)
         return {status: int(total[status]) for status in Status}
 
-    def begin_pieces(self, stem: Path, time: float, names: Mapping[str, Sequence[str]]) -> Callable[[], Path]:
+    def begin_pieces(
+        self, stem: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
+    ) -> Callable[[], Path]:
         """Write a snapshot, a piece per process.
 
         Parameters
@@ -141,6 +143,8 @@ class RankStepper(Stepper):
             Time of the gathered state, s.
         names
             For each array of codes, the meanings of the codes 0, 1, ….
+        further
+            Names of the optional measures to write.
 
         Returns
         -------
@@ -153,7 +157,8 @@ class RankStepper(Stepper):
         """
         self.cloud.flow.load(time, time)
         self._publish(self.cloud.flow_arrays())
-        pieces = [piece for piece in self.ranks.order("write", stem, time, names) if piece is not None]
+        written = self.ranks.order("write", stem, time, names, further)
+        pieces = [piece for piece in written if piece is not None]
         file = with_ending(stem, ".pvtp")
 
         def list_pieces() -> Path:

@@ -179,7 +179,9 @@ class Worker:
                     array[records["id"]] = records[name]
         self._fresh = _unfinished(self.particles)
 
-    def write(self, folder: Path, time: float, names: Mapping[str, Sequence[str]]) -> Piece | None:
+    def write(
+        self, folder: Path, time: float, names: Mapping[str, Sequence[str]], further: Sequence[str] = ()
+    ) -> Piece | None:
         """Write the particles; return the file and its arrays.
 
         Without particles only the first process writes a file.
@@ -192,12 +194,14 @@ class Worker:
             Time of the state, s.
         names
             For each array of codes, the meanings of the codes 0, 1, ….
+        further
+            Names of the optional measures to write.
         """
         if self.rank and not len(injected(self.particles)):
             return None
         flow, mu = _SharedFlow(self._tracker.kernels["sample"], self._flow), self._tracker.medium.mu
         file = piece_file(folder, self.rank)
-        return file, write_snapshot(file, report(self.particles, flow, mu, time, names, self.ids))
+        return file, write_snapshot(file, report(self.particles, flow, mu, time, names, further, self.ids))
 
     def serve(self, signals: Sequence[int]) -> int:
         """Execute the orders of the first process until it dismisses all; return the exit status.

@@ -20,7 +20,7 @@ import numpy as np
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import Gradients, context, measure
+from foamprb.cloud.measures import FlowSamples, context, measure
 from foamprb.cloud.state import Status, empty, spheres
 from foamprb.cloud.tracker import Models, Tracker, available_threads
 from foamprb.compile.cache import cache_directory
@@ -66,7 +66,7 @@ class Compilation:
         arguments = flow.nothing()
         tracker.compile_contact(arguments)
         tracker.compile_stages()
-        context(empty(0), Gradients(np.empty((0, 9))), 1.0, 0.0)
+        context(empty(0), FlowSamples(np.empty((0, 3)), np.empty((0, 9))), 1.0, 0.0)
 
     def wait(self) -> None:
         """Wait until the process has ended."""

@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud, Snapshot, Stepper, explain
-from foamprb.cloud.measures import gradients, released
+from foamprb.cloud.measures import FlowSamples, flow_samples, released
 from foamprb.cloud.report import report
-from foamprb.cloud.state import REASONS, Reason, Status
+from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloudfunctions.base import STATUS_NAMES
 from foamprb.errors import InputError, RunStopped
+from foamprb.flow.base import Sampled
 from foamprb.memory import OutOfMemory, ran_out
 from foamprb.parallel.ranks import RankStepper
 from foamprb.results.atomic import only_writer, remove_unfinished
@@ -28,6 +29,7 @@ from foamprb.results.folder import FAILURES, FATES, KINDS
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, write_table
+from foamprb.results.vtk import Parts
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
 from foamprb.run.restart import (
@@ -92,6 +94,7 @@ class Results:
             "patch": job.patch_names,
             "injector": job.injector_names,
         }
+        self._further = job.settings.solution.optionalFields
         self._series = Series(job.folder)
         self._place = _identity(job.folder.path)
         self.finished = False
@@ -149,7 +152,7 @@ class Results:
         file = with_ending(self._series.next(cloud.time), ".vtp")
         self._manifest.expect([self._job.folder.pvd, file])
         particles = released(cloud.particles, cloud.flow, cloud.time)
-        self._series.append(report(particles, cloud.flow, cloud.medium.mu, cloud.time, self._names))
+        self._series.append(self._report(particles, cloud.flow, cloud.time))
 
     def check(self) -> None:
         """Raise OSError if the thread could not write a file, or the folder is no longer at its place."""
@@ -238,14 +241,18 @@ class Results:
         """Return a function that writes and lists a snapshot while the cloud advances."""
         p, flow, time = snapshot.particles, snapshot.flow, snapshot.time
         # A transient flow may have gone on to other times by then.
-        seen = flow if flow.span == (-np.inf, np.inf) else gradients(p, flow, time)
-        cloud = report(p, seen, self._job.cloud.medium.mu, time, self._names)
+        seen = flow if flow.span == (-np.inf, np.inf) else flow_samples(p, flow, time)
+        cloud = self._report(p, seen, time)
         return lambda: self._series.append(cloud)
+
+    def _report(self, particles: Particles, flow: Sampled | FlowSamples, time: float) -> Parts:
+        """Return a cloud with the arrays of the run, see :func:`foamprb.cloud.report.report`."""
+        return report(particles, flow, self._job.cloud.medium.mu, time, self._names, self._further)
 
     def _begin_pieces(self, stepper: RankStepper, stem: Path) -> Callable[[], object]:
         """Let all processes write their pieces; return a function that lists them."""
         time = stepper.cloud.time
-        list_pieces = stepper.begin_pieces(stem, time, self._names)
+        list_pieces = stepper.begin_pieces(stem, time, self._names, self._further)
         return lambda: self._series.add(time, list_pieces())
 
     def _end_write(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import shear_rate
+from foamprb.cloud.measures import carrier_velocity, shear_rate
 from foamprb.cloud.state import Status
 
 __all__ = ["Slip", "SlipRecord", "drag_excess"]
@@ -36,7 +36,7 @@ def drag_excess(reynolds: float) -> float:
 def _slip(cloud: Cloud, rows: NDArray[np.int64]) -> Slip:
     p, medium = cloud.particles.take(rows), cloud.medium
     u, l = cloud.flow.sample(p.x, p.host, cloud.time)
-    speed = np.linalg.norm(p.v - u, axis=1)
+    speed = np.linalg.norm(p.v - carrier_velocity(p, u), axis=1)
     rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]
     return Slip(speed * 2.0 * p.R * medium.rho / medium.mu, rate * 2.0 * p.rho * p.R**2 / (9.0 * medium.mu))
 

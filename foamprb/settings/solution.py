@@ -10,7 +10,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from foamprb.cloud.integrators.registry import INTEGRATORS
 from foamprb.cloud.limits import Limits
-from foamprb.dictionary.constraints import Bounds, Choice, Fraction, Meaning, NoEffect, Only, Positive
+from foamprb.cloud.measures import OPTIONAL
+from foamprb.dictionary.constraints import Bounds, Choice, Fraction, Meaning, NoEffect, Only, Positive, Words
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import Instead, read_entries, read_entry
@@ -99,6 +100,15 @@ class Solution:
             "`endTime`",
         ),
     ] = math.nan
+    optionalFields: Annotated[
+        Words,
+        Choice(OPTIONAL),
+        Meaning(
+            "`( name … )`, further arrays of the particles: `Uc`, velocity of the fluid at the centre, with "
+            "that of the eddy; `Ur`, velocity of the particle relative to it",
+            default="none",
+        ),
+    ] = ()
     startFrom: Annotated[
         StartFrom | None,
         Meaning(

@@ -27,9 +27,10 @@ from foamprb.cloud import measures
 from foamprb.cloud.cloud import longest_semi_axis
 from foamprb.cloud.measures import (
     MEASURES,
+    OPTIONAL,
     context,
     contexts,
-    gradients,
+    flow_samples,
     measure,
     shape_stokes_number,
 )
@@ -119,11 +120,11 @@ def test_quaternion_is_that_of_any_rotation():
 
 @pytest.mark.parametrize("size", [1, 5, 33])
 def test_a_few_at_a_time_are_the_same_bits(cloud, flow, size, monkeypatch):
-    whole = measure(context(cloud, flow, MU, 0.0))
+    whole = measure(context(cloud, flow, MU, 0.0), OPTIONAL)
     monkeypatch.setattr(measures, "PER_CONTEXT", size)
-    parts = [measure(c) for c in contexts(cloud, flow, MU, 0.0)]
+    parts = [measure(c, OPTIONAL) for c in contexts(cloud, flow, MU, 0.0)]
     assert len(parts) == measures.number_of_contexts(N - 2)
-    kept = [measure(c) for c in contexts(cloud, gradients(cloud, flow, 0.0), MU, 0.0)]
+    kept = [measure(c, OPTIONAL) for c in contexts(cloud, flow_samples(cloud, flow, 0.0), MU, 0.0)]
     for name in MEASURES:
         for found in (parts, kept):
             assert np.concatenate([part[name] for part in found]).tobytes() == whole[name].tobytes(), name
@@ -139,6 +140,17 @@ def test_shares_of_a_cloud_are_the_same_bits(cloud, flow):
             assert values.tobytes() == whole[name][rows].tobytes(), name
 
 
+def test_the_fluids_velocity_is_reported_on_request(cloud, flow):
+    cloud.eddy[:] = np.random.default_rng(1).standard_normal((N, 3))
+    c = context(cloud, flow, MU, 0.0)
+    assert not {"Uc", "Ur"} & measure(c).keys()
+    assert "Uc" not in measure(c, ["Ur"])
+    found = measure(c, ["Uc", "Ur"])
+    p = cloud.take(found["origId"])
+    np.testing.assert_array_equal(found["Uc"], flow.sample(p.x, p.host, 0.0)[0] + p.eddy)
+    np.testing.assert_array_equal(found["Ur"], found["U"] - found["Uc"])
+
+
 def test_measures_of_no_particles_are_empty(cloud, flow):
     cloud.status[:] = Status.PENDING
     (c,) = contexts(cloud, flow, MU, 0.0)
@@ -148,8 +160,9 @@ def test_measures_of_no_particles_are_empty(cloud, flow):
 def test_where_the_flow_is_unknown_so_is_the_load(cloud, flow):
     cloud.host[5] = -1
     cloud.x[6, 1] = np.nan
-    found = measure(context(cloud, flow, MU, 0.0))
-    assert np.isnan(found["shearRate"]).tolist() == [row in (5, 6) for row in found["origId"]]
+    found = measure(context(cloud, flow, MU, 0.0), OPTIONAL)
+    for values in (found["shearRate"], found["Uc"][:, 0], found["Ur"][:, 2]):
+        assert np.isnan(values).tolist() == [row in (5, 6) for row in found["origId"]]
     assert np.isfinite(found["semiAxes"]).all()
 
 

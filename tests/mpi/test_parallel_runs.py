@@ -50,6 +50,7 @@ ENVIRONMENT = {
 def case_with_functions(folder: Path) -> Path:
     case = short_case(folder)
     edit(case, r"cloudFunctions\s*\{\}", FUNCTIONS)
+    edit(case, r"(\s)(deltaT\s)", r"\1optionalFields (Uc Ur); \2")
     return case
 
 
@@ -104,10 +105,10 @@ def at_write(action: str, number: int, when: float = 0.0029) -> str:
     """Let a process do something as it writes its piece of the cloud of 3 ms."""
     return f"""
 write = Worker.write
-def hooked(self, folder, time, names):
+def hooked(self, folder, time, *others):
     if rank == {number} and {when} < time < {when} + 0.0002:
         {action}
-    return write(self, folder, time, names)
+    return write(self, folder, time, *others)
 Worker.write = hooked
 """
 

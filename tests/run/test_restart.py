@@ -165,6 +165,10 @@ CHANGES: dict[str, tuple[Callable[[Path], object], str]] = {
         lambda c: edit(c, r"shape(\s+)paper", r"shape\1rosenbrock"),
         "models/integrator was paper",
     ),
+    "fields": (
+        lambda c: edit(c, r"deltaT\s", "optionalFields (Uc); deltaT "),
+        r"solution/optionalFields was \(\), is \(Uc\)",
+    ),
     "surroundings": (
         lambda c: edit(c, r"^(\s*)gravity;", r"\1gravity; faxenCorrection;"),
         r"else: surroundings/faxenCorrection was absent, is FaxenCorrection\. Undo",

@@ -36,6 +36,13 @@ def test_quantiles_and_worst_of_both_numbers():
     assert stokes.startswith("Stokes number            0.139")
 
 
+def test_the_velocity_of_its_eddy_is_no_slip_of_a_particle():
+    record, cloud = SlipRecord(), sliding([0.1])
+    cloud.particles.eddy[:, 0] = 0.09
+    record.add(cloud)
+    assert record.worst.reynolds[0] == pytest.approx(1.0)
+
+
 def test_drag_of_a_sphere_exceeds_that_of_stokes():
     assert drag_excess(0.1) == pytest.approx(0.0308, abs=1e-4)
 

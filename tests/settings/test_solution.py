@@ -105,6 +105,13 @@ def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, messag
     assert "\n" not in str(caught.value)
 
 
+def test_optional_fields_are_those_that_exist(read: Reader) -> None:
+    assert read((OWN, OWN)).solution.optionalFields == ()
+    assert read((OWN, f"{OWN} optionalFields (Ur Uc);")).solution.optionalFields == ("Ur", "Uc")
+    with pytest.raises(InputError, match=re.escape("optionalFields is '(Uc nu)'. Allowed: Uc, Ur.")):
+        read((OWN, f"{OWN} optionalFields (Uc nu);"))
+
+
 def test_limits_of_particles_are_those_of_their_entries(read: Reader) -> None:
     limits = read((OWN, f"{OWN} maxStretch 5; maxSize 0.25; maxSubSteps 7; maxCells 2;")).solution.limits
     assert limits == Limits(maxStretch=5.0, maxSize=0.25, maxSubSteps=7.0, maxCells=2.0)
