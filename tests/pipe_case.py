@@ -53,7 +53,7 @@ def stop_after(case: Path, time: float) -> None:
     # The command line may have closed the stream that an earlier test logged to.
     logging.getLogger("foamprb").handlers.clear()
     job = prepare(case, threads=1)
-    with pytest.raises(RunStopped, match=r"stopped at t = .*foamprb run -resume"):
+    with pytest.raises(RunStopped, match=r"stopped at t = .*add -resume"):
         execute(job, "latestTime", stop=lambda: job.cloud.time > 0.99 * time)
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import shlex
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from foamprb.cli.options import add_flow, source_of
@@ -24,7 +26,8 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
 
     source = source_of(arguments)
     file = write_template(arguments.case, source)
+    case = "" if arguments.case == Path() else f" -case {shlex.quote(str(arguments.case))}"
     region = f" -region {source.region}" if source.region else ""
-    commands = ", ".join(f"foamprb {name}{region}" for name in ("run -dry-run", "run", "view"))
-    print(f"{file} is written. Look through it, then: {commands}.")
+    run = f"foamprb run{case}{source.options}"
+    print(f"{file} is written. Look through it, then: {run} -dry-run, {run}, foamprb view{case}{region}.")
     return 0

@@ -45,7 +45,7 @@ from foamprb.settings.solution import StartFrom
 
 log = logging.getLogger("foamprb")
 
-HOW_TO_GO_ON = "To continue from the last checkpoint: foamprb run -resume."
+HOW_TO_GO_ON = "To continue from the last checkpoint, add -resume."
 
 
 @contextmanager

@@ -36,16 +36,19 @@ from foamprb.flow.read.fluid import (
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
 from foamprb.flow.read.source import FlowSource
+from foamprb.run.case_cloud import CaseCloud, braces, read_case_cloud
 from foamprb.settings.fluid import of_region, read_gravity
 from foamprb.settings.patches import needs_entry
 from foamprb.settings.reference import meaning, plain
+from foamprb.settings.solution import STRIDE
 
 __all__ = ["FlowScales", "scales_of", "template", "write_template"]
 
 NAME = "softCloudProperties"
 PARTICLES = 1000
 """Approximate number of particles in a first run."""
-_TIMES, _MOST_STEPS = 50, 5000
+_TIMES, _MOST_STEPS, _SAMPLES = 50, 5000, 300
+"""Number of write times, largest number of steps, and approximate number of points of a path."""
 _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
 """Capillary numbers of the initial stiffness, at the largest rates on half and on 90 % of the paths.
 
@@ -100,7 +103,7 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
     if file.exists() or present.exists():
         raise InputError(
             f"{file if file.exists() else present} exists and is not changed. Check it with "
-            f"foamprb run -dry-run{_region(source)}, or rename it to get a new one."
+            f"foamprb run -dry-run{source.options}, or rename it to get a new one."
         )
     text = template(case, read_flow(case, "latestTime", source), source)
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -116,19 +119,20 @@ def template(case: Path, flow: MeshFlow, source: FlowSource) -> str:
     """Return the text of a dictionary for the flow of a case."""
     scales = scales_of(flow)
     rho, nu, fluid = _fluid(case, source, scales.shear)
-    rho0 = 1050.0 if rho > 500.0 else 1000.0
+    own = None if source.file else read_case_cloud(case, source.region, flow, times(scales)[2])
+    rho0 = (own and own.rho0) or (1050.0 if rho > 500.0 else 1000.0)
     rotating = _rotating(case, flow, source)
     d = diameter(scales, nu, rho0 / rho if len(rotating) > 1 else 0.0)
-    settling = _settling_time(case, source.region, flow, (rho0 - rho) * d * d / (18.0 * rho * nu))
+    if own and own.diameters:
+        d = float(np.mean(own.diameters.limits))
+    settling = _settling_time(case, source.region, flow, rho0 / rho, d, nu)
     step, interval, end = times(scales, settling)
-    largest = rates_on_paths(flow, scales)
-    rate = float(np.median(largest)) or 1.0
-    modulus = _rounded(rho * nu * max(rate / _CAPILLARY, np.quantile(largest, 0.9) / _MOST_CAPILLARY))
-    of_rate = "the largest on half of the paths" if largest.any() else "as the fluid is at rest"
+    if own:
+        end += interval * math.ceil(own.last / interval)
     text = f"""\
-// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{_region(source)}.
+// Initial settings by foamprb init, from the case. Check: foamprb run -dry-run{source.options}.
 // Explain an entry: foamprb help ENTRY. Change first: diameter, density and stiffness of the particles.
-FoamFile
+{_lines(_left_out(own), 0)}FoamFile
 {{
     version     2.0;
     format      ascii;
@@ -150,9 +154,7 @@ constantProperties
     solid
     {{
         type neoHooke; // all types: foamprb help solid
-        poissonsRatio 0.499; // nearly incompressible
-        shearModulus {modulus:g}; // Pa; Ca = {rho * nu * rate / modulus:.2g} at {rate:.2g} 1/s, {of_rate}
-    }}
+{_lines(_stiffness(flow, scales, rho * nu, own), 8)}    }}
 }}
 
 subModels
@@ -160,56 +162,28 @@ subModels
     particleForces
     {{
         ellipsoidDrag;
-        {_gravity(case, source.region)}
-    }}
+        {_gravity(case, source.region, wanted=own is None or own.gravity)}
+{_lines(own.forces if own else (), 8)}    }}
 
-{_lines(_dispersion(case, flow, source))}    injectionModels
+{_lines(_dispersion(case, flow, source, own))}    injectionModels
     {{
-        particles
-        {{
-{_lines(_injection(scales, end), 12)}
-            sizeDistribution
-            {{
-                type fixedValue; // or: foamprb help distributions
-                fixedValueDistribution
-                {{
-                    value {d:g}; // m, diameter; cells are {scales.cell:.2g} m
-                }}
-            }}
-        }}
-    }}
+{_lines(own.injections if own and own.injections else _injection(scales, end, d), 8)}    }}
 
-    patchInteractionModel localInteraction;
-
-    localInteractionCoeffs
-    {{
-        patches
-        (
-{_lines(_patches(flow.patches), 12)}        );
-    }}
-}}
+{_lines(_interaction(flow.patches, own))}}}
 
 cloudFunctions
 {{
     paths
     {{
         type particleTracks; // for foamprb view and foamprb report
-        trackInterval {max(1, round(end / step / 500))}; // steps
+        trackInterval {STRIDE * max(1, round(end / step / _SAMPLES / STRIDE))}; // steps
         maxSamples 1000;
         maxTracks 200;
     }}
-    exposure
-    {{
-        type particleHistogram; // residence time, deformation, shear
-    }}
-}}
+    // exposure {{ type particleHistogram; }} // of each particle to shear; slow with more than 1e5 particles
+{_lines(own.functions if own else ())}}}
 """
     return re.sub(r"^( *)(\w+)(?: ([^{}\n]*?))?;(?: // (.*))?$", _aligned, text, flags=re.MULTILINE)
-
-
-def _region(source: FlowSource) -> str:
-    """Return the option of the region for a command in a hint."""
-    return f" -region {source.region}" if source.region else ""
 
 
 def _aligned(entry: re.Match[str]) -> str:
@@ -298,17 +272,27 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
     return max(rates, key=lambda name: rates[name]), total
 
 
-def _settling_time(case: Path, region: str, flow: MeshFlow, speed_over_g: float) -> float:
+def _settling_time(case: Path, region: str, flow: MeshFlow, ratio: float, d: float, nu: float) -> float:
     """Return the time in which particles settle through the domain, s; 0 without gravity.
 
-    ``speed_over_g`` is their speed over the gravity, s.
+    Parameters
+    ----------
+    case, region, flow
+        The case with its gravity, and the flow with its domain.
+    ratio, d, nu
+        Density over that of the fluid, diameter, m, and viscosity of the fluid, m²/s.
     """
     try:
         g = np.array(read_gravity(case, region))
     except InputError:
         return 0.0
     extent = float(np.abs(g) @ (flow.bounds[1] - flow.bounds[0])) / (float(g @ g) or math.inf)
-    return extent / abs(speed_over_g) if speed_over_g != 0.0 else 0.0
+    if ratio == 1.0:
+        return 0.0
+    # The time at the final speed, and that of the free fall before.
+    return extent * 18.0 * nu / (abs(ratio - 1.0) * d * d) + math.sqrt(
+        2.0 * extent * ratio / abs(ratio - 1.0)
+    )
 
 
 def times(scales: FlowScales, settling: float = 0.0) -> tuple[float, float, float]:
@@ -452,7 +436,34 @@ def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     ]
 
 
-def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
+def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float, own: CaseCloud | None) -> list[str]:
+    """Return the entries of the stiffness, of the case's cloud or by the rates on paths of the fluid."""
+    largest = rates_on_paths(flow, scales)
+    rate = float(np.median(largest)) or 1.0
+    where = "the largest on half of the paths" if largest.any() else "as the fluid is at rest"
+    at = f"{rate:.2g} 1/s, {where}"
+    modulus = _rounded(mu * max(rate / _CAPILLARY, np.quantile(largest, 0.9) / _MOST_CAPILLARY))
+    said = f"Pa; Ca = {mu * rate / modulus:.2g} at {at}"
+    if own and own.moduli:
+        E, poisson = own.moduli.values()
+        Ca = 2.0 * mu * rate * (1.0 + poisson) / E
+        return [
+            f"youngsModulus {E:g}; // Pa; Ca = {Ca:.2g} at {at}",
+            f"poissonsRatio {poisson:g};",
+            f"// or, in place of youngsModulus: shearModulus {modulus:g}; // {said}",
+        ]
+    return ["poissonsRatio 0.499; // nearly incompressible", f"shearModulus {modulus:g}; // {said}"]
+
+
+def _left_out(own: CaseCloud | None) -> list[str]:
+    """Return comments about the case's own cloud."""
+    if own is None:
+        return []
+    without = [f"//   {sentence}" for sentence in own.left_out]
+    return [f"// Made from {own.file}{', without:' if without else '.'}", *without]
+
+
+def _dispersion(case: Path, flow: MeshFlow, source: FlowSource, own: CaseCloud | None) -> list[str]:
     """Return the entry of a dispersion model if the case has the fields of a mean turbulent flow."""
     if source.file is not None:
         return []
@@ -461,6 +472,8 @@ def _dispersion(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:
     fields = turbulence_fields(folder / flow.at_nodes()[0] / source.region)
     if not fields:
         return []
+    if own and own.dispersion:
+        return [f"dispersionModel {own.dispersion};", ""]
     return [f"dispersionModel none; // or stochasticDispersionRAS: {' and '.join(fields)} are available", ""]
 
 
@@ -474,27 +487,30 @@ def _transient(case: Path, source: FlowSource) -> list[str]:
     ]
 
 
-def _injection(scales: FlowScales, end: float) -> list[str]:
-    """Return the entries of an injection model but the size distribution."""
-    if not scales.inlet:
-        density = _rounded(PARTICLES / scales.volume)
-        return [
-            "type cellZoneInjection; // no patch has inflow",
-            "selectionMode all; // all cells",
-            f"numberDensity {density:g}; // 1/m3, of {scales.volume:.3g} m3",
-        ]
+def _injection(scales: FlowScales, end: float, d: float) -> list[str]:
+    """Return an injection model."""
     duration = _rounded(0.2 * end)
     rate = _said("injections", "parcelsPerSecond", model="patchInjection")
-    return [
+    lines = [
         "type patchInjection;",
         f"patch {_word(scales.inlet)}; // largest inflow",
         f"parcelsPerSecond {_rounded(PARTICLES / duration):g}; // {rate}",
         f"duration {duration:g}; // s",
     ]
+    if not scales.inlet:
+        density = _rounded(PARTICLES / scales.volume)
+        lines = [
+            "type cellZoneInjection; // no patch has inflow",
+            "selectionMode all; // all cells",
+            f"numberDensity {density:g}; // 1/m3, of {scales.volume:.3g} m3",
+        ]
+    value = [f"value {d:g}; // m, diameter; cells are {scales.cell:.2g} m"]
+    law = ["type fixedValue; // or: foamprb help distributions", *braces("fixedValueDistribution", value)]
+    return braces("particles", [*lines, "", *braces("sizeDistribution", law)])
 
 
-def _gravity(case: Path, region: str) -> str:
-    """Return the entry of gravity, or a comment if the case has no gravity."""
+def _gravity(case: Path, region: str, *, wanted: bool) -> str:
+    """Return the entry of gravity, or a comment if the case has no gravity or its cloud does not feel it."""
     file = of_region(case, region, "g")
     try:
         g: Vector3 = read_gravity(case, region)
@@ -502,7 +518,18 @@ def _gravity(case: Path, region: str) -> str:
         return "// gravity;            // the case has no constant/g"
     if not any(g):
         return f"// gravity;            // {file} is zero"
-    return f"gravity; // less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2"
+    text = f"gravity; // less buoyancy; {file}: ({g[0]:g} {g[1]:g} {g[2]:g}) m/s2"
+    return text if wanted else f"// {text}"
+
+
+def _interaction(patches: Sequence[Patch], own: CaseCloud | None) -> list[str]:
+    """Return the patch interaction model with its coefficients."""
+    model = (own and own.interaction) or "localInteraction"
+    lines = own.coefficients if own else []
+    if model == "localInteraction":
+        rest = [patch for patch in patches if own is None or patch.name not in own.ruled]
+        lines = ["patches", "(", *(f"    {line}" for line in (*lines, *_patches(rest))), ");"]
+    return [f"patchInteractionModel {model};", "", *braces(f"{model}Coeffs", lines)]
 
 
 def _patches(patches: Sequence[Patch]) -> list[str]:

@@ -26,9 +26,11 @@ __all__ = [
     "PatchRule",
     "Rule",
     "Touching",
+    "applies",
     "match_patches",
     "needs_entry",
     "patch_interactions",
+    "patch_rule",
     "read_patch_interaction",
 ]
 
@@ -109,12 +111,13 @@ def _local_interaction(coefficients: Dictionary) -> tuple[Rule, ...]:
         entries = read_entries(LocalInteraction, coefficients, also=("touching",))
         for entry in entries.patches.items:
             with mistakes:
-                rules.append(_patch_rule(entry))
+                rules.append(patch_rule(entry))
     mistakes.raise_any()
     return tuple(rules)
 
 
-def _patch_rule(dictionary: Dictionary) -> PatchRule:
+def patch_rule(dictionary: Dictionary) -> PatchRule:
+    """Read an entry of ``patches``."""
     pattern, regex = unquoted(dictionary.key), dictionary.key.startswith('"')
     if regex:
         try:
@@ -211,7 +214,7 @@ def match_patches(rules: Sequence[Rule], patches: Sequence[Patch], file: Path | 
     names = [patch.name for patch in patches]
     mistakes, interactions = Mistakes(), []
     for rule in rules:
-        if isinstance(rule, PatchRule) and not any(_applies(rule, patch) for patch in patches):
+        if isinstance(rule, PatchRule) and not any(applies(rule, patch) for patch in patches):
             text = f"{where}/{rule.pattern} matches no patch. {suggestion(rule.pattern, names)}"
             mistakes.add(InputError(text))
     # A rule without a match may explain a patch without a rule.
@@ -256,7 +259,7 @@ def needs_entry(patch: Patch) -> bool:
 def _interaction(rules: Sequence[Rule], patch: Patch, file: Path | str, where: str) -> Interaction:
     for rule in rules:
         own = rule == PatchRule(patch.name, rule.interaction)
-        if own or (_applies(rule, patch) and not _continues(patch)):
+        if own or (applies(rule, patch) and not _continues(patch)):
             return rule.interaction
     if _continues(patch):
         return Cyclic()
@@ -278,7 +281,8 @@ def _continues(patch: Patch) -> bool:
     return bool(patch.neighbour) and patch.type in ("cyclic", "cyclicAMI", "wedge")
 
 
-def _applies(rule: Rule, patch: Patch) -> bool:
+def applies(rule: Rule, patch: Patch) -> bool:
+    """Return whether a rule matches a patch."""
     group = "wall" if patch.type in WALLS else patch.type
     constrained = group in _MIRRORS or group.startswith(_COUPLED)
     if isinstance(rule, KindRule):

@@ -33,7 +33,6 @@ from foamprb.settings.solution import Solution, read_solution
 __all__ = ["CloudProperties", "ParticleForces", "Settings", "SubModels", "read_settings"]
 
 _DICTIONARY = "softCloudProperties"
-_HINT = f"Write one: foamprb init writes constant/{_DICTIONARY} for a case; or name another file with -dict."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,7 +179,11 @@ def read_settings(
     if fault := fault_of_word(name):
         raise InputError(f"{file}: the file name yields an invalid cloud name, '{name}': {fault}.")
     if not file.exists() and case.is_dir():
-        raise InputError(f"{CaseFile(file, case)}: No such file or directory (case {case}). {_HINT}")
+        raise InputError(
+            f"{CaseFile(file, case)}: No such file or directory (case {case}). Write one: foamprb init"
+            f"{f' -region {region}' if region else ''} writes {_DICTIONARY} for a case; or name another file "
+            "with -dict."
+        )
     root = read_dictionary(file, case)
     if "libs" in root.entries:
         # Other entries may name solids from these files.

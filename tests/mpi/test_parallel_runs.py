@@ -270,9 +270,7 @@ def test_ctrl_c_on_any_process_leaves_a_checkpoint(number, case, truth, tmp_path
     done = run(2, case, script=hook)
     assert done.returncode == 130
     ours = [line for line in done.stderr.splitlines() if "foamprb" in line]
-    assert ours == [
-        "--> foamprb stopped at t = 0.003 s. To continue from the last checkpoint: foamprb run -resume."
-    ]
+    assert ours == ["--> foamprb stopped at t = 0.003 s. To continue from the last checkpoint, add -resume."]
     assert "Traceback" not in done.stderr
     assert (folder_of(case) / "checkpoint/0.003.checkpoint").exists()
     finish(3, case, "-resume")

@@ -258,10 +258,7 @@ def test_a_signal_leaves_a_checkpoint_and_says_how_to_go_on(number, status, case
     monkeypatch.setattr(Writer, "begin", interrupted)
     assert main(["run", "-case", str(case)]) == status
     err = capsys.readouterr().err
-    assert (
-        err
-        == "--> foamprb stopped at t = 0.002 s. To continue from the last checkpoint: foamprb run -resume.\n"
-    )
+    assert err == "--> foamprb stopped at t = 0.002 s. To continue from the last checkpoint, add -resume.\n"
     assert {n: signal.getsignal(n) for n in before} == before
     go_on(case)
     assert results(case) == truth

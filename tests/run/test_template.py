@@ -18,6 +18,7 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Patch
 from foamprb.flow.read.flows import read_flow
 from foamprb.flow.read.fluid import apparent_viscosity
+from foamprb.flow.read.source import Division, FlowSource
 from foamprb.run.job import prepare
 from foamprb.run.template import FlowScales, _nice, diameter, rates_on_paths, scales_of, times, write_template
 from foamprb.settings.patches import match_patches
@@ -82,10 +83,23 @@ def test_hints_name_the_region(tmp_path, capsys):
         for part in parts:
             part.rename(folder / "air" / part.name)
     assert main(["init", "-case", str(tmp_path), "-region", "air"]) == 0
-    assert "foamprb run -dry-run -region air, foamprb run -region air" in capsys.readouterr().out
+    options = f"-case {tmp_path} -region air"
+    hint = f"then: foamprb run {options} -dry-run, foamprb run {options}, foamprb view {options}."
+    assert hint in capsys.readouterr().out
     assert "foamprb run -dry-run -region air" in (tmp_path / "constant/air/softCloudProperties").read_text()
     assert main(["init", "-case", str(tmp_path), "-region", "air"]) == 1
     assert "foamprb run -dry-run -region air, or rename it" in capsys.readouterr().err
+
+
+def test_hints_repeat_the_options_of_the_flow():
+    source = FlowSource(
+        Path("a b.vtu"), "air", "Urel", "gradU", Division(feature_angle=40.0), True, reader="vtk"
+    )
+    assert source.options == (
+        " -flow 'a b.vtu' -region air -velocity Urel -gradient gradU -featureAngle 40.0 -reader vtk"
+        " -decomposed"
+    )
+    assert FlowSource().options == ""
 
 
 def test_without_a_case_or_a_flow(tmp_path, case):

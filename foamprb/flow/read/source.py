@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,3 +39,19 @@ class FlowSource:
     """Describe rotating zones in the frames of their rotors."""
     reader: str = ""
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
+
+    @property
+    def options(self) -> str:
+        """Options of the command line for this source, each with a blank before it."""
+        divided = self.division or Division()
+        given = {
+            "flow": self.file,
+            "region": self.region,
+            "velocity": "" if self.velocity == "U" else self.velocity,
+            "gradient": self.gradient,
+            "patchArray": divided.array,
+            "featureAngle": divided.feature_angle,
+            "reader": self.reader,
+        }
+        words = "".join(f" -{name} {shlex.quote(str(value))}" for name, value in given.items() if value)
+        return words + " -decomposed" * self.decomposed
