@@ -16,7 +16,7 @@ from foamprb.cloud.contact import contact_normals
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.registry import INTEGRATORS, automatic
 from foamprb.cloud.limits import Limits, LoopLimits
-from foamprb.cloud.measures import shape_stokes_number
+from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
 from foamprb.cloud.motion import SEEN, longest_of
 from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import instability
@@ -119,10 +119,10 @@ class Cloud:
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
         if self.models.integrator == "auto":
-            number = shape_stokes_number(
-                p.take(p.status <= Status.ACTIVE), self.flow, self.medium.mu, self.time
-            )
-            self.models = replace(self.models, integrator=automatic(number))
+            moving = p.take(p.status <= Status.ACTIVE)
+            shape = shape_stokes_number(moving, self.flow, self.medium.mu, self.time)
+            path = path_stokes_number(moving, self.flow, self.medium, self.time)
+            self.models = replace(self.models, integrator=automatic(max(shape, path)))
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)

@@ -7,6 +7,7 @@ at a time.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import cache
 from typing import Annotated, Any, NamedTuple
@@ -37,6 +38,7 @@ from foamprb.body.tensor import (
 from foamprb.body.traction import disturbance
 from foamprb.cloud.block import (
     ROWS,
+    Medium,
     at,
     compact_stage,
     elongated_stage,
@@ -276,6 +278,24 @@ def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> flo
         return 0.0
     rate = shear_rate_at(flow, p, time)
     return float((rate * relaxation_time(p.rho, p.R, mu, p.eta)).max())
+
+
+def path_stokes_number(p: Particles, flow: Flow, medium: Medium, time: float) -> float:
+    """Return the largest τ_p w/L of the particles at ``time`` (s), with τ_p = 2 ρ_s R²/(9 μ_f).
+
+    w is the slip at the release or the settling speed, so that τ_p w is the distance in which drag stops a
+    particle. L is the flow's width; without walls the number is zero.
+    """
+    if p.size == 0 or not flow.width < math.inf:
+        return 0.0
+    tau = 2.0 * p.rho * p.R**2 / (9.0 * medium.mu)
+    slip = tau * np.abs(1.0 - medium.rho / p.rho) * np.linalg.norm(medium.gravity)
+    given = np.flatnonzero(np.isfinite(p.v[:, 0]) & (p.host >= 0))
+    for start in range(0, len(given), PER_CONTEXT):
+        rows = given[start : start + PER_CONTEXT]
+        u = carrier_velocity(p.take(rows), flow.sample(p.x[rows], p.host[rows], time)[0])
+        slip[rows] = np.maximum(slip[rows], np.linalg.norm(p.v[rows] - u, axis=1))
+    return float((tau * slip).max() / flow.width)
 
 
 def _found(name: str) -> Callable[[Context], Floats]:

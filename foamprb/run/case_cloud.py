@@ -65,6 +65,8 @@ class CaseCloud:
     """Time of the last release, s."""
     interaction: str = ""
     """The patch interaction model; empty if it is not carried over."""
+    wall: str = "stick"
+    """Interaction of walls without a rule: ``rebound`` if the collision model moved particles off walls."""
     coefficients: list[str] = field(default_factory=list)
     """Its coefficients; of ``localInteraction``, the rules that match patches."""
     ruled: frozenset[str] = frozenset()
@@ -125,6 +127,9 @@ class _Reader:
                 cloud.injections += self._injection(own, flow, end)
             except InputError as error:
                 self._leave_out(own, str(error))
+        collision = models.entries.get("collisionModel")
+        if isinstance(collision, Stream) and collision.text != "none":
+            cloud.wall = "rebound"
         self._read_interaction(models, flow.patches)
         others = ("particleForces", "injectionModels", "patchInteractionModel")
         coefficients = [name for name in models.entries if name.endswith("Coeffs")]

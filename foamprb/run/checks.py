@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 from foamprb.body.imex import relaxation_time
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
-from foamprb.cloud.measures import as_slice, shear_rate_at
+from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
 
 STEADY_CAPILLARY = 0.3
 """Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
 _MOST_NODES, _SMALL_SHARE = 20_000, 0.01
 _CHUNK = 16_384
+_STIFF = 1e8
+"""Approximate largest μ_s Δt/μ_f without shorter steps by round-off, without inertia."""
 SMALL_REYNOLDS = 0.1
 """Largest particle Reynolds number without a warning; the model assumes Stokes flow around the particle."""
 
@@ -37,6 +39,10 @@ class Groups(NamedTuple):
     """Δt/τ_s."""
     size: tuple[float, float]
     """d over the size of the cell at release."""
+    path: tuple[float, float]
+    """Stokes number of the path, the largest; see :func:`foamprb.cloud.measures.path_stokes_number`."""
+    stiffness: tuple[float, float]
+    """μ_s Δt/μ_f."""
     extending: float = 0.0
     """Share of the flow in which the softest particle has no steady shape."""
 
@@ -47,13 +53,13 @@ def groups(cloud: Cloud, injector: int) -> Groups:
     # Part by part: a copy of all particles would double the memory.
     chosen = (as_slice(rows[k : k + _CHUNK]) for k in range(0, len(rows), _CHUNK))
     parts = [_ranges(cloud, cloud.particles.take(some)) for some in chosen]
-    found = np.array(parts) if parts else np.full((1, 6, 2), np.nan)
+    found = np.array(parts) if parts else np.full((1, 8, 2), np.nan)
     lowest, largest = found[:, :, 0].min(axis=0), found[:, :, 1].max(axis=0)
-    rate, capillary, reynolds, stokes, step, size = (
+    rate, capillary, reynolds, stokes, step, size, path, stiffness = (
         (float(low), float(high)) for low, high in zip(lowest, largest, strict=True)
     )
     extending = _extending(cloud, rows)
-    return Groups(len(rows), rate, capillary, reynolds, stokes, step, size, extending)
+    return Groups(len(rows), rate, capillary, reynolds, stokes, step, size, path, stiffness, extending)
 
 
 def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
@@ -68,6 +74,8 @@ def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
         gamma * tau,
         cloud.dt / tau,
         2.0 * p.R / cloud.flow.cell_size(p.host),
+        np.array([path_stokes_number(p, cloud.flow, medium, cloud.time)]),
+        p.mu * cloud.dt / medium.mu,
     )
     return [_range(values) for values in groups]
 
@@ -112,6 +120,16 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
         found.append(
             f"{where}: the shape Stokes number is {g.stokes[1]:.3g}; the integrator {integrator} leaves out "
             "the inertia of the solid, which matters there."
+        )
+    if not scheme.inertia and g.path[1] > 10 * SMALL_STOKES:
+        found.append(
+            f"{where}: drag stops the particles within {g.path[1]:.3g} times the width of the flow; the "
+            f"integrator {integrator} leaves out their inertia: use rosenbrock."
+        )
+    if not scheme.inertia and g.stiffness[1] > _STIFF:
+        found.append(
+            f"{where}: the shear modulus is {g.stiffness[1]:.2g} times mu/deltaT; above about {_STIFF:g} "
+            f"round-off shortens the steps of {integrator}. A body of Ca = 1e-6 is as good as rigid."
         )
     if g.reynolds[1] > SMALL_REYNOLDS:
         found.append(

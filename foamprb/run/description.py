@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import shape_stokes_number, shear_rate
+from foamprb.cloud.measures import path_stokes_number, shape_stokes_number, shear_rate
 from foamprb.flow.base import Caveat
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
@@ -61,9 +61,10 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         warnings.append("there is no particle: no injection model releases any.")
     arrays = cloud.make_ready()
     notes = [line for model in models.surroundings for line in model.notes(cloud.particles, arrays, flow)]
-    number = None
+    number, path_number = None, None
     if settings.solution.integrationSchemes.shape == "auto":
         number = shape_stokes_number(cloud.particles, flow, cloud.medium.mu, cloud.time)
+        path_number = path_stokes_number(cloud.particles, flow, cloud.medium, cloud.time)
     description: dict[str, Any] = _as_json({
         "format": RECORD_FORMAT,
         "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
@@ -83,6 +84,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             "integrator": models.integrator,
             "integratorDescription": INTEGRATORS[models.integrator].description,
             "shapeStokesNumber": number,
+            "pathStokesNumber": path_number,
             "longestStep": cloud.tracker.stride,
             "interaction": settings.interaction,
             "touching": settings.touching,

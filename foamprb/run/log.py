@@ -59,8 +59,9 @@ def log_description(job: Job) -> None:
     log.info("Selecting solid %s", models["solid"])
     log.info("Selecting integrationScheme %s: %s", models["integrator"], models["integratorDescription"])
     if models["shapeStokesNumber"] is not None:
-        log.info("    auto: shape Stokes number up to %.3g at injection; stokes below %g, else rosenbrock",
-                 models["shapeStokesNumber"], SMALL_STOKES)  # fmt: skip
+        log.info("    auto: Stokes numbers at injection up to %.3g (shape), %.3g (path); "
+                 "stokes below %g, else rosenbrock",
+                 models["shapeStokesNumber"], models["pathStokesNumber"], SMALL_STOKES)  # fmt: skip
     if models["longestStep"] > 1:
         log.info("    steps of up to %d deltaT where the error allows it", models["longestStep"])
     for name, own in models["dispersion"].items():

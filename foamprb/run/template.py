@@ -54,6 +54,8 @@ _CAPILLARY, _MOST_CAPILLARY = 0.1, 0.4
 
 Extension may tear softer bodies apart.
 """
+_RIGID = 1e-6
+"""Capillary number of a body that is as good as rigid."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
 _TEMPERATURE = 300.0
@@ -446,11 +448,14 @@ def _stiffness(flow: MeshFlow, scales: FlowScales, mu: float, own: CaseCloud | N
     said = f"Pa; Ca = {mu * rate / modulus:.2g} at {at}"
     if own and own.moduli:
         E, poisson = own.moduli.values()
-        Ca = 2.0 * mu * rate * (1.0 + poisson) / E
+        Ca, comment = 2.0 * mu * rate * (1.0 + poisson) / E, ""
+        if Ca < _RIGID:
+            comment = f", as good as rigid; the case has youngsModulus {E:g}"
+            Ca, E = _RIGID, _rounded(E * Ca / _RIGID)
         return [
-            f"youngsModulus {E:g}; // Pa; Ca = {Ca:.2g} at {at}",
+            f"youngsModulus {E:g}; // Pa; Ca = {Ca:.2g}{comment}",
             f"poissonsRatio {poisson:g};",
-            f"// or, in place of youngsModulus: shearModulus {modulus:g}; // {said}",
+            f"// shearModulus {modulus:g}; // {said}",
         ]
     return ["poissonsRatio 0.499; // nearly incompressible", f"shearModulus {modulus:g}; // {said}"]
 
@@ -528,20 +533,27 @@ def _interaction(patches: Sequence[Patch], own: CaseCloud | None) -> list[str]:
     lines = own.coefficients if own else []
     if model == "localInteraction":
         rest = [patch for patch in patches if own is None or patch.name not in own.ruled]
-        lines = ["patches", "(", *(f"    {line}" for line in (*lines, *_patches(rest))), ");"]
+        lines = [
+            "patches",
+            "(",
+            *(f"    {line}" for line in (*lines, *_patches(rest, own.wall if own else "stick"))),
+            ");",
+        ]
     return [f"patchInteractionModel {model};", "", *braces(f"{model}Coeffs", lines)]
 
 
-def _patches(patches: Sequence[Patch]) -> list[str]:
+def _patches(patches: Sequence[Patch], wall: str = "stick") -> list[str]:
+    """Return the rules of patches; ``wall`` is the interaction of walls."""
+    choice = "or stick, rebound, escape".replace(f" {wall},", "")
     lines, walls = [], [patch for patch in patches if patch.type in WALLS]
     named = [patch for patch in patches if needs_entry(patch) and patch not in walls]
     for patch in named:
         why = "" if patch.type == "patch" else f" // {patch.type}"
         lines.append(f"{_word(patch.name):20s}{{ type escape; }}{why}")
     if len(walls) > 6:
-        lines.append(f"{'wall':20s}{{ type stick; }} // all {len(walls)} walls; or rebound, escape")
+        lines.append(f"{'wall':20s}{{ type {wall}; }} // all {len(walls)} walls; {choice}")
     else:
-        lines += [f"{_word(patch.name):20s}{{ type stick; }} // wall; or rebound, escape" for patch in walls]
+        lines += [f"{_word(patch.name):20s}{{ type {wall}; }} // wall; {choice}" for patch in walls]
     others = [f"{patch.name} ({patch.type})" for patch in patches if not needs_entry(patch)]
     if others:
         more = ", …" if len(others) > 4 else ""

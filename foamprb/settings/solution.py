@@ -66,7 +66,7 @@ class IntegrationSchemes:
     shape: Annotated[
         str,
         Choice(("auto", *INTEGRATORS)),
-        Meaning("[integrator of the shape](integrators.md); `auto` chooses by the shape Stokes number"),
+        Meaning("[integrator of the shape](integrators.md); `auto` chooses by Stokes numbers"),
     ] = "auto"
     tolerance: Annotated[
         float, Positive, Meaning("largest error of a step, for integrators with error control", "1")

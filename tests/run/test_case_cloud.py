@@ -115,6 +115,14 @@ def test_patches_without_a_rule_get_one(case):
     assert kinds == {"inlet": Escape, "outlet": Escape, "wall": Rebound}
 
 
+def test_walls_off_which_collisions_moved_particles_let_them_rebound(case):
+    file = case / "constant/kinematicCloudProperties"
+    file.write_text(re.sub("Model localInteraction;", "Model none;", file.read_text()))
+    assert main(["init", "-case", str(case)]) == 0
+    text = (case / "constant/softCloudProperties").read_text()
+    assert re.search(r"wall +\{ type rebound; \} // wall; or stick, escape", text)
+
+
 def test_a_model_for_all_walls_is_carried_over(case):
     file = case / "constant/kinematicCloudProperties"
     file.write_text(

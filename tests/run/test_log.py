@@ -11,6 +11,7 @@ from small_clouds import box_cloud
 
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
+from foamprb.cloud.measures import path_stokes_number
 from foamprb.cloud.patches import Stick
 from foamprb.cloud.state import spheres
 from foamprb.cloud.tracker import Models
@@ -79,3 +80,37 @@ def test_steps_of_the_last_tracking_step_are_counted(caplog):
 )
 def test_durations(seconds, text):
     assert log._duration(seconds) == text
+
+
+def falling(width, v=(np.nan, np.nan, np.nan), g=-9.81, G=1.0):
+    """A sphere of 1 mm and 1000 kg/m3 in air at rest of this width: τ_p = 3.09 s, settling speed 30.3 m/s."""
+    shape = block(2, 0.0)
+    shape.points = shape.points * width
+    mesh = build_mesh(shape, box_patches(shape))
+    nodes = np.zeros((len(mesh.nodes), 3))
+    flow = MeshFlow(mesh, nodes, np.zeros((len(nodes), 3, 3)))
+    p = spheres(np.full((1, 3), 0.5 * width), d=1e-3, rho=1000.0, mu=G)
+    p.v[:] = v
+    air = Medium(1.8e-5, 1.2, (0.0, 0.0, g))
+    return Cloud(p, flow, air, [Stick()] * len(flow.patches), 1e-3, Models(integrator="auto"))
+
+
+def test_bodies_that_glide_far_keep_their_inertia():
+    """A fluid at rest has no shear rate, but drag stops these bodies within 93 m."""
+    tau = 2.0 * 1000.0 * 0.5e-3**2 / (9.0 * 1.8e-5)
+    cloud = falling(1.0)
+    number = path_stokes_number(cloud.particles, cloud.flow, cloud.medium, 0.0)
+    assert number == pytest.approx(tau**2 * 9.81 * (1.0 - 1.2e-3), rel=1e-9)
+    assert cloud.models.integrator == "rosenbrock"
+    assert falling(1.0, g=-1e-4).models.integrator == "stokes"
+    # With 1 m/s they stop within 3 m.
+    assert falling(1.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "rosenbrock"
+    assert falling(1000.0, v=(1.0, 0.0, 0.0), g=0.0).models.integrator == "stokes"
+    (text,) = doubts(groups(cloud, 0), "stokes", "it")
+    assert "drag stops the particles within 93.3 times the width of the flow" in text
+
+
+def test_a_modulus_that_round_off_limits_is_a_doubt():
+    (text,) = doubts(groups(falling(1.0, g=0.0, G=1e7), 0), "stokes", "it")
+    assert "the shear modulus is 5.6e+08 times mu/deltaT" in text
+    assert doubts(groups(falling(1.0, g=0.0, G=1e5), 0), "stokes", "it") == []

@@ -286,7 +286,7 @@ def test_what_to_do_without_a_dictionary(case: Path) -> None:
         read_settings(case)
     assert str(caught.value) == (
         f"constant/softCloudProperties: No such file or directory (case {case}). Write one: foamprb init "
-        "writes constant/softCloudProperties for a case; or name another file with -dict."
+        "writes softCloudProperties for a case; or name another file with -dict."
     )
     for missing in ("constant/other", "/nowhere/other"):
         with pytest.raises(

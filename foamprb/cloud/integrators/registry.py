@@ -15,9 +15,9 @@ INTEGRATORS: dict[str, Integrator] = {
 """By their names in the settings and in Models."""
 
 SMALL_STOKES = 0.01
-"""Shape Stokes number γ̇ τ_s below which ``auto`` neglects the solid's inertia."""
+"""Stokes number of shape or path below which ``auto`` neglects the solid's inertia."""
 
 
 def automatic(stokes_number: float) -> str:
-    """Name of the integrator for a shape Stokes number γ̇ τ_s: ``stokes`` where it is small."""
+    """Return the name of the integrator for a Stokes number: ``stokes`` where it is small."""
     return (STOKES if stokes_number < SMALL_STOKES else ROSENBROCK).name
