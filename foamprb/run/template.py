@@ -25,8 +25,10 @@ from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import (
     apparent_viscosity,
+    density_of_state,
     fluid_file,
     mean_density,
+    mean_pressure,
     mean_temperature,
     phase_values,
     phases_of,
@@ -58,8 +60,8 @@ _RIGID = 1e-6
 """Capillary number of a body that is as good as rigid."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
-_TEMPERATURE = 300.0
-"""Temperature of a fluid, K, if its viscosity depends on it."""
+_TEMPERATURE, _PRESSURE = 300.0, 1e5
+"""Temperature of a fluid, K, and its pressure, Pa, if they matter and the case does not have them."""
 
 
 @dataclass(frozen=True)
@@ -338,6 +340,9 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
 
     ``rate`` is the shear rate, 1/s, at which a fluid that is not Newtonian is taken.
     """
+    phases = _phases(case, source, rate)
+    if phases:
+        return phases
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
     nu, mu, lines = None, None, []
@@ -347,9 +352,6 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
             lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: from {where}")
     except InputError as error:
         assert file is not None
-        phases = _phases(file, case, rate)
-        if phases:
-            return phases
         try:
             T, origin = _temperature(case, source.region)
             nu, mu, temperature = read_viscosity(file, case, T)
@@ -365,34 +367,59 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
         nu = 1e-6
         lines.append("nu 1e-06; // m2/s, kinematic viscosity; not in the case: like water")
     rho, origin = _density(case, file, source.region, where)
-    if rho is None:
-        # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
-        water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
-        rho, kind = (1000.0, "water") if water else (1.2, "air")
-        lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; not in the case: like {kind}")
-    else:
+    if rho is not None:
         lines.append(f"// {'rhoInf':12s}{rho:g}: from {origin}")
+    else:
+        rho, origin = _density_of_state(case, file, source.region)
+        if rho is None:
+            # Gases have about 1e-5 m²/s, or 1e-5 Pa s.
+            water = mu > 1e-4 if nu is None and mu is not None else not 5e-6 <= (nu or 0.0) <= 1e-4
+            rho, origin = (
+                (1000.0, "not in the case: like water") if water else (1.2, "not in the case: like air")
+            )
+        lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; {origin}")
     return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
 
 
-def _temperature(case: Path, region: str) -> tuple[float, str]:
-    """Return the mean temperature of the fluid, K, and its source for a comment."""
+def _temperature(case: Path, region: str, *phases: str) -> tuple[float, str]:
+    """Return the mean temperature of a phase or of the fluid, K, and its source for a comment."""
+    for field in (*(f"T.{phase}" for phase in phases), "T"):
+        try:
+            found = mean_temperature(case, region, "latestTime", field)
+        except InputError:
+            found = None
+        if found is not None:
+            return float(f"{found[0]:.4g}"), f", mean of {field} at {found[1]}"
+    return _TEMPERATURE, ""
+
+
+def _pressure(case: Path, region: str) -> float:
+    """Return the mean pressure of the fluid, Pa."""
     try:
-        found = mean_temperature(case, region, "latestTime")
+        found = mean_pressure(case, region, "latestTime")
     except InputError:
         found = None
-    return (_TEMPERATURE, "") if found is None else (float(f"{found[0]:.4g}"), f", mean of T at {found[1]}")
+    return _PRESSURE if found is None else found[0]
 
 
-def _phases(file: Path, case: Path, rate: float) -> tuple[float, float, list[str]] | None:
-    """Return the result of :func:`_fluid` for the first of several phases; the others are in comments."""
+def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]] | None:
+    """Return the result of :func:`_fluid` for one of several phases; the others are in comments.
+
+    It is the phase of the velocity, such as ``U.air``, or else the first.
+    """
+    known = []
     try:
-        phases = [(phase.key, *phase_values(phase, rate)) for phase in phases_of(read_dictionary(file, case))]
+        for name, phase in phases_of(case, source.region).items():
+            T, p = _temperature(case, source.region, name)[0], _pressure(case, source.region)
+            nu, rho = phase_values(phase, rate, p, T)
+            if nu is not None and rho is not None:
+                known.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
     except InputError:
         return None
-    known = [(name, nu, rho) for name, nu, rho in phases if nu is not None and rho is not None]
     if not known:
         return None
+    own = source.velocity.partition(".")[2]
+    known.sort(key=lambda phase: phase[0] != own)
     lines = []
     for index, (name, nu, rho) in enumerate(known):
         start, why = ("// ", "") if index else ("", ", in which the particles move")
@@ -417,6 +444,16 @@ def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[fl
     except InputError:
         return None, ""
     return (field[0], f"the field rho at time {field[1]}") if field else (None, "")
+
+
+def _density_of_state(case: Path, file: Path | None, region: str) -> tuple[float | None, str]:
+    """Return the density by the equation of state of the fluid, kg/m³, and its source for a comment."""
+    T, p = _temperature(case, region)[0], _pressure(case, region)
+    try:
+        rho = None if file is None else density_of_state(read_dictionary(file, case), p, T)
+    except InputError:
+        rho = None
+    return (None, "") if rho is None else (float(f"{rho:.4g}"), f"equationOfState at {p:.4g} Pa, {T:.4g} K")
 
 
 def _rotating(case: Path, flow: MeshFlow, source: FlowSource) -> list[str]:

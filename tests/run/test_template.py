@@ -154,6 +154,52 @@ def test_both_phases_of_a_case_are_written(case):
     assert (fluid.nu, fluid.rho) == (1e-6, 1000.0)
 
 
+def test_the_phases_of_a_list_are_written(case):
+    (case / "constant/transportProperties").write_text(
+        "phases ( oil { transportModel Newtonian; nu 2e-06; rho 900; } mercury { nu 1.1e-07; rho 13529; } );"
+    )
+    text = write_template(case).read_text()
+    assert "// nu 1.1e-07; // m2/s, of mercury" in text
+    fluid = read_settings(case).fluid
+    assert (fluid.nu, fluid.rho) == (2e-6, 900.0)
+
+
+MIXTURE = (
+    "thermoType {{ mixture pureMixture; transport const; equationOfState {kind}; }} "
+    "mixture {{ specie {{ molWeight 28.96; }} equationOfState {{ R 3000; rho0 1027; pRef 2e5; rho 870; }} "
+    "transport {{ mu 1e-3; }} }}"
+)
+
+
+def test_the_phase_of_the_velocity_goes_first(case):
+    """Each phase has its own file, density by its equation of state, and temperature."""
+    (case / "constant/transportProperties").unlink()
+    for name, kind in (("air", "perfectGas"), ("water", "perfectFluid")):
+        (case / f"constant/thermophysicalProperties.{name}").write_text(MIXTURE.format(kind=kind))
+    time = max((each for each in case.iterdir() if each.name.isdigit()), key=lambda each: float(each.name))
+    shutil.copy(time / "U.gz", time / "U.water.gz")
+    rest = 'boundaryField { ".*" { type zeroGradient; } }'
+    for name, dimensions, value in (("T.air", "0 0 0 1 0 0 0", 600), ("p", "1 -1 -2 0 0 0 0", 3e5)):
+        field = f"dimensions [{dimensions}]; internalField uniform {value}; {rest}"
+        (time / name).write_text(header("volScalarField", name) + field)
+    text = write_template(case, FlowSource(velocity="U.water")).read_text()
+    rho = 1027.0 + 3e5 / (3000.0 * 300.0)
+    assert re.search(r"rhoInf +1027; +// kg/m3, of water", text)
+    assert f"// rhoInf {3e5 * 28.96 / (8314.46 * 600.0):.4g}; // kg/m3, of air" in text
+    assert read_settings(case).fluid.nu == pytest.approx(1e-3 / rho, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("kind", "rho"), [("perfectGas", 1.161), ("incompressiblePerfectGas", 2.322), ("Boussinesq", 1027.0)]
+)
+def test_the_density_is_that_of_the_equation_of_state(case, kind, rho):
+    (case / "constant/transportProperties").unlink()
+    state = MIXTURE.format(kind=kind).replace("rho 870;", "")
+    (case / "constant/thermophysicalProperties").write_text(state)
+    assert "equationOfState at 1e+05 Pa, 300 K" in write_template(case).read_text()
+    assert read_settings(case).fluid.rho == pytest.approx(rho, rel=1e-3)
+
+
 def test_a_fluid_that_depends_on_temperature_gets_one(case):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(

@@ -13,15 +13,19 @@ from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
 from foamprb.dictionary.schema import read_entry
-from foamprb.dictionary.tree import Dictionary, Stream
+from foamprb.dictionary.tree import Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
-from foamprb.flow.read.case import available_times, find_file, word_of
+from foamprb.flow.read.case import available_times, find_dictionary, find_file, word_of
 from foamprb.flow.read.field import DENSITY_FIELD, Kind, read_field
 from foamprb.flow.read.times import pick_time
 
+_PRESSURE_FIELD = Kind("volScalarField", "scalar", ((1, -1, -2, 0, 0, 0, 0),), "a pressure")
 _TEMPERATURE_FIELD = Kind("volScalarField", "scalar", ((0, 0, 0, 1, 0, 0, 0),), "a temperature")
-FILES = ("transportProperties", "physicalProperties", "thermophysicalProperties")
+_GAS_CONSTANT = 8314.46
+"""J/(kmol K)."""
+_MIXTURE_FILE = "thermophysicalProperties"
+FILES = ("transportProperties", "physicalProperties", _MIXTURE_FILE)
 """Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
 
 
@@ -163,9 +167,46 @@ def mean_density(case: Path, region: str, time: float | str) -> tuple[float, str
     return _mean(case, region, time, "rho", DENSITY_FIELD)
 
 
-def mean_temperature(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
+def mean_temperature(
+    case: Path, region: str, time: float | str, field: str = "T"
+) -> tuple[float, str] | None:
     """Return the mean of ``T`` over the cells, K, and the time's name; see :func:`mean_density`."""
-    return _mean(case, region, time, "T", _TEMPERATURE_FIELD)
+    return _mean(case, region, time, field, _TEMPERATURE_FIELD)
+
+
+def mean_pressure(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
+    """Return the mean of ``p`` over the cells, Pa, and the time's name; see :func:`mean_density`."""
+    return _mean(case, region, time, "p", _PRESSURE_FIELD)
+
+
+def density_of_state(root: Dictionary, p: float, T: float) -> float | None:
+    """Return the density by the ``equationOfState`` of a ``pureMixture``, kg/m³; None if it is not known.
+
+    Parameters
+    ----------
+    root
+        The dictionary of the mixture.
+    p, T
+        Pressure, Pa, and temperature, K.
+    """
+    kind, mixture = root.entries.get("thermoType"), root.entries.get("mixture")
+    if not isinstance(kind, Dictionary) or not isinstance(mixture, Dictionary):
+        return None
+    parts = [mixture.entries.get(name) for name in ("equationOfState", "specie")]
+    state, specie = (part if isinstance(part, Dictionary) else mixture for part in parts)
+    rho0, R, W = _number(state, "rho0"), _number(state, "R"), _number(specie, "molWeight")
+    match word_of(kind, "equationOfState"):
+        case "rhoConst":
+            return _number(state, "rho")
+        case "Boussinesq":
+            return rho0
+        case "perfectFluid" if rho0 and R:
+            return rho0 + p / (R * T)
+        case "perfectGas" if W:
+            return p * W / (_GAS_CONSTANT * T)
+        case "incompressiblePerfectGas" if W and (reference := _number(state, "pRef")):
+            return reference * W / (_GAS_CONSTANT * T)
+    return None
 
 
 def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) -> tuple[float, str] | None:
@@ -195,16 +236,44 @@ def apparent_viscosity(fluid: Dictionary, rate: float) -> tuple[str, float] | No
     return (model, float(nu)) if 0.0 < nu < math.inf else None
 
 
-def phases_of(root: Dictionary) -> list[Dictionary]:
-    """Return the dictionaries of the phases of a two-phase case."""
-    listed = root.entries.get("phases")
-    names = re.findall(r"[\w.]+", listed.text) if isinstance(listed, Stream) else []
-    found = [root.entries.get(name) for name in names]
-    return [phase for phase in found if isinstance(phase, Dictionary)]
+def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
+    """Return the dictionaries of the phases of a case with several, by name.
+
+    They are in the order of the case, or, of a solver with ``phaseProperties``, in that of the alphabet.
+
+    Raises
+    ------
+    InputError
+        If a dictionary cannot be read.
+    """
+    file = fluid_file(case, region)
+    entries = {} if file is None else read_dictionary(file, case).entries
+    listed = entries.get("phases")
+    if isinstance(listed, DictionaryList):
+        return {phase.key: phase for phase in listed.items}
+    files = (case / "constant" / region).glob(f"{_MIXTURE_FILE}.*")
+    names = sorted(file.name.removeprefix(f"{_MIXTURE_FILE}.").removesuffix(".gz") for file in files)
+    if isinstance(listed, Stream):
+        names = re.findall(r"[\w.]+", listed.text)
+    own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
+    phases = {key: own[key] or entries.get(key) for key in names}
+    return {key: phase for key, phase in phases.items() if isinstance(phase, Dictionary)}
 
 
-def phase_values(phase: Dictionary, rate: float) -> tuple[float | None, float | None]:
-    """Return the viscosity of a phase at a shear rate (1/s), m²/s, and its density, kg/m³, if it has them."""
+def phase_values(phase: Dictionary, rate: float, p: float, T: float) -> tuple[float | None, float | None]:
+    """Return the viscosity of a phase, m²/s, and its density, kg/m³, if it has them.
+
+    Parameters
+    ----------
+    phase
+        Its dictionary.
+    rate, p, T
+        Shear rate, 1/s, pressure, Pa, and temperature, K.
+    """
+    if "mixture" in phase.entries:
+        rho = density_of_state(phase, p, T)
+        mu = _of_mixture(phase, T).mu
+        return (mu / rho if mu and rho else None), rho
     found = apparent_viscosity(phase, rate)
     return (found[1] if found else _number(phase, "nu")), _number(phase, "rho")
 
