@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cbrt, inf, pi, sqrt
+from math import cbrt, exp, inf, pi, sqrt
 from typing import NamedTuple
 
 from foamprb.body.brownian import BOLTZMANN
@@ -48,7 +48,9 @@ class Estimate(NamedTuple):
     peclet_number: float
     """γ̇ R²/D, shear over diffusion. Below 1 Brownian motion determines the orientation."""
     settling_speed: float
-    """(ρ_s − ρ_f) g d²/(18 μ_f), m/s, negative upwards."""
+    """w = (ρ_s − ρ_f) g d²/(18 μ_f), m/s, negative upwards."""
+    settling_reynolds_number: float
+    """ρ_f |w| d/μ_f, far below 1 where drag is that of Stokes flow."""
     lift_speed: float
     """Lift by the wall, k γ̇ R³/h², m/s; 0 without a wall."""
     diffusion_coefficient: float
@@ -56,7 +58,7 @@ class Estimate(NamedTuple):
     thermal_strain: float
     """√⟨ε:ε⟩ = √(5 k_B T/(2 μ_s V)) of the rest shape."""
     settling_length: float
-    """Distance in the residence time, m, like the next two."""
+    """Distance from rest in the residence time, |w| (t − τ_p (1 − e^{−t/τ_p})), m, like the next two."""
     lift_length: float
     """(h³ + 3 k γ̇ R³ t)^{1/3} − h."""
     diffusion_length: float
@@ -99,14 +101,21 @@ def estimate(sphere: SoftSphere, around: Surroundings, residence_time: float) ->
         stokes_number=rate * tau,
         peclet_number=rate * R * R / D,
         settling_speed=settling,
+        settling_reynolds_number=around.rho * abs(settling) * sphere.d / around.mu,
         lift_speed=lift / h**2,
         diffusion_coefficient=D,
         thermal_strain=sqrt(2.5 * BOLTZMANN * around.temperature / (sphere.mu * 4.0 / 3.0 * pi * R**3)),
-        settling_length=abs(settling) * residence_time,
+        settling_length=abs(settling) * _delayed(residence_time, tau),
         lift_length=_rise(h, 3.0 * lift * residence_time),
         diffusion_length=sqrt(2.0 * D * residence_time),
         lift_height=sqrt(lift / abs(settling)) if settling else inf,
     )
+
+
+def _delayed(t: float, tau: float) -> float:
+    """Return t − τ (1 − e^{−t/τ}), without cancellation."""
+    s = t / tau
+    return t - tau * (1.0 - exp(-s)) if s > 1e-3 else t * s * (0.5 - s / 6.0)
 
 
 def _rise(h: float, cubes: float) -> float:

@@ -85,12 +85,19 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         ("Peclet number", e.peclet_number, "below 10 BrownianMotion turns and moves it"),
         ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
         ("settling speed [m/s]", e.settling_speed, ""),
+        ("its Reynolds number", e.settling_reynolds_number, "above 0.1 it is slower: drag exceeds Stokes'"),
         ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
         ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
         ("settling length [m]", e.settling_length, "in the residence time; so are the next two"),
         ("lift length [m]", e.lift_length, ""),
         ("diffusion length [m]", e.diffusion_length, ""),
-        ("lift-off height [m]", e.lift_height, "where lift balances weight"),
+        (
+            "lift-off height [m]",
+            e.lift_height,
+            "where lift balances weight"
+            if e.lift_height > 0.5 * d
+            else "within the particle: it does not lift off",
+        ),
     ]
     if given["epsilon"] > 0.0:
         nu = given["mu"] / given["rhoInf"]

@@ -22,7 +22,8 @@ def test_numbers_of_a_bead_in_water():
     assert e.diffusion_coefficient == pytest.approx(D)
     assert e.peclet_number == pytest.approx(100.0 * 6.25e-12 / D)
     assert e.lift_speed == pytest.approx(0.0996 * 100.0 * 2.5e-6**3 / 20e-6**2, rel=0.01)
-    assert e.settling_length == pytest.approx(10.0 * e.settling_speed)
+    assert e.settling_length == pytest.approx(10.0 * e.settling_speed, rel=1e-6)
+    assert e.settling_reynolds_number == pytest.approx(e.settling_speed * 5.0)
     assert e.diffusion_length == pytest.approx((20.0 * D) ** 0.5)
     # 5/2 k_B T of energy μ_s V ε:ε.
     assert 1.0 * 4.0 / 3.0 * pi * 2.5e-6**3 * e.thermal_strain**2 == pytest.approx(2.5 * 1.380649e-23 * 300)
@@ -49,6 +50,19 @@ def test_at_the_lift_height_the_lift_balances_weight():
     e = estimate(BEAD, WATER, 1.0)
     there = estimate(BEAD, WATER._replace(wall_distance=e.lift_height), 1.0)
     assert there.lift_speed == pytest.approx(there.settling_speed)
+
+
+def test_a_heavy_sphere_falls_before_it_settles():
+    """1 mm in air: settling at 30 m/s after some seconds, but g t²/2 in a hundredth of a second."""
+    sphere, air = SoftSphere(1e-3, 1000.0, 1.0), Surroundings(1.8e-5, 1.2, 100.0)
+    tau = 1000.0 * 1e-6 / (18.0 * 1.8e-5)
+    for t in (1e-4, 1e-2):
+        assert estimate(sphere, air, t).settling_length == pytest.approx(
+            0.5 * 9.81 * 0.9988 * t * t, rel=2e-3
+        )
+    e = estimate(sphere, air, 100.0 * tau)
+    assert e.settling_length == pytest.approx(99.0 * tau * e.settling_speed)
+    assert e.settling_reynolds_number == pytest.approx(1.2 * e.settling_speed * 1e-3 / 1.8e-5)
 
 
 def test_without_a_wall_or_weight():
