@@ -86,7 +86,7 @@ def read_case_cloud(case: Path, region: str, flow: MeshFlow, end: float) -> Case
     flow
         The flow into which the injection models must release particles.
     end
-        Duration of a first run, s; a longer injection is reduced to a fifth of it.
+        Duration of a first run, s; a longer injection is reduced to a fifth of it, a later one begins at 0.
     """
     file = case / of_region(case, region, _NAME)
     if existing(file) is None:
@@ -171,7 +171,9 @@ class _Reader:
             if key in without or isinstance(rule, NoEffect):
                 del dictionary.entries[key]
             elif name not in hints:
-                self._leave_out(dictionary.entries.pop(key), "it is not modelled")
+                del dictionary.entries[key]
+                if not isinstance(entry, Stream) or entry.text not in ("none", "no", "off", "false"):
+                    self._leave_out(entry, "it is not modelled")
             elif (
                 rule is None
                 and isinstance(entry, Dictionary)
@@ -221,6 +223,8 @@ class _Reader:
             comments[name] = f" // {unit}the case has {read_entry(own, name, float):g}"
             own.entries[name] = Stream(name, own, own.source, entry.line, tokens=(f"{value:.2g}",))
 
+        if "SOI" in own.entries and read_entry(own, "SOI", float) > end:
+            reduce("SOI", 0.0, "s, ")
         duration = read_entry(own, "duration", float) if "duration" in own.entries else 0.0
         if duration > end:
             reduce("duration", 0.2 * end, "s, ")

@@ -27,6 +27,7 @@ from foamprb.flow.read.fluid import (
     apparent_viscosity,
     density_of_state,
     fluid_file,
+    is_gas,
     mean_density,
     mean_pressure,
     mean_temperature,
@@ -430,10 +431,12 @@ def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, 
 def _viscosity_of_model(file: Path, case: Path, rate: float) -> tuple[float, str]:
     """Return the viscosity of the selected model at a shear rate (1/s), m²/s, and its source."""
     try:
-        found = apparent_viscosity(read_dictionary(file, case), rate)
+        root = read_dictionary(file, case)
     except InputError:
-        found = None
-    return (1e-6, "") if found is None else (float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s")
+        return 1e-6, ""
+    if found := apparent_viscosity(root, rate):
+        return float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s"
+    return (1.5e-5, "not constant: like air") if is_gas(root) else (1e-6, "")
 
 
 def _density(case: Path, file: Path | None, region: str, where: str) -> tuple[float | None, str]:

@@ -222,6 +222,16 @@ def test_the_temperature_is_that_of_the_field(case):
     assert re.search(r"TInf +977; +// K, .*mean of T", write_template(case).read_text())
 
 
+def test_a_mixture_of_gases_is_like_air(case):
+    (case / "constant/transportProperties").unlink()
+    (case / "constant/thermophysicalProperties").write_text(
+        "thermoType { mixture reactingMixture; transport sutherland; equationOfState perfectGas; }"
+    )
+    text = write_template(case).read_text()
+    assert re.search(r"nu +1.5e-05; +// m2/s, kinematic viscosity; not constant: like air", text)
+    assert re.search("rhoInf +1.2; .*like air", text)
+
+
 @pytest.mark.parametrize(("mu", "kind"), [("1.8e-05", "1.2; .*like air"), ("0.001", "1000; .*like water")])
 def test_a_dynamic_viscosity_tells_a_gas_from_a_liquid(case, mu, kind):
     (case / "constant/transportProperties").unlink()

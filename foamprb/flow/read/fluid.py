@@ -179,6 +179,14 @@ def mean_pressure(case: Path, region: str, time: float | str) -> tuple[float, st
     return _mean(case, region, time, "p", _PRESSURE_FIELD)
 
 
+def is_gas(root: Dictionary) -> bool:
+    """Return whether ``thermoType`` is that of a gas."""
+    kind = root.entries.get("thermoType")
+    if not isinstance(kind, Dictionary):
+        return False
+    return word_of(kind, "equationOfState").endswith("Gas") or word_of(kind, "transport") == "sutherland"
+
+
 def density_of_state(root: Dictionary, p: float, T: float) -> float | None:
     """Return the density by the ``equationOfState`` of a ``pureMixture``, kg/m³; None if it is not known.
 
