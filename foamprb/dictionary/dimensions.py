@@ -70,30 +70,36 @@ _UNITS: dict[str, Dimensions] = {
 }
 _WORDS: dict[str, Dimensions] = {
     "length": (0, 1, 0, 0, 0, 0, 0), "area": (0, 2, 0, 0, 0, 0, 0), "volume": (0, 3, 0, 0, 0, 0, 0),
-    "time": (0, 0, 1, 0, 0, 0, 0), "mass": (1, 0, 0, 0, 0, 0, 0), "rate": RATE, "velocity": VELOCITY,
-    "acceleration": ACCELERATION, "density": DENSITY, "kinematicViscosity": KINEMATIC_VISCOSITY,
-    "dynamicViscosity": DYNAMIC_VISCOSITY, "volumetricFlux": VOLUME_FLUX, "massFlux": MASS_FLUX,
-    "kinematicPressure": SPECIFIC_ENERGY, "pressure": (1, -1, -2, 0, 0, 0, 0),
-    "force": (1, 1, -2, 0, 0, 0, 0),
+    "time": (0, 0, 1, 0, 0, 0, 0), "mass": (1, 0, 0, 0, 0, 0, 0), "temperature": (0, 0, 0, 1, 0, 0, 0),
+    "moles": (0, 0, 0, 0, 1, 0, 0), "current": (0, 0, 0, 0, 0, 1, 0),
+    "luminousIntensity": (0, 0, 0, 0, 0, 0, 1), "rate": RATE, "velocity": VELOCITY,
+    "acceleration": ACCELERATION, "momentum": (1, 1, -1, 0, 0, 0, 0), "force": (1, 1, -2, 0, 0, 0, 0),
+    "energy": (1, 2, -2, 0, 0, 0, 0), "power": (1, 2, -3, 0, 0, 0, 0), "density": DENSITY,
+    "pressure": (1, -1, -2, 0, 0, 0, 0), "kinematicPressure": SPECIFIC_ENERGY,
+    "compressibility": (0, -2, 2, 0, 0, 0, 0), "gasConstant": (0, 2, -2, -1, 0, 0, 0),
+    "specificHeatCapacity": (0, 2, -2, -1, 0, 0, 0), "kinematicViscosity": KINEMATIC_VISCOSITY,
+    "dynamicViscosity": DYNAMIC_VISCOSITY, "thermalConductivity": (1, 1, -3, -1, 0, 0, 0),
+    "volumetricFlux": VOLUME_FLUX, "massFlux": MASS_FLUX,
+    "turbulentKineticEnergy": SPECIFIC_ENERGY, "turbulentEpsilon": DISSIPATION, "turbulentOmega": RATE,
+    "turbulentViscosity": KINEMATIC_VISCOSITY,
 }  # fmt: skip
-"""Dimensions that OpenFOAM.org's versions write by name."""
+"""Dimensions that OpenFOAM.org's versions write by name, alone or in products."""
 _SCALED = {
     "km": (1e3, "m"), "dm": (0.1, "m"), "cm": (1e-2, "m"), "mm": (1e-3, "m"), "um": (1e-6, "m"),
     "ms": (1e-3, "s"), "us": (1e-6, "s"), "min": (60.0, "s"), "hr": (3600.0, "s"), "g": (1e-3, "kg"),
     "kPa": (1e3, "Pa"), "mPa": (1e-3, "Pa"),
 }  # fmt: skip
 _SCALED_UNIT = re.compile(rf"(/\s*)?(?<![A-Za-z])({'|'.join(_SCALED)})(?![A-Za-z])(?:\^([-+]?\d+))?")
-_UNIT = re.compile(rf"(/\s*)?({'|'.join(sorted(_UNITS, key=len, reverse=True))})(?:\^([-+]?\d+))?")
+_NAMED = _UNITS | _WORDS
+_UNIT = re.compile(rf"(/\s*)?({'|'.join(sorted(_NAMED, key=len, reverse=True))})(?:\^([-+]?\d+))?")
 
 
 def read_dimensions(text: str) -> Dimensions | None:
-    """Read ``[0 1 -1 0 0 0 0]``, the first five of these exponents, or ``[m s^-1]``; None otherwise."""
+    """Read ``[0 1 -1 0 0 0 0]``, its first five exponents, ``[m s^-1]`` or ``[velocity]``; None otherwise."""
     text = text.strip()
     if not (text.startswith("[") and text.endswith("]")):
         return None
     words = text[1:-1].split()
-    if len(words) == 1 and words[0] in _WORDS:
-        return _WORDS[words[0]]
     if not words or not _EXPONENT.fullmatch(words[0]):
         return _of_units(text[1:-1].strip())
     if len(words) not in (5, 7):
@@ -104,14 +110,14 @@ def read_dimensions(text: str) -> Dimensions | None:
 
 
 def _of_units(text: str) -> Dimensions | None:
-    """Read a product of units, ``kg m^-3`` or ``m/s``."""
+    """Read a product of units or named dimensions, ``kg m^-3`` or ``velocity/length``."""
     sum_of_exponents, at = [0.0] * 7, 0
     while at < len(text):
         match = _UNIT.match(text, at)
         if match is None:
             return None
         power = float(match[3] or 1) * (-1.0 if match[1] else 1.0)
-        sum_of_exponents = [a + power * b for a, b in zip(sum_of_exponents, _UNITS[match[2]], strict=True)]
+        sum_of_exponents = [a + power * b for a, b in zip(sum_of_exponents, _NAMED[match[2]], strict=True)]
         at = match.end()
         if at < len(text) and text[at] not in " /":
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, NewType
 
@@ -24,12 +24,15 @@ from foamprb.dictionary.tree import DICTIONARY_TEXT, Dictionary, DictionaryList,
 __all__ = [
     "READERS",
     "Acceleration",
+    "AccelerationVector",
     "Density",
     "DynamicViscosity",
     "Files",
     "Line",
     "Reader",
     "Viscosity",
+    "factor_of",
+    "unit_of",
 ]
 
 Line = NewType("Line", str)
@@ -44,6 +47,8 @@ Density = NewType("Density", float)
 """A density, kg/m3, that may be written with its name and dimensions."""
 Acceleration = NewType("Acceleration", str)
 """The dimensions of an acceleration."""
+AccelerationVector = NewType("AccelerationVector", Vector3)
+"""An acceleration, m/s2, that may be written with its unit."""
 
 
 class Reader(NamedTuple):
@@ -79,13 +84,13 @@ def _dimensioned(expected: Dimensions) -> Callable[[Stream], float | None]:
             return None
         for text in (match["dimensions"], match["unit"]):
             if text:
-                value *= _require(text, expected)
+                value *= factor_of(text, expected)
         return value
 
     return read
 
 
-def _require(text: str, expected: Dimensions) -> float:
+def factor_of(text: str, expected: Dimensions) -> float:
     """Return the factor of a unit to SI; raise ValueError if its dimensions differ from the expected ones."""
     found = read_unit(text)
     if found is None:
@@ -97,7 +102,7 @@ def _require(text: str, expected: Dimensions) -> float:
 
 
 def _dimensions_of_acceleration(entry: Stream) -> str:
-    if _require(entry.text, ACCELERATION) != 1.0:
+    if factor_of(entry.text, ACCELERATION) != 1.0:
         raise ValueError("which is not in m s^-2")
     return entry.text
 
@@ -110,19 +115,34 @@ def _constant(entry: Stream) -> float | None:
 
 
 def _vector(entry: Stream) -> Any:
-    return _numbers(_nested(entry), 3)
+    return _numbers(_nested(entry.tokens), 3)
+
+
+def unit_of(tokens: Sequence[str]) -> tuple[str, Sequence[str]]:
+    """Return a unit in brackets that stands before or behind a value, or nothing, and the other tokens."""
+    if "[" not in tokens or "]" not in tokens:
+        return "", tokens
+    begin, end = tokens.index("["), tokens.index("]") + 1
+    return " ".join(tokens[begin:end]), (*tokens[:begin], *tokens[end:])
+
+
+def _acceleration(entry: Stream) -> Any:
+    """Return a vector in m/s2."""
+    unit, tokens = unit_of(entry.tokens)
+    vector = _numbers(_nested(tokens), 3)
+    return vector and tuple((factor_of(unit, ACCELERATION) if unit else 1.0) * x for x in vector)
 
 
 def _pairs(entry: Stream) -> Any:
-    return _each(_nested(entry), lambda item: _numbers(item, 2))
+    return _each(_nested(entry.tokens), lambda item: _numbers(item, 2))
 
 
 def _axes(entry: Stream) -> Any:
-    return _each(_nested(entry), _two_vectors)
+    return _each(_nested(entry.tokens), _two_vectors)
 
 
 def _words(entry: Stream) -> Any:
-    return _each(_nested(entry), lambda item: unquoted(item) if isinstance(item, str) else None)
+    return _each(_nested(entry.tokens), lambda item: unquoted(item) if isinstance(item, str) else None)
 
 
 def _two_vectors(item: Any) -> Any:
@@ -144,9 +164,8 @@ def _each(item: Any, read: Callable[[Any], Any]) -> Any:
     return None if any(part is None for part in parts) else parts
 
 
-def _nested(entry: Stream) -> Any:
+def _nested(tokens: Sequence[str]) -> Any:
     """Return parentheses as nested tuples of words, without the number of items before them."""
-    tokens = entry.tokens
     if len(tokens) > 1 and _INTEGER.fullmatch(tokens[0]):
         tokens = tokens[1:]
     lists: list[list[Any]] = [[]]
@@ -203,6 +222,7 @@ READERS: dict[Any, Reader] = {
     Path: Reader(_file, "the name of an existing file, in constant/ or absolute"),
     Files: Reader(_files, "a list (file file) of existing files, in constant/ or absolute"),
     Vector3: Reader(_vector, "a vector (x y z)"),
+    AccelerationVector: Reader(_acceleration, "a vector (x y z)"),
     Constant: Reader(_constant, "a number, constant in time"),
     Words: Reader(_words, "a list of words ( word word … )"),
     Pairs: Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),

@@ -15,7 +15,7 @@ from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
 from foamprb.dictionary.schema import Instead, read_entry
 from foamprb.dictionary.tree import CaseFile, Dictionary
-from foamprb.dictionary.values import Acceleration, Density, DynamicViscosity, Viscosity
+from foamprb.dictionary.values import Acceleration, AccelerationVector, Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
     FILES,
@@ -218,5 +218,5 @@ def read_gravity(case: Path, region: str) -> Vector3:
     root = read_dictionary(case / of_region(case, region, "g"), case)
     if "dimensions" in root.entries:
         read_entry(root, "dimensions", Acceleration)
-    g: Vector3 = read_entry(root, "value", Vector3)
+    g: Vector3 = read_entry(root, "value", AccelerationVector)
     return g

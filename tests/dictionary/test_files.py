@@ -70,6 +70,8 @@ def test_a_file_that_cannot_be_read_is_named(tmp_path):
         ("[ kg m^-1 s^-1 ]", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity"),
         ("[Pa s]", "[1 -1 -1 0 0 0 0], those of a dynamic viscosity"),
         ("[0 0.5 0 0 0 0 0]", "[0 0.5 0 0 0 0 0]"),
+        ("[acceleration]", "[0 1 -2 0 0 0 0], those of an acceleration"),
+        ("[velocity/length]", "[0 0 -1 0 0 0 0], those of a rate, such as a velocity's gradient"),
         ("[]", "[0 0 0 0 0 0 0], those of a number without unit"),
     ],
 )

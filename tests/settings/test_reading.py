@@ -206,6 +206,10 @@ def test_dimensions_of_gravity(case: Path, read: Reader, text: str, message: str
     for sound in ("", "dimensions [0 1 -2 0 0 0 0];", "dimensions [0 1 -2 0 0];"):
         (case / "constant/g").write_text(f"{sound} value (0 -9.81 0);")
         assert read(("ellipsoidDrag;", "ellipsoidDrag; gravity;")).gravity == (0.0, -9.81, 0.0)
+    for sound in ("(0 -981 0) [cm/s^2]", "[cm s^-2] (0 -981 0)"):
+        (case / "constant/g").write_text(f"dimensions [acceleration]; value {sound};")
+        found = read(("ellipsoidDrag;", "ellipsoidDrag; gravity;")).gravity
+        assert found == pytest.approx((0.0, -9.81, 0.0), rel=1e-15)
 
 
 def test_each_mistake_gives_its_one_message(read: Reader) -> None:

@@ -31,6 +31,8 @@ class PatchGeometry(NamedTuple):
     """(n,), m²."""
     centres: Floats
     """(n, 3), m."""
+    depths: Floats
+    """(n, 1), distances of the cell centres behind them along the normals, m."""
 
 
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
@@ -65,7 +67,9 @@ def boundary_values(field: FoamField, patches: Sequence[PatchInfo], mesh: Mesh, 
         _check_type(field, patch, entry)
         if entry is None or patch.type in VALUELESS or patch.faces == 0:
             continue
-        faces = PatchGeometry(cells[owner[rows]], normals[rows], sizes[rows], mesh.boundary_centres[rows])
+        behind, n, centres = owner[rows], normals[rows], mesh.boundary_centres[rows]
+        depths = np.einsum("ni,ni->n", centres - mesh.centres[behind], n)[:, None]
+        faces = PatchGeometry(cells[behind], n, sizes[rows], centres, depths)
         values[rows] = _values(field, patch, entry, faces)
     return values
 
@@ -152,6 +156,14 @@ def _surface_normal(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     return None if speed is None else speed * faces.normals
 
 
+def _fixed_gradient(entry: PatchField, faces: PatchGeometry) -> Floats | None:
+    """Return the cells' velocity plus ``gradient``, or the constant ``uniformGradient``, times the depth."""
+    slope = entry.fields.get("gradient")
+    if slope is None:
+        slope = _constant(entry.words.get("uniformGradient", ""), 3)
+    return None if slope is None else faces.cells + slope * faces.depths
+
+
 def _entry(name: str) -> Rule:
     """Make the rule that returns the field, or the constant, of an entry."""
 
@@ -187,6 +199,7 @@ def _constant(text: str, components: int) -> Floats | None:
 
 
 RULES: dict[str, tuple[bool, Rule]] = {
+    "fixedGradient": (True, _fixed_gradient),
     "fixedNormalSlip": (True, _fixed_normal_slip),
     "flowRateInletVelocity": (False, _flow_rate),
     "freestream": (False, _entry("freestreamValue")),
@@ -198,6 +211,7 @@ RULES: dict[str, tuple[bool, Rule]] = {
     "rotatingWallVelocity": (False, _rotating_wall),
     "slip": (True, _tangential),
     "surfaceNormalFixedValue": (True, _surface_normal),
+    "uniformFixedGradient": (False, _fixed_gradient),
     "uniformFixedValue": (False, _entry("uniformValue")),
     "uniformInletOutlet": (False, _entry("uniformInletValue")),
     "zeroGradient": (True, _of_cells),
@@ -208,7 +222,7 @@ CONDITIONS = frozenset(
     """
     activeBaffleVelocity activePressureForceBaffleVelocity advective atmBoundaryLayerInletVelocity
     calculated codedFixedValue codedMixed cylindricalInletVelocity directionMixed exprFixedValue
-    exprMixed extrapolatedCalculated fixedGradient fixedInternalValue fixedJump fixedJumpAMI fixedMean
+    exprMixed extrapolatedCalculated fixedInternalValue fixedJump fixedJumpAMI fixedMean
     fixedMeanOutletInlet fixedNormalInletOutletVelocity fixedProfile fixedValue flowRateOutletVelocity
     fluxCorrectedVelocity interstitialInletVelocity mapped mappedField mappedFixedInternalValue
     mappedFixedPushedInternalValue mappedFlowRate mappedVelocityFlux matchedFlowRateOutletVelocity mixed
@@ -219,7 +233,7 @@ CONDITIONS = frozenset(
     rotatingPressureInletOutletVelocity scaledFixedValue sliced SRFFreestreamVelocity SRFVelocity
     SRFWallVelocity supersonicFreestream swirlFanVelocity swirlFlowRateInletVelocity swirlInletVelocity
     timeVaryingMappedFixedValue translatingWallVelocity turbulentDFSEMInlet turbulentDigitalFilterInlet
-    turbulentInlet uniformFixedGradient uniformJump uniformJumpAMI uniformNormalFixedValue
+    turbulentInlet uniformJump uniformJumpAMI uniformNormalFixedValue
     variableHeightFlowRateInletVelocity waveTransmissive waveVelocity
     """.split()  # noqa: SIM905
 )

@@ -24,6 +24,7 @@ from foamprb.dictionary.dimensions import (
 )
 from foamprb.dictionary.grammar import parse_dictionary
 from foamprb.dictionary.tree import Dictionary, Entry, Stream, unquoted
+from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import PatchInfo
@@ -126,7 +127,7 @@ def read_field(path: Path | FoamFile, kind: Kind, case: Path) -> FoamField:
     try:
         root = parse_dictionary(text, file.path, case)
         dimensions = _dimensions(root, kind)
-        reader = _Reader(file, kind, lists)
+        reader = _Reader(file, kind, lists, dimensions)
         cells = reader.field(root.entries["internalField"]) if "internalField" in root.entries else None
         patches = root.entries.get("boundaryField")
         if cells is None or patches is None:
@@ -180,8 +181,8 @@ def _allowed(kind: Kind) -> str:
 class _Reader:
     """Reader of the entries of a field."""
 
-    def __init__(self, file: FoamFile, kind: Kind, lists: Sequence[ListAt]) -> None:
-        self._file, self._lists = file, lists
+    def __init__(self, file: FoamFile, kind: Kind, lists: Sequence[ListAt], dimensions: Dimensions) -> None:
+        self._file, self._lists, self._dimensions = file, lists, dimensions
         self._components = COMPONENTS[kind.inner.encode()]
         self._inner = kind.inner
 
@@ -212,8 +213,21 @@ class _Reader:
         return PatchField(words["type"], key.startswith('"'), fields, words)
 
     def _values(self, entry: Entry) -> Floats | None:
-        """Return values after ``uniform`` or ``nonuniform``, (n, components); None for other entries."""
-        match entry.tokens if isinstance(entry, Stream) else ():
+        """Return values after ``uniform`` or ``nonuniform``, (n, components); None for other entries.
+
+        A unit before or behind them must be one of the field.
+        """
+        unit, tokens = unit_of(entry.tokens if isinstance(entry, Stream) else ())
+        if unit:
+            found = self._numbers(tokens)
+            try:
+                return None if found is None else factor_of(unit, self._dimensions) * found
+            except ValueError as error:
+                raise entry.mistake(f"is {entry}, {error}.") from None
+        return self._numbers(tokens)
+
+    def _numbers(self, tokens: Sequence[str]) -> Floats | None:
+        match tokens:
             case ("nonuniform", mark) if mark.startswith(_MARK):
                 numbers: Floats = self._file.numbers(self._lists[int(mark.removeprefix(_MARK))])
                 return numbers

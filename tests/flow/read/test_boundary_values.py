@@ -36,6 +36,7 @@ class Lid(NamedTuple):
     u: np.ndarray
     n: np.ndarray
     x: np.ndarray
+    depth: np.ndarray
 
     def tangential(self):
         return self.u - self.along(self.u)
@@ -51,7 +52,9 @@ def on_lid(case, entry, others="floor { type noSlip; } sides { type noSlip; }"):
     faces = slice(*mesh.patch_start[index : index + 2])
     normals = mesh.boundary_areas[faces] / np.linalg.norm(mesh.boundary_areas[faces], axis=1)[:, None]
     behind = cells[mesh.owner[mesh.n_internal :][faces]]
-    return Lid(boundary[faces], behind, normals, mesh.boundary_centres[faces])
+    away = mesh.boundary_centres[faces] - mesh.centres[mesh.owner[mesh.n_internal :][faces]]
+    depth = np.sum(away * normals, axis=1)[:, None]
+    return Lid(boundary[faces], behind, normals, mesh.boundary_centres[faces], depth)
 
 
 def uniform(x, y, z):
@@ -108,6 +111,22 @@ RULES = {
         "type rotatingWallVelocity; origin (0 0 1); axis (0 0 2); omega 3;",
         lambda lid: 3.0 * np.column_stack([-lid.x[:, 1], lid.x[:, 0], 0.0 * lid.x[:, 0]]),
     ),
+    "fixedGradient": (
+        "type fixedGradient; gradient uniform (1 2 3); value uniform (9 9 9);",
+        lambda lid: lid.u + [1.0, 2.0, 3.0] * lid.depth,
+    ),
+    "uniformFixedGradient": (
+        "type uniformFixedGradient; uniformGradient constant (1 2 3);",
+        lambda lid: lid.u + [1.0, 2.0, 3.0] * lid.depth,
+    ),
+    "a unit behind the value": (
+        "type fixedValue; value uniform (1000 2000 3000) [mm/s];",
+        uniform(1.0, 2.0, 3.0),
+    ),
+    "a unit before the values": (
+        "type fixedValue; value [km s^-1] nonuniform List<vector> 4{(1 2 3)};",
+        uniform(1e3, 2e3, 3e3),
+    ),
     "a condition of a library": ("type mine; value uniform (1 2 3);", uniform(1.0, 2.0, 3.0)),
 }
 
@@ -152,6 +171,9 @@ MISSING = {
     "not finite": (
         "type fixedValue; value nonuniform List<vector> 4((0 0 0) (0 inf 1) (0 0 0) (0 0 0));",
         r"1e1/U: 1 of 4 values are not finite .* the first is \(0 inf 1\) on patch lid, face 1\.",
+    ),
+    "a unit of another quantity": (
+        "type fixedValue; value uniform (0 0 0) [mm];", r"lid/value is .uniform \(0 0 0\) \[mm\]., with the di",
     ),
     "a symmetry on a plain patch": (
         "type symmetry;", r"on patch lid the field is of type symmetry, which a patch of type patch can",
