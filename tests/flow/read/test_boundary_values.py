@@ -173,7 +173,8 @@ MISSING = {
         r"1e1/U: 1 of 4 values are not finite .* the first is \(0 inf 1\) on patch lid, face 1\.",
     ),
     "a unit of another quantity": (
-        "type fixedValue; value uniform (0 0 0) [mm];", r"lid/value is .uniform \(0 0 0\) \[mm\]., with the di",
+        "type fixedValue; value uniform (0 0 0) [mm];",
+        r"lid/value is .uniform \(0 0 0\) \[mm\]., with the di",
     ),
     "a symmetry on a plain patch": (
         "type symmetry;", r"on patch lid the field is of type symmetry, which a patch of type patch can",
