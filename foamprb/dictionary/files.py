@@ -12,6 +12,10 @@ from foamprb.errors import InputError
 __all__ = ["existing", "has_both_forms", "read_bytes"]
 
 
+MOST_UNPACKED, MOST_RATIO = 256 << 20, 200
+"""Size up to which every compressed file is read, bytes, and the largest ratio of larger ones."""
+
+
 def existing(path: Path) -> Path | None:
     """Return the file itself, else its compressed form ``.gz``, else None, in OpenFOAM's order.
 
@@ -37,11 +41,21 @@ def read_bytes(path: Path, limit: int = -1) -> bytes:
     Raises
     ------
     InputError
-        If it cannot be read.
+        If it cannot be read, or is suspiciously small for its contents.
     """
     try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as stream:
-            return stream.read(limit)
+        if path.suffix != ".gz":
+            with path.open("rb") as stream:
+                return stream.read(limit)
+        most = max(MOST_UNPACKED, MOST_RATIO * path.stat().st_size)
+        with gzip.open(path) as stream:
+            data = stream.read(most + 1 if limit < 0 else limit)
+        if len(data) <= most:
+            return data
+        raise InputError(
+            f"{path}: holds more than {MOST_RATIO} times its size, {most >> 20} MiB; is it damaged? Allowed "
+            f"after gunzip {path.name}."
+        )
     except (OSError, EOFError, zlib.error) as error:
         raise InputError(f"{path}: cannot be read: {error}.") from None
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
-from foamprb.flow.base import WALLS, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
@@ -287,6 +287,21 @@ class MeshFlow:
         hosts = np.empty(len(points), dtype=np.int32)
         link(_locate_all, separate=LONG)(self._arrays, points, hosts)
         return hosts
+
+    def overlap(self, most: int = 10_000) -> Sequence[Caveat]:
+        """Return a caveat if cells overlap, by the centres of ``most`` cells; none in meshes with folds."""
+        own = np.unique(np.linspace(0, self.mesh.n_cells - 1, most).astype(np.int32))
+        # The centre is a corner of all tetrahedra of its own cell: any other that holds it is found first.
+        found = self.cell_of(self.locate(self.mesh.centres[own]))
+        twice = np.flatnonzero((found != own) & (self.mesh.inverted == 0))
+        if len(twice) == 0:
+            return ()
+        return (
+            Caveat(
+                f"{len(twice)} of {len(own)} cell centres lie in another cell too: cells {own[twice[0]]} and "
+                f"{found[twice[0]]} overlap. The flow is ambiguous there; do blocks of the mesh overlap?"
+            ),
+        )
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         """Return velocities (n, 3), m/s, and ∂u_i/∂x_j (n, 3, 3), 1/s, at points (n, 3) in hosts (n,)."""

@@ -154,6 +154,8 @@ def prepare(
     try:
         log.info("Reading flow of case %s", case if source.file is None else source.file)
         flow = _read_flow(settings, time, source)
+        if isinstance(flow, MeshFlow):
+            flow.notes += tuple(flow.overlap())
         for note in flow.notes:
             if isinstance(note, Caveat):
                 log.warning("%s", note)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import block, boundary, box_patches, corners, cyclic_row, grid, interfaces, period
+from mesh_shapes import block, boundary, box_patches, corners, cyclic_row, grid, interfaces, merged, period
 
 from foamprb.errors import InputError
 from foamprb.flow.mesh.folds import FOLDED
@@ -289,3 +289,12 @@ def test_folded_cells_and_the_triangles_near_them_are_listed():
         states.add(bool(is_folded))
     assert states == {True, False}
     assert arrays.rim_start[-1] == len(arrays.rim) > 0
+
+
+@pytest.mark.parametrize(("shift", "noticed"), [((2.0, 0.0, 0.0), 0), ((0.4, 0.1, 0.1), 1)])
+def test_overlapping_blocks_are_noticed(shift, noticed):
+    first, second = block(3, 0.0), block(3, 0.0)
+    second.points = np.asarray(second.points) + shift
+    caveats = flow_on(build_mesh(merged([first, second]))).overlap()
+    assert len(caveats) == noticed
+    assert all("of 54 cell centres lie in another cell too" in caveat for caveat in caveats)

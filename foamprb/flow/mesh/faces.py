@@ -35,6 +35,8 @@ OPEN = 1
 """State of a cell with an edge that does not belong to exactly two of its faces."""
 TWISTED = 2
 """State of a cell with two faces that run along a common edge in the same direction."""
+_MOST_BASES = 100
+"""Largest number of fans compared on a face with many points; their cost is quadratic."""
 
 
 def list_faces(
@@ -338,6 +340,8 @@ def choose_bases(
 ) -> int:
     """Rotate every face so that the worst tetrahedron of its fan, in both cells, is as good as possible.
 
+    Of a face with many points, evenly spread fans are compared.
+
     The quality of a tetrahedron is its volume over the cube of its root-mean-square edge.
 
     Returns
@@ -349,7 +353,8 @@ def choose_bases(
     for f in range(owner.shape[0]):
         begin, size = start[f], start[f + 1] - start[f]
         best, chosen, negative = -np.inf, 0, 0
-        for base in range(1 if size == 3 else 2 if size == 4 else size):
+        stride = 1 + size // _MOST_BASES
+        for base in range(0, 1 if size == 3 else 2 if size == 4 else size, stride):
             worst, wrong = np.inf, 0
             for side in range(2 if f < n_internal else 1):
                 c = owner[f] if side == 0 else neighbour[f]

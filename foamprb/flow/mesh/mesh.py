@@ -228,7 +228,8 @@ def cut_into_tetrahedra(faces: Faces, n_points: int, source: str) -> tuple[Ints,
     tets, neighbours = np.empty((n_tets, 4), dtype=np.int32), np.empty((n_tets, 4), dtype=np.int32)
     state, face_tet = np.zeros(n_cells, dtype=np.uint8), np.empty(len(sizes), dtype=np.int32)
     link(number_tetrahedra)(faces.first, faces.of_cell, faces.start, faces.owner, cell_start, face_tet)
-    slots, split = 1 << int(np.diff(faces.first).max() * sizes.max()).bit_length(), link(split_cells)
+    most_edges = int(np.add.reduceat(sizes[faces.of_cell], faces.first[:-1]).max())
+    slots, split = 1 << most_edges.bit_length(), link(split_cells)
     given = n_points, faces.first, faces.of_cell, faces.start, faces.points, faces.owner, n_internal
     share(
         n_cells,

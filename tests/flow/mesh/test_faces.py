@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mesh_shapes import HEXAHEDRON_FACES, KINDS, block
+from mesh_shapes import HEXAHEDRON_FACES, KINDS, block, polyhedra
 
 from foamprb.flow.mesh import faces
 from foamprb.flow.mesh.faces import OPEN, TWISTED, number_tetrahedra, split_cells
@@ -141,3 +141,15 @@ def test_between_fans_that_are_as_good_round_off_does_not_decide():
         nobody = np.zeros(0, dtype=int)
         assert faces.choose_bases(points, centre, np.array([0, 4]), lists, np.array([0]), nobody) == 0
         assert lists[0] == base
+
+
+def test_a_face_of_many_points_is_cut_at_a_cost_that_is_not_quadratic():
+    n = 20_000
+    angle = 2.0 * np.pi * np.arange(n) / n
+    ring = np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle])
+    k = np.arange(n)
+    sides = np.column_stack([k, (k + 1) % n, n + (k + 1) % n, n + k])
+    points = np.concatenate([ring, ring + np.array([0.0, 0.0, 1.0])])
+    mesh = build_mesh(polyhedra(points, [[k[::-1], n + k, *sides]]))
+    assert len(mesh.tets) == 2 * (n - 2) + 2 * n
+    assert mesh.volumes[0] == pytest.approx(np.pi, rel=1e-6)
