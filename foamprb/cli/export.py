@@ -38,6 +38,7 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         source_of(arguments),
         arguments.flowTime,
         arguments.output,
+        arguments.results,
     )
     log.info("Written: %s", target)
     return 0

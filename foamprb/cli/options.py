@@ -21,8 +21,11 @@ def add_case(parser: argparse.ArgumentParser) -> None:
 
 
 def add_cloud(parser: argparse.ArgumentParser) -> None:
-    """Add the option ``-cloud``."""
+    """Add the options ``-cloud`` and ``-results``."""
     parser.add_argument("--cloud", metavar="NAME", help="the cloud [softCloud, or the only one]")
+    parser.add_argument(
+        "--results", type=Path, metavar="DIR", help="-output of the run [postProcessing in the case]"
+    )
 
 
 def add_flow(parser: argparse.ArgumentParser) -> None:

@@ -23,4 +23,4 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     """Execute the command; return the exit status."""
     from foamprb.view.show import start_paraview
 
-    return start_paraview(arguments.case, arguments.cloud, arguments.region)
+    return start_paraview(arguments.case, arguments.cloud, arguments.region, arguments.results)

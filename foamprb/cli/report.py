@@ -35,7 +35,12 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     if not all(word.isascii() and word.isdigit() for word in words):
         raise InputError(f"-paths {arguments.paths}: numbers of particles are needed, such as 3,17,20.")
     target = write_report(
-        arguments.case, arguments.output, arguments.cloud, source_of(arguments), [int(w) for w in words]
+        arguments.case,
+        arguments.output,
+        arguments.cloud,
+        source_of(arguments),
+        [int(w) for w in words],
+        arguments.results,
     )
     if not arguments.noBrowser and sys.stdout.isatty():
         open_in_browser(target)

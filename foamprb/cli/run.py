@@ -40,6 +40,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--outsideLibs", action="store_true", help="run also Python files of libs outside the case"
     )
+    parser.add_argument(
+        "--output", type=Path, metavar="DIR", help="folder of the results [postProcessing in the case]"
+    )
     parser.add_argument("--dry-run", action="store_true", help="check the input, print the plan and exit")
 
 
@@ -60,6 +63,7 @@ def execute(arguments: argparse.Namespace, ranks: Ranks | None) -> int:
         precompile=ranks is None and not arguments.dry_run,
         tables=arguments.tables,
         outside_libs=arguments.outsideLibs,
+        output=arguments.output,
     )
     log_description(job)
     if arguments.dry_run:

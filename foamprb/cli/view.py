@@ -67,6 +67,7 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         arguments.slice,
         arguments.bodies,
         tuple(arguments.percentiles),
+        arguments.results,
     )
     if arguments.png or arguments.film or arguments.window:
         picture_of(request, arguments.png, arguments.film, read_size(arguments.size), arguments.dark)

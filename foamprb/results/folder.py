@@ -61,13 +61,15 @@ class ResultsFolder:
     region: str = ""
 
     @classmethod
-    def of_case(cls, case: Path, cloud: str, region: str = "") -> ResultsFolder:
-        """Return the folder that a run of a cloud writes into."""
-        return cls(case / _ROOT / region / cloud, cloud, region)
+    def of_case(cls, case: Path, cloud: str, region: str = "", root: Path | None = None) -> ResultsFolder:
+        """Return the folder that a run of a cloud writes into, below ``postProcessing`` or another root."""
+        return cls((root or case / _ROOT) / region / cloud, cloud, region)
 
     @classmethod
-    def find(cls, case: Path, cloud: str | None = None, region: str = "") -> ResultsFolder:
-        """Find the results that runs left in a case.
+    def find(
+        cls, case: Path, cloud: str | None = None, region: str = "", root: Path | None = None
+    ) -> ResultsFolder:
+        """Find the results that runs of a case left.
 
         Parameters
         ----------
@@ -77,6 +79,8 @@ class ResultsFolder:
             Name of the cloud; by default ``softCloud``, or the only one.
         region
             Region of the mesh; by default the default region, or any other if that has no results.
+        root
+            Folder of the results instead of ``postProcessing`` in the case.
 
         Raises
         ------
@@ -85,12 +89,10 @@ class ResultsFolder:
         """
         if not case.is_dir():
             raise InputError(f"{case}: no such folder.")
-        found = sorted(_written(case))
+        top = root or case / _ROOT
+        found = sorted(_written(top))
         if not found:
-            raise InputError(
-                f"{case}: no results here ({_ROOT}/<cloud>/<cloud>.pvd, in a region: "
-                f"{_ROOT}/<region>/<cloud>/<cloud>.pvd). {HOW}"
-            )
+            raise InputError(f"{top}: no results here ([<region>/]<cloud>/<cloud>.pvd). {HOW}")
         regions = {folder.region for folder in found}
         if region and region not in regions:
             raise InputError(f"{case}: no results of region '{region}'. {suggestion(region, regions - {''})}")
@@ -107,7 +109,7 @@ class ResultsFolder:
         if name in clouds:
             found = [folder for folder in found if folder.cloud == name]
         if len(found) > 1:
-            names = ", ".join(folder.path.relative_to(case / _ROOT).as_posix() for folder in found)
+            names = ", ".join(folder.path.relative_to(top).as_posix() for folder in found)
             option = "-cloud" if len(clouds) > 1 and name not in clouds else "-region"
             raise InputError(f"{case}: results of {len(found)} clouds: {names}. Choose one with {option}.")
         return found[0]
@@ -210,12 +212,12 @@ def file_name(name: str) -> str:
     return f"{escaped[: _MOST_BYTES - 20]}%{checksum:08X}"
 
 
-def _written(case: Path) -> Iterator[ResultsFolder]:
-    """Give the folders of the clouds that runs have written in a case."""
-    for pvd in (case / _ROOT).glob("*/*.pvd"):
+def _written(root: Path) -> Iterator[ResultsFolder]:
+    """Give the folders of the clouds that runs have written."""
+    for pvd in root.glob("*/*.pvd"):
         if pvd.stem == pvd.parent.name:
             yield ResultsFolder(pvd.parent, pvd.stem)
-    for pvd in (case / _ROOT).glob("*/*/*.pvd"):
+    for pvd in root.glob("*/*/*.pvd"):
         region = pvd.parents[1]
         if pvd.stem == pvd.parent.name and not (region / f"{region.name}.pvd").exists():
             yield ResultsFolder(pvd.parent, pvd.stem, region.name)

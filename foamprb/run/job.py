@@ -64,6 +64,8 @@ class Job:
     """Second process that compiles the loop, if there is one."""
     tables: str = "csv"
     """Kind of the tables, one of :data:`foamprb.results.folder.KINDS`."""
+    output: Path | None = None
+    """Folder of the results instead of ``postProcessing`` in the case."""
 
     @property
     def observed(self) -> ObservedCloud:
@@ -73,7 +75,9 @@ class Job:
     @property
     def folder(self) -> ResultsFolder:
         """Folder of the results."""
-        return ResultsFolder.of_case(self.settings.case, self.settings.name, self.settings.region)
+        return ResultsFolder.of_case(
+            self.settings.case, self.settings.name, self.settings.region, self.output
+        )
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -111,6 +115,7 @@ def prepare(
     precompile: bool = False,
     tables: str = "csv",
     outside_libs: bool = False,
+    output: Path | str | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -133,6 +138,8 @@ def prepare(
         ``"csv"``, or ``"parquet"``, which is smaller and faster and needs pyarrow.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
+    output
+        Folder of the results instead of ``postProcessing`` in the case.
 
     Raises
     ------
@@ -161,7 +168,8 @@ def prepare(
                 log.warning("%s", note)
             else:
                 log.info("    %s", note)
-        return replace(assemble(settings, flow, threads, tables), compilation=compilation)
+        job = assemble(settings, flow, threads, tables)
+        return replace(job, compilation=compilation, output=None if output is None else Path(output))
     except BaseException:
         if compilation is not None:
             compilation.stop()

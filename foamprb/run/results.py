@@ -46,6 +46,7 @@ from foamprb.settings.solution import StartFrom
 log = logging.getLogger("foamprb")
 
 HOW_TO_GO_ON = "To continue from the last checkpoint, add -resume."
+_ELSEWHERE = "The option -output DIR writes the results into another folder."
 
 
 @contextmanager
@@ -70,6 +71,8 @@ def open_results(job: Job) -> Iterator[Results]:
         if not isinstance(reason, OSError | OutOfMemory):
             raise
         how = f" {HOW_TO_GO_ON}" if job.folder.path.exists() else ""
+        if isinstance(reason, OSError) and reason.errno in (errno.EACCES, errno.EROFS):
+            how += f" {_ELSEWHERE}"
         raise RunStopped(f"{str(reason).rstrip('.')}.{how}") from error
 
 

@@ -28,7 +28,13 @@ _BEGINNINGS = {"vtkhdf": b"\x89HDF", "ovito": b"ITEM: TIMESTEP"}
 
 
 def export(
-    kind: str, case: Path, cloud: str | None, source: FlowSource, time: str, output: Path | None
+    kind: str,
+    case: Path,
+    cloud: str | None,
+    source: FlowSource,
+    time: str,
+    output: Path | None,
+    results: Path | None = None,
 ) -> Path:
     """Write the results of a run, finished or not, for another program.
 
@@ -36,7 +42,7 @@ def export(
     ----------
     kind
         ``openfoam``, ``vtkhdf`` or ``ovito``.
-    case, cloud
+    case, cloud, results
         See :func:`foamprb.view.results.open_run`.
     source, time
         Flow and its time, for the cell indices in OpenFOAM's files.
@@ -54,7 +60,7 @@ def export(
     OSError
         If a file cannot be written.
     """
-    run = open_run(case, cloud, source.region)
+    run = open_run(case, cloud, source.region, results)
     source = run.source(source)
     target = output or run.folder / _TARGETS[kind].format(run.name)
     if kind in _BEGINNINGS:

@@ -254,7 +254,9 @@ class Run:
         return Tracks(_points(data)[order], start, values, {"origId": at_lines["origId"]})
 
 
-def open_run(path: Path | str, cloud: str | None = None, region: str = "") -> Run:
+def open_run(
+    path: Path | str, cloud: str | None = None, region: str = "", results: Path | str | None = None
+) -> Run:
     """Open the results of a cloud of a case.
 
     Parameters
@@ -265,6 +267,8 @@ def open_run(path: Path | str, cloud: str | None = None, region: str = "") -> Ru
         Name of the cloud; by default ``softCloud``, or the only one.
     region
         Region of the mesh; by default the default region, or any other if that has no results.
+    results
+        Folder of the results if the run wrote them elsewhere than into ``postProcessing`` of the case.
 
     Raises
     ------
@@ -272,12 +276,12 @@ def open_run(path: Path | str, cloud: str | None = None, region: str = "") -> Ru
         If there are no results, or several clouds without a name; if the list of files or the last file is
         damaged.
     """
-    results = ResultsFolder.find(Path(path), cloud, region)
-    entries = read_pvd(results.pvd)
+    folder = ResultsFolder.find(Path(path), cloud, region, None if results is None else Path(results))
+    entries = read_pvd(folder.pvd)
     if not entries:
-        raise InputError(f"{results.pvd}: lists no files; the run has not written any yet. {HOW}")
+        raise InputError(f"{folder.pvd}: lists no files; the run has not written any yet. {HOW}")
     # Units, names and components stand in the last file, which has the most particles.
-    file = results.path / entries[-1].file
+    file = folder.path / entries[-1].file
     data = _read(file)
     arrays = _arrays(data.GetPointData())
     components = {key: 1 if array.ndim == 1 else array.shape[1] for key, array in arrays.items()}
@@ -287,7 +291,7 @@ def open_run(path: Path | str, cloud: str | None = None, region: str = "") -> Ru
     fields = data.GetFieldData()
     units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
     names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
-    return Run(results, entries, units, names, components)
+    return Run(folder, entries, units, names, components)
 
 
 def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:

@@ -68,6 +68,8 @@ class Request:
     """Largest number of bodies."""
     percentiles: tuple[float, float] = PERCENTILES
     """Percentiles of all values that limit the colours without a range."""
+    results: Path | None = None
+    """Folder of the results instead of ``postProcessing`` in the case."""
 
 
 def write_page(request: Request, path: Path | None, megabytes: float, version: str) -> Path:
@@ -203,7 +205,8 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
 
 
 def _run_of(request: Request) -> Run:
-    return open_run(request.case, request.cloud, request.source.region if request.source else "")
+    region = request.source.region if request.source else ""
+    return open_run(request.case, request.cloud, region, request.results)
 
 
 def _surroundings(request: Request, run: Run) -> tuple[Geometry | None, Slice | None]:
@@ -256,7 +259,7 @@ def picture_of(
     log.info("%d bodies: %s", len(scene.bodies.ids), png or movie)
 
 
-def start_paraview(case: Path, cloud: str | None, region: str) -> int:
+def start_paraview(case: Path, cloud: str | None, region: str, results: Path | None = None) -> int:
     """Write a state file of the scene, and start ParaView with it; return the exit status.
 
     Raises
@@ -266,7 +269,7 @@ def start_paraview(case: Path, cloud: str | None, region: str) -> int:
     OSError
         If the state cannot be written.
     """
-    request = Request(case, cloud, FlowSource(region=region) if region else None)
+    request = Request(case, cloud, FlowSource(region=region) if region else None, results=results)
     run = _run_of(request)
     write_state(run.results, make_scene(request, run, range(len(run.entries))))
     state = run.results.state

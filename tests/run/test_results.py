@@ -24,6 +24,7 @@ from foamprb.results.checkpoint import Checkpoints
 from foamprb.results.folder import ResultsFolder
 from foamprb.results.manifest import Manifest
 from foamprb.results.pvd import Series, SnapshotFile, read_pvd
+from foamprb.run import results as results_of_run
 
 TRACKS = "paths { type particleTracks; trackInterval 10; maxSamples 10; }"
 HITS = "hits { type patchPostProcessing; patches (wall outlet); }"
@@ -52,6 +53,31 @@ def test_the_manifest_lists_every_file_but_itself(case):
     assert listed == sorted(listed)
     assert {*listed} == names(folder_of(case)) - {"manifest.json"}
     assert {"paths/tracks.vtp", "hits/wall.csv", "fates.csv", "checkpoint/0.006.checkpoint"} < {*listed}
+
+
+def test_results_go_into_another_folder(case, tmp_path, truth, capsys):
+    case.chmod(0o555)
+    out = tmp_path / "out"
+    run(case, "-output", str(out))
+    assert not (case / "postProcessing").exists()
+    assert (out / "softCloud/fates.csv").read_bytes() == truth["fates.csv"]
+    run(case, "-output", str(out), "-resume")
+    assert "The run has ended" in capsys.readouterr().out
+    for command in (["view", "-noBrowser"], ["report"], ["export", "openfoam"]):
+        assert main([*command, "-case", str(case), "-results", str(out)]) == 0
+    assert {"softCloud.html", "report.html", "openfoam"} < {
+        file.name for file in (out / "softCloud").iterdir()
+    }
+    assert not (case / "postProcessing").exists()
+
+
+def test_a_folder_that_cannot_be_written_has_a_way_out(case, capsys, monkeypatch):
+    def refuse(path: Path) -> None:
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    monkeypatch.setattr(results_of_run, "only_writer", refuse)
+    assert main(["run", "-case", str(case)]) == 1
+    assert "The option -output DIR writes the results into another folder." in capsys.readouterr().err
 
 
 def test_a_file_is_listed_before_it_is_written(case, monkeypatch):

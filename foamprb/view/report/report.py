@@ -67,12 +67,13 @@ def write_report(
     cloud: str | None = None,
     source: FlowSource | None = None,
     paths: Sequence[int] | None = None,
+    results: Path | None = None,
 ) -> Path:
     """Write the report of a run, and its plots as files beside it, in the folder ``<report>Plots``.
 
     Parameters
     ----------
-    case, cloud, source
+    case, cloud, source, results
         See ``foamprb view``.
     output
         The page; by default ``report.html`` beside the results.
@@ -90,7 +91,7 @@ def write_report(
     OSError
         If a file cannot be written.
     """
-    run = open_run(case, cloud, source.region if source else "")
+    run = open_run(case, cloud, source.region if source else "", results)
     source = run.source(source)
     target = output or run.results.report
     refuse_other_kind(target, PAGE_BEGINS)
