@@ -68,7 +68,7 @@ from .run.job import prepare as prepare
 from .run.loop import execute as execute
 from .settings.fluid import read_medium as read_medium
 from .settings.patches import patch_interactions as patch_interactions
-from .view.results import open_run as open_run
+from .view.notebook import open_run as open_run
 
 __all__ = [
     "BrownianMotion",

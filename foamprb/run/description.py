@@ -132,12 +132,13 @@ def renew_record(path: Path, description: Mapping[str, Any]) -> None:
         write_record(path, record | {key: description[key] for key in ("settings", "time")})
 
 
-def _text_of(settings: Settings) -> dict[str, str]:
+def _text_of(settings: Settings) -> dict[str, Any]:
     try:
         text = settings.file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
         text = ""
-    return {"file": settings.file.name, "text": text}
+    overrides = {"overrides": dict(settings.overrides)} if settings.overrides else {}
+    return {"file": settings.file.name, "text": text, **overrides}
 
 
 def _written(selected: Mapping[str, object]) -> dict[str, str]:

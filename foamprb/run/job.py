@@ -6,6 +6,7 @@ import logging
 import math
 import re
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -116,6 +117,7 @@ def prepare(
     tables: str = "csv",
     outside_libs: bool = False,
     output: Path | str | None = None,
+    overrides: Mapping[str, object] | None = None,
 ) -> Job:
     """Read a case and place its particles.
 
@@ -140,6 +142,9 @@ def prepare(
         Whether Python files of ``libs`` may lie outside the case.
     output
         Folder of the results instead of ``postProcessing`` in the case.
+    overrides
+        Values that replace entries of the settings, by path: ``{"solution/deltaT": 1e-5}``. Sequences are
+        lists, mappings are dictionaries.
 
     Raises
     ------
@@ -152,7 +157,7 @@ def prepare(
     check_region(case, source)
     # A transient flow, of a range of times, has the density of the latest.
     single = "latestTime" if time is None or re.search(r"[:,\s]", str(time)) else time
-    settings = read_settings(case, dictionary, source.region, single, outside_libs)
+    settings = read_settings(case, dictionary, source.region, single, outside_libs, overrides)
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative)

@@ -36,7 +36,7 @@ Checksum: TypeAlias = list[int]
 """Size of a file, bytes, and its CRC-32."""
 
 # Settings without effect on the physics, and settings that the cloud's own fields represent.
-_LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching")
+_LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching", "overrides")
 _PARTICLES = "particles at the start"
 _CLOUD, _FUNCTIONS = "particles/", "functions/"
 _MOST_NAMED = 6

@@ -19,6 +19,7 @@ from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, Meaning, NoEffect, Only, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
+from foamprb.dictionary.overrides import override
 from foamprb.dictionary.schema import Instead, read_entries, read_entry, read_model
 from foamprb.dictionary.tree import CaseFile, Dictionary, unquoted
 from foamprb.dictionary.values import Files
@@ -140,6 +141,8 @@ class Settings:
     dispersion: Mapping[str, Surrounding] = field(default_factory=dict)
     """The dispersionModel by its name; empty without one."""
     region: str = ""
+    overrides: Mapping[str, str] = field(default_factory=dict)
+    """Texts that replace entries of the file, by path."""
 
 
 def read_settings(
@@ -148,6 +151,7 @@ def read_settings(
     region: str = "",
     time: float | str = "latestTime",
     outside_libs: bool = False,
+    overrides: Mapping[str, object] | None = None,
 ) -> Settings:
     """Read and validate the settings of a cloud.
 
@@ -165,6 +169,8 @@ def read_settings(
         Time of the flow, at which the field ``rho`` is read.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
+    overrides
+        Values that replace entries of the dictionary or are added to it, by path; see :func:`override`.
 
     Raises
     ------
@@ -185,6 +191,7 @@ def read_settings(
             "with -dict."
         )
     root = read_dictionary(file, case)
+    texts = override(root, overrides or {})
     if "libs" in root.entries:
         # Other entries may name solids from these files.
         files = read_entry(root, "libs", Files)
@@ -248,6 +255,7 @@ def read_settings(
         surroundings=surroundings,
         dispersion=dispersion,
         region=region,
+        overrides=texts,
     )
 
 

@@ -21,6 +21,14 @@ def case(tmp_path):
     return tmp_path
 
 
+def test_a_notebook_shows_the_page_of_view(case):
+    page = foamprb.open_run(case).view(time=0.2, max_size=5)
+    assert page.path == case / "postProcessing/softCloud/softCloud.html"
+    shown = page._repr_html_()
+    assert shown.startswith('<iframe srcdoc="&lt;!doctype html')
+    assert '"' not in shown.split('"')[1]
+
+
 def test_times_tables_and_snapshots(case):
     run = foamprb.open_run(case)
     np.testing.assert_allclose(run.times, 0.1 * np.arange(5))

@@ -1,0 +1,72 @@
+"""Results of a run for a notebook: ``foamprb.open_run``."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from foamprb.flow.read.source import FlowSource
+from foamprb.view import results as files
+from foamprb.view.results import Run
+
+__all__ = ["CaseRun", "ViewPage", "open_run"]
+
+_HEIGHT = 700
+"""Height of the frame of a page, pixels."""
+
+
+@dataclass(frozen=True)
+class ViewPage:
+    """Page of ``foamprb view``; a notebook shows it."""
+
+    path: Path
+
+    def _repr_html_(self) -> str:
+        text = html.escape(self.path.read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{text}" width="100%" height="{_HEIGHT}" frameborder="0"></iframe>'
+
+
+@dataclass(frozen=True, repr=False)
+class CaseRun(Run):
+    """Results of one cloud, with the case that they belong to."""
+
+    case: Path
+    root: Path | None
+    """Folder of the results instead of ``postProcessing`` in the case."""
+
+    def view(self, path: Path | str | None = None, max_size: float = 30.0, **options: Any) -> ViewPage:
+        """Write the page of ``foamprb view``, and return it.
+
+        Parameters
+        ----------
+        path
+            The file; by default beside the results.
+        max_size
+            Largest size, MB.
+        options
+            Fields of :class:`foamprb.view.show.Request`: ``time``, ``colour``, ``enlargement``, ``slice``, ….
+
+        Raises
+        ------
+        InputError, OSError
+            See :func:`foamprb.view.show.write_page`.
+        """
+        from foamprb.view.show import Request, write_page
+
+        region = self.results.region
+        source = FlowSource(region=region) if region else None
+        request = Request(self.case, self.name, source, results=self.root, **options)
+        target = None if path is None else Path(path)
+        return ViewPage(write_page(request, target, max_size, version("foamprb")))
+
+
+def open_run(
+    path: Path | str, cloud: str | None = None, region: str = "", results: Path | str | None = None
+) -> CaseRun:
+    """Open the results of a cloud of a case; see :func:`foamprb.view.results.open_run`."""
+    root = None if results is None else Path(results)
+    run = files.open_run(path, cloud, region, root)
+    return CaseRun(run.results, run.entries, run.units, run.names, run.components, Path(path), root)
