@@ -360,7 +360,7 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
                 raise error
             lines.append(f"TInf {T:g}; // {_said('constantProperties', 'TInf')}{origin}")
         except InputError:
-            nu, what = _viscosity_of_model(file, case, rate)
+            nu, what = _viscosity_of_model(file, case, rate, _temperature(case, source.region)[0])
             lines.append(
                 f"nu {nu:g}; // m2/s, kinematic viscosity; {what or f'{where} has no constant value'}"
             )
@@ -428,13 +428,13 @@ def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, 
     return known[0][2], known[0][1], lines
 
 
-def _viscosity_of_model(file: Path, case: Path, rate: float) -> tuple[float, str]:
-    """Return the viscosity of the selected model at a shear rate (1/s), m²/s, and its source."""
+def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:
+    """Return the viscosity of the selected model, m²/s, at a rate (1/s) and a temperature, and its source."""
     try:
         root = read_dictionary(file, case)
     except InputError:
         return 1e-6, ""
-    if found := apparent_viscosity(root, rate):
+    if found := apparent_viscosity(root, rate, T):
         return float(f"{found[1]:.4g}"), f"{found[0]} at {rate:.3g} 1/s"
     return (1.5e-5, "not constant: like air") if is_gas(root) else (1e-6, "")
 

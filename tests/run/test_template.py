@@ -133,12 +133,13 @@ def test_a_fluid_of_another_model_gets_a_viscosity(case):
         ("HerschelBulkley; nu0 1; tau0 1e-5; k 1e-5; n 1", 1.25e-5),
         ("Casson; m 1e-6; tau0 4e-6; nuMin 1e-7; nuMax 1", 4e-6),
         ("Newtonian; nu 2e-6", 2e-6),
+        ("ArrheniusCasson; m 1e-6; tau0 4e-6; nuMin 0; nuMax 1; alpha 0.1; Talpha 300", 4e-6 / np.e),
     ],
 )
 def test_viscosities_at_four_per_second(tmp_path, model, expected):
     file = tmp_path / "transportProperties"
     file.write_text(f"transportModel {model};")
-    name, nu = apparent_viscosity(read_dictionary(file, tmp_path), 4.0)
+    name, nu = apparent_viscosity(read_dictionary(file, tmp_path), 4.0, 310.0)
     assert model.startswith(name)
     assert nu == pytest.approx(expected)
 

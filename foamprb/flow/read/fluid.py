@@ -229,16 +229,28 @@ def _mean(case: Path, region: str, time: float | str, field: str, kind: Kind) ->
     return (mean, name) if 0.0 < mean < math.inf else None
 
 
-def apparent_viscosity(fluid: Dictionary, rate: float) -> tuple[str, float] | None:
-    """Return the selected model of a fluid and its viscosity at a shear rate (1/s), m²/s; None if unknown."""
+def apparent_viscosity(fluid: Dictionary, rate: float, T: float) -> tuple[str, float] | None:
+    """Return the selected model of a fluid and its viscosity, m²/s; None if unknown.
+
+    Parameters
+    ----------
+    fluid
+        The dictionary of the fluid.
+    rate, T
+        Shear rate, 1/s, and temperature, K.
+    """
     model = word_of(fluid, "transportModel") or word_of(fluid, "viscosityModel")
     coefficients = fluid.entries.get(f"{model}Coeffs", fluid)
-    if not isinstance(coefficients, Dictionary) or model not in _APPARENT:
+    law = model.removeprefix("Arrhenius")
+    if not isinstance(coefficients, Dictionary) or law not in _APPARENT:
         return None
-    names, formula = _APPARENT[model]
+    names, formula = _APPARENT[law]
     values = [_number(coefficients, name) for name in names]
     try:
         nu = formula(max(rate, 1e-9), *values) if None not in values else math.nan
+        if law != model:
+            alpha, reference = (_number(coefficients, name) for name in ("alpha", "Talpha"))
+            nu *= math.nan if alpha is None or reference is None else math.exp(-alpha * (T - reference))
     except (ArithmeticError, ValueError):
         return None
     return (model, float(nu)) if 0.0 < nu < math.inf else None
@@ -282,7 +294,7 @@ def phase_values(phase: Dictionary, rate: float, p: float, T: float) -> tuple[fl
         rho = density_of_state(phase, p, T)
         mu = _of_mixture(phase, T).mu
         return (mu / rho if mu and rho else None), rho
-    found = apparent_viscosity(phase, rate)
+    found = apparent_viscosity(phase, rate, T)
     return (found[1] if found else _number(phase, "nu")), _number(phase, "rho")
 
 
