@@ -116,6 +116,7 @@ class Cloud:
         p = self.particles
         tense = bool((p.gamma != 0.0).any())
         p.number[:] = np.arange(p.size)
+        _refuse_extreme(p, self.medium)
         _refuse_early(p, self.start)
         _find_hosts(p, self.flow)
         if self.models.integrator == "auto":
@@ -304,6 +305,28 @@ class Cloud:
                 f"{self.flow.width:g} m wide: the longest semi-axis of particle {wrong[0]} is "
                 f"{longest[wrong[0]]:g} m. Allowed: up to {most:g} m, maxSize = {self.limits.maxSize:g} "
                 "times the width; are diameters in m"
+            )
+
+
+_LEAST, _MOST = 1e-30, 1e30
+"""Limits of properties in SI units: products of a few of them are finite numbers."""
+
+
+def _refuse_extreme(p: Particles, medium: Medium) -> None:
+    """Raise InputError if a property of a particle or of the fluid is too large or small to compute with."""
+    properties = (
+        ("the diameter of particle {}", 2.0 * p.R, "m"),
+        ("the density of particle {}", p.rho, "kg/m3"),
+        ("the shear modulus of particle {}", p.mu, "Pa"),
+        ("the fluid's viscosity", np.array([medium.mu]), "Pa s"),
+        ("the fluid's density", np.array([medium.rho]), "kg/m3"),
+    )
+    for name, values, unit in properties:
+        wrong = np.flatnonzero((values != 0.0) & ~((values >= _LEAST) & (values <= _MOST)))
+        if len(wrong):
+            raise InputError(
+                f"{name.format(wrong[0])} is {values[wrong[0]]:g} {unit}. Allowed: {_LEAST:g} to {_MOST:g} "
+                f"{unit}; are the units right"
             )
 
 

@@ -379,9 +379,12 @@ def _of_place_and_time(given: Any, what: str, shape: tuple[int, ...]) -> Callabl
     with suppress(ArithmeticError, ValueError):
         value = given(*(0.1, 0.2, 0.3, 0.4)[:count])
         found = np.shape(value)
-        if found == shape and isinstance(value, np.ndarray):
+        rows = (value, *value) if found == (3, 3) else (value,)
+        sound = all(isinstance(row, tuple) for row in rows) and np.asarray(value).dtype.kind in "iuf"
+        if found == shape and not sound:
             wanted = "a tuple of three numbers" if shape == (3,) else "a tuple of three tuples of numbers"
-            raise TypeError(f"{what} returns an array. Return {wanted}.")
+            kind = "an array" if isinstance(value, np.ndarray) else f"{value!r}"
+            raise TypeError(f"{what} returns {kind}. Return {wanted}.")
     if found not in (None, shape):
         raise TypeError(f"{what} returns something of shape {found}, not {shape}.")
     return given if count == 4 else bound(steady, of_place=given)

@@ -391,15 +391,27 @@ class SeriesFlow(MeshFlow):
 
 def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
     """Return the times of the first period; raise InputError if they do not fill it."""
-    end = times[0] + period
-    first = tuple(t for t in times if t < end - _SLACK * period)
-    steps = np.diff([*first, end])
-    if len(first) < 2 or steps[-1] > _LONGEST_END * steps[:-1].max():
-        raise InputError(
-            f"the period {period:g} s requires fields up to nearly {end:g} s, but of the {len(times)} times "
-            f"from {times[0]:g} s on the last before that is {first[-1]:g} s."
-        )
-    return first
+    first = _period_from(times, 0, period)
+    if first:
+        return first
+    others = [times[k] for k in range(1, len(times)) if _period_from(times, k, period)]
+    # Best is one that ends at a time.
+    others.sort(key=lambda start: min(abs(t - start - period) for t in times) <= _SLACK * period)
+    remedy = (
+        f"-time {others[-1]:g}:{others[-1] + period:g} selects such times" if others else "correct the period"
+    )
+    raise InputError(
+        f"the times from {times[0]:g} to {times[-1]:g} s do not fill the period of {period:g} s from "
+        f"{times[0]:g} to {times[0] + period:g} s: {remedy}."
+    )
+
+
+def _period_from(times: Sequence[float], k: int, period: float) -> tuple[float, ...]:
+    """Return the times of a period from the k-th on; none if they do not fill it."""
+    end = times[k] + period
+    found = tuple(t for t in times[k:] if t < end - _SLACK * period)
+    steps = np.diff([*found, end])
+    return found if len(found) > 1 and steps[-1] <= _LONGEST_END * steps[:-1].max() else ()
 
 
 _MOST_IN_MEMORY = 1 << 28

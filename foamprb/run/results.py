@@ -70,7 +70,7 @@ def open_results(job: Job) -> Iterator[Results]:
         reason = ran_out(error) or error
         if not isinstance(reason, OSError | OutOfMemory):
             raise
-        how = f" {HOW_TO_GO_ON}" if job.folder.path.exists() else ""
+        how = f" {HOW_TO_GO_ON}" if any(job.folder.checkpoints.glob("*")) else ""
         if isinstance(reason, OSError) and reason.errno in (errno.EACCES, errno.EROFS):
             how += f" {_ELSEWHERE}"
         raise RunStopped(f"{str(reason).rstrip('.')}.{how}") from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
+import os
 import shutil
 import subprocess
 import webbrowser
@@ -188,7 +189,7 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         g = np.array(read_gravity(request.case, run.results.region))
     corners = box(geometry, bodies)
     return Scene(
-        title=request.case.resolve().name,
+        title=title_of(request.case),
         subtitle=run.name,
         bodies=bodies,
         fate=fates_of(bodies, run, fates),
@@ -202,6 +203,11 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         first=first,
         percentiles=request.percentiles,
     )
+
+
+def title_of(case: Path) -> str:
+    """Return the name of a case as text; it need not be valid UTF-8."""
+    return os.fsencode(case.resolve().name).decode(errors="replace")
 
 
 def _run_of(request: Request) -> Run:

@@ -82,6 +82,24 @@ class TestStretch:
         assert cloud.particles.t[0] > 1.0
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("d", 1e-310, r"the diameter of particle 0 is 1e-310 m\. Allowed: 1e-30 to 1e\+30 m; are the units"),
+        ("rho", 1e300, r"the density of particle 0 is 1e\+300 kg/m3"),
+        ("mu", 1e-300, r"the shear modulus of particle 0 is 1e-300 Pa"),
+    ],
+)
+def test_properties_beyond_all_measure_are_named(name, value, message):
+    p = spheres(np.zeros((1, 3)), **{"d": 1e-5, "rho": 1e3, "mu": 1.0, name: value})
+    with pytest.raises(InputError, match=message):
+        Cloud(p, analytic.shear(1.0), OIL, (), 1e-3)
+    with pytest.raises(InputError, match=r"the fluid's viscosity is 1e\+300 Pa s"):
+        Cloud(
+            spheres(np.zeros((1, 3)), d=1e-5, rho=1e3, mu=1.0), analytic.shear(1.0), Medium(1e300, 1.0), (), 1
+        )
+
+
 class TestSize:
     def test_a_body_larger_than_the_duct_is_refused(self):
         p = spheres(np.zeros((2, 3)), d=[1e-3, 10.0], rho=1000.0, mu=1.0)

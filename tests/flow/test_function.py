@@ -137,3 +137,7 @@ def test_an_array_in_place_of_a_tuple_is_one_message():
     """Numba would say it in a hundred lines, when the loop is compiled."""
     with pytest.raises(TypeError, match=r"u returns an array. Return a tuple of three numbers\."):
         analytic.function(lambda x, y, z: np.array([y, z, x]))
+    with pytest.raises(TypeError, match=r"u returns \[0.2, 0, 0\]. Return a tuple of three numbers\."):
+        analytic.function(lambda x, y, z: [y, 0, 0])
+    with pytest.raises(TypeError, match=r"u returns \('0.2', 0, 0\). Return a tuple"):
+        analytic.function(lambda x, y, z: (str(y), 0, 0))

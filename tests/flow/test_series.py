@@ -268,8 +268,13 @@ def test_a_time_that_cannot_be_read_stops_the_run_when_it_is_needed(mesh):
 
 @pytest.mark.parametrize("times", [[0.0, 0.1, 0.2], [0.0, 0.4], [0.0, 0.3, 0.6]])
 def test_times_that_do_not_fill_the_period_are_refused(mesh, times):
-    with pytest.raises(InputError, match=r"the period 1.5 s requires fields up to nearly 1.5 s"):
+    with pytest.raises(InputError, match=r"the period of 1.5 s from 0 to 1.5 s: correct the period\."):
         in_files(mesh, times, period=1.5)
+
+
+def test_times_that_fill_the_period_are_proposed(mesh):
+    with pytest.raises(InputError, match=r"of 1 s from 0 to 1 s: -time 3:4 selects such times\."):
+        in_files(mesh, [0.0, 2.5, 3.0, 3.25, 3.5, 3.75, 4.0], period=1.0)
 
 
 @pytest.fixture(scope="module")
@@ -420,8 +425,9 @@ def test_a_period_ends_where_the_first_time_comes_again(scale):
     assert _one_period(tuple(times[:3]), 2.0 * scale) == tuple(times[:3])
     for few, period in ((times[:3], 2.1), (times[:1], 0.5), (times, 0.4)):
         end = scale * (0.5 + period)
-        last = max(t for t in few if t < end)
-        with pytest.raises(InputError, match=rf"up to nearly {end:g} s, but .* before that is {last:g} s"):
+        with pytest.raises(
+            InputError, match=rf"the period of {scale * period:g} s from {few[0]:g} to {end:g} s"
+        ):
             _one_period(tuple(few), period * scale)
 
 
@@ -501,7 +507,7 @@ def test_all_times_of_a_period_are_kept_if_they_have_room(turbulent, columns, me
 def test_messages_name_the_case(mesh):
     with pytest.raises(InputError, match=r"^case: the times 0, 2, 1 do not rise\.$"):
         flow_of(mesh, names=("0", "2", "1"))
-    with pytest.raises(InputError, match=r"^case: the period 9 s requires fields up to nearly 9 s"):
+    with pytest.raises(InputError, match=r"^case: the times from 0 to .* do not fill the period of 9 s"):
         flow_of(mesh, 9.0)
 
 

@@ -214,7 +214,7 @@ MISTAKES = {
     ),
     "a period that the times do not fill": (
         lambda c: edit(c, "transient yes; ", "transient yes; period 4; "), [],
-        ["the period 4 s requires fields up to nearly 4 s", "1.5 s"],
+        ["to 1.5 s do not fill the period of 4 s from 0 to 4 s: correct the period."],
     ),
     "no velocity at a time": (lambda c: (c / "0.5/U").unlink(), [], ["0.5: no field U; the fields are p"]),
     "a velocity cut short": (cut_short, [], ["1.5"]),

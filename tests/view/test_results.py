@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 
 import numpy as np
@@ -11,6 +12,7 @@ import pyvista
 from view_run import motion, write_run
 
 import foamprb
+from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.results.tables import read_table
 
@@ -27,6 +29,13 @@ def test_a_notebook_shows_the_page_of_view(case):
     shown = page._repr_html_()
     assert shown.startswith('<iframe srcdoc="&lt;!doctype html')
     assert '"' not in shown.split('"')[1]
+
+
+def test_the_name_of_a_case_need_not_be_text(tmp_path, monkeypatch):
+    write_run(tmp_path / "case", motion(2, 2), mesh=False, fates=True)
+    monkeypatch.chdir((tmp_path / "case").rename(tmp_path / os.fsdecode(b"ca\xffse")))
+    assert "ca\ufffdse" in foamprb.open_run(".").view().path.read_text()
+    assert main(["report", "-noBrowser"]) == 0
 
 
 def test_times_tables_and_snapshots(case):

@@ -29,7 +29,7 @@ from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import Scene
-from foamprb.view.show import PAGE_BEGINS, Request, make_scene, spread
+from foamprb.view.show import PAGE_BEGINS, Request, make_scene, spread, title_of
 
 __all__ = ["write_report"]
 
@@ -120,7 +120,7 @@ def write_report(
         # The list of files includes the plots of all other sections.
         sections.append(_files(given, target, beside))
         text = page(
-            f"{case.resolve().name}: {run.name}",
+            f"{title_of(case)}: {run.name}",
             _subtitle(run),
             _cards(fates),
             run.record.get("warnings", ()),
