@@ -30,6 +30,14 @@ def unpacked(column: Column) -> NDArray[np.int64]:
     return unpack(column.shape, column.order, column.bytes, column.data)
 
 
+def values_of(whole: NDArray[np.int64], low: list[float]) -> NDArray[np.float64]:
+    """Values of an array: 14 bits of mantissa within 24 octaves above ``low``, and the sign."""
+    k = whole - 2 - 24 * 2**14
+    exponent, mantissa = np.divmod(np.abs(k) - 1, 2**14)
+    sizes = np.array(low) * np.exp2(exponent) * (1 + mantissa / 2**14)
+    return np.where(whole == 0, np.nan, np.sign(k) * sizes)
+
+
 class PageReader:
     """The data of a page."""
 
@@ -45,6 +53,9 @@ class PageReader:
     def whole(self, spec: dict[str, Any]) -> NDArray[np.int64]:
         data = self._element(f"section-{spec['section']}")
         return unpack(tuple(spec["shape"]), spec["order"], spec["bytes"], data)
+
+    def field(self, spec: dict[str, Any]) -> NDArray[np.float64]:
+        return values_of(self.whole(spec), spec["low"])
 
     def values(self, spec: dict[str, Any]) -> NDArray[np.float64]:
         return np.array(spec["low"]) + np.array(spec["step"]) * self.whole(spec)

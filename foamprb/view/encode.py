@@ -25,8 +25,10 @@ POSITION_BITS = 24
 """Positions have an error of at most half of 2⁻²⁴ of the longest side of the scene."""
 SHAPE_STEP = 2.0**-11
 """Components of F have an error of at most half of this, unless one of them is larger than 16."""
-VALUE_BITS = 16
-"""Values have an error of about half of 2⁻¹⁶ of the range of their array."""
+MANTISSA_BITS = 14
+"""Values have a relative error of at most half of 2⁻¹⁴, which leaves four digits."""
+OCTAVES = 24
+"""Values below 2⁻²⁴ of the largest of their array become 0."""
 
 _MOST_ORDER = 2
 _SHORT = 2**15 - 1
@@ -43,7 +45,7 @@ class Column(NamedTuple):
     data: str
     """Base64 of the deflated bytes."""
     low: list[float] | None = None
-    """One for each component, or one for all; None for integers."""
+    """One for each component, or one for all; None for integers. Of values: the smallest above 0."""
     step: list[float] | None = None
 
 
@@ -106,22 +108,20 @@ def pack_shapes(bodies: Bodies) -> Column:
 
 
 def pack_field(field: Quantity) -> Column:
-    """Pack the values of an array: 0 for NaN, 1 to 2¹⁶ − 1 for the range."""
+    """Pack the values of an array to a relative error, so that small values keep their digits.
+
+    An integer w is 0 for NaN. With k = w − 2 − 2¹⁴·``OCTAVES`` and ``low`` = l the value is 0 for k = 0,
+    else sign(k) 2ᵉ (1 + f) l, where |k| − 1 = 2¹⁴ (e + f) and 0 ≤ f < 1.
+    """
     values = field.values.astype(np.float64)
     known = np.isfinite(values)
-    whole = np.zeros(values.shape, dtype=np.int64)
-    low, step = [], []
-    for k in range(values.shape[2]):
-        own = values[:, :, k][known[:, :, k]]
-        least, most = (float(own.min()), float(own.max())) if own.size else (0.0, 0.0)
-        size = (most - least) / (2**VALUE_BITS - 2)
-        if not size > 0.0:
-            # A single value is stored without an error.
-            size = abs(least) * 2.0**-POSITION_BITS or 1.0
-        whole[:, :, k][known[:, :, k]] = 1 + np.rint((own - least) / size).astype(np.int64)
-        low.append(least - size)
-        step.append(size)
-    return pack(whole, low, step)
+    size = np.where(known, np.abs(values), 0.0)
+    low = 2.0 ** (math.floor(math.log2(max(size.max(initial=0.0), 1e-300))) - OCTAVES + 1)
+    mantissa, exponent = np.frexp(size / low)
+    steps = 1 + np.rint((exponent - 1 + 2.0 * mantissa - 1.0) * 2**MANTISSA_BITS)
+    codes = np.where(size < low, 0.0, np.copysign(steps, values))
+    whole = np.where(known, codes + 2 + OCTAVES * 2**MANTISSA_BITS, 0.0)
+    return pack(whole, [low] * values.shape[2])
 
 
 def pack_values(values: Floats) -> Column:

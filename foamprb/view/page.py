@@ -230,7 +230,8 @@ class Page:
         """Add a section with the data of a column; return its description."""
         self._sections.append(column.data)
         described = {"shape": column.shape, "order": column.order, "bytes": column.bytes}
-        scale = {} if column.low is None else {"low": column.low, "step": column.step}
+        scale = {} if column.low is None else {"low": column.low}
+        scale |= {} if column.step is None else {"step": column.step}
         return described | {"section": len(self._sections) - 1} | scale
 
     def _inside(self, point: NDArray[np.float64]) -> list[float]:

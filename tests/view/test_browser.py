@@ -319,6 +319,14 @@ class TestChoosing:
         tab.page.get_by_role("button", name="shear rate").click()
         assert "shear rate (1/s)" in tab.text("chart")
 
+    @pytest.mark.parametrize("factor", [3.4e-9, 1.0, 5.6e9])
+    def test_the_numbers_of_its_axis_are_not_cut_off(self, tab, factor):
+        tab.run(f"foamprb.data.fields.shearRate.low[0] *= {factor}")
+        tab.run("foamprb.choose(4)")
+        tab.page.get_by_role("button", name="shear rate").click()
+        left = tab.run("Math.min(...[...document.querySelectorAll('#chart text')].map(t => t.getBBox().x))")
+        assert left >= 0.0
+
     def test_its_numbers_can_be_saved(self, tab, moved):
         tab.run("foamprb.choose(4)")
         with tab.page.expect_download() as waiting:

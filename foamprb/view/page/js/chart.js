@@ -1,8 +1,8 @@
 // Curve over time, with a mark at the current time.
 
-import { number, pretty, readable } from "./colours.js";
+import { axis, number, readable } from "./colours.js";
 
-const WIDTH = 262, HEIGHT = 118, LEFT = 42, RIGHT = 8, TOP = 22, BOTTOM = 20;
+const WIDTH = 262, HEIGHT = 118, LEFT = 48, RIGHT = 8, TOP = 22, BOTTOM = 20;
 const make = (name, attributes, text) => {
   const element = document.createElementNS("http://www.w3.org/2000/svg", name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
@@ -15,23 +15,23 @@ export function drawChart(figure, { label, unit, times, values, now }) {
   figure.replaceChildren();
   if (known.length === 0) return;
   let low = known.reduce((a, b) => Math.min(a, b)), high = known.reduce((a, b) => Math.max(a, b));
-  if (high - low <= 1e-6 * Math.max(Math.abs(low), Math.abs(high))) {
+  if (high - low <= 2e-4 * Math.max(Math.abs(low), Math.abs(high))) {
     const room = Math.abs(high) * 0.05 || 1;
     low -= room;
     high += room;
   } else if (low > 0 && low < 0.5 * high) low = 0;
-  const scale = readable(unit, Math.max(Math.abs(low), Math.abs(high)));
+  const scale = axis(unit, low, high);
   // From the release of the body to its end.
   const own = times.filter((_, k) => Number.isFinite(values[k])), from = own[0], to = own[own.length - 1];
   const clock = readable("s", to);
   const x = (t) => LEFT + ((t - from) / (to - from || 1)) * (WIDTH - LEFT - RIGHT);
   const y = (v) => TOP + (1 - (v - low) / (high - low)) * (HEIGHT - TOP - BOTTOM);
   const svg = make("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img" });
-  const name = scale.unit ? `${label} (${pretty(scale.unit)})` : label;
-  svg.append(make("title", {}, `${name} over time, from ${number(known[0] / scale.factor)} to ${number(known[known.length - 1] / scale.factor)}`));
+  const name = scale.unit ? `${label} (${scale.unit})` : label;
+  svg.append(make("title", {}, `${name} over time, from ${scale.text(known[0])} to ${scale.text(known[known.length - 1])}`));
   svg.append(make("text", { class: "name", x: 0, y: 12 }, name));
   svg.append(make("path", { class: "frame", fill: "none", d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}` }));
-  for (const [v, dy] of [[low, 0], [high, 8]]) svg.append(make("text", { x: LEFT - 5, y: y(v) + dy, "text-anchor": "end" }, number(v / scale.factor, 3)));
+  for (const [v, dy] of [[low, 0], [high, 8]]) svg.append(make("text", { x: LEFT - 5, y: y(v) + dy, "text-anchor": "end" }, scale.text(v)));
   svg.append(make("text", { x: LEFT, y: HEIGHT - 5 }, number(from / clock.factor, 3)));
   svg.append(make("text", { x: WIDTH - RIGHT, y: HEIGHT - 5, "text-anchor": "end" }, `${number(to / clock.factor, 3)} ${clock.unit}`));
   let path = "", pen = false;

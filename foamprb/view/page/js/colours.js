@@ -46,7 +46,19 @@ export function readable(unit, most) {
   return { factor: 1, unit };
 }
 
+// The unit of an axis from `low` to `high`, a power of ten with it if the numbers need one, and short texts of the numbers.
+export function axis(unit, low, high) {
+  const most = Math.max(Math.abs(low), Math.abs(high)), scale = readable(unit, most);
+  const exponent = Math.floor(Math.log10(most / scale.factor || 1));
+  const power = exponent < -2 || exponent > 3 ? exponent : 0, factor = scale.factor * 10 ** power;
+  const decimals = Math.min(Math.max(Math.ceil(1.5 - Math.log10((high - low) / factor)), 0), 4);
+  const text = (value) => String(Number((value / factor).toFixed(decimals))).replace("-", "−");
+  return { unit: [power ? powerOfTen(power) : "", pretty(scale.unit)].filter(Boolean).join(" "), factor, text };
+}
+
 const superscripts = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+
+const powerOfTen = (exponent) => `10${[...String(exponent)].map((c) => superscripts[c]).join("")}`;
 
 export function number(value, digits = 4) {
   if (!Number.isFinite(value)) return "unknown";
@@ -56,20 +68,13 @@ export function number(value, digits = 4) {
     return String(Number(value.toPrecision(digits))).replace("-", "−");
   }
   const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
-  const power = [...String(Number(exponent))].map((c) => superscripts[c]).join("");
-  return `${String(Number(mantissa)).replace("-", "−")} × 10${power}`;
+  return `${String(Number(mantissa)).replace("-", "−")} × ${powerOfTen(Number(exponent))}`;
 }
 
-// A value in the readable unit of `most`, rounded to steps of `step`.
-export function written(value, unit, most = value, step = 0) {
-  const known = step > 0 && Number.isFinite(value) ? roundTo(value, step) : value;
-  const scale = readable(unit, known === 0 ? most : most === value ? known : most);
-  return `${number(known / scale.factor)}${scale.unit ? ` ${pretty(scale.unit)}` : ""}`;
-}
-
-function roundTo(value, step) {
-  const power = 10 ** Math.floor(Math.log10(step));
-  return Math.round(value / power) * power;
+// A value in the readable unit of `most`.
+export function written(value, unit, most = value) {
+  const scale = readable(unit, most);
+  return `${number(value / scale.factor)}${scale.unit ? ` ${pretty(scale.unit)}` : ""}`;
 }
 
 // m/s2 → m/s², N m → N m.

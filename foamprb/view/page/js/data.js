@@ -21,6 +21,8 @@ function section(number) {
 }
 
 const BLOCK = 64;
+// As in encode.py: the code of the value 0, and the steps from a power of two to the next.
+const MANTISSA_BITS = 14, MANTISSAS = 2 ** MANTISSA_BITS, ZERO = 2 + 24 * MANTISSAS;
 
 // Integers of a column, the time first, as an array of type `Kind`.
 async function column(spec, Kind = Int32Array) {
@@ -78,12 +80,10 @@ class Field {
   at(frame, body, component) {
     const row = this.constant ? 0 : frame;
     const code = this.whole[(row * this.n + body) * this.components + component];
-    return code === 0 ? NaN : this.low[component] + this.step[component] * code;
-  }
-
-  // Resolution of the values.
-  stepOf(part) {
-    return part === "magnitude" ? Math.max(...this.step) : this.step[Math.max(0, this.own.indexOf(part))];
+    if (code === 0) return NaN;
+    const k = code - ZERO, steps = Math.abs(k) - 1;
+    if (k === 0) return 0;
+    return Math.sign(k) * this.low[component] * 2 ** (steps >> MANTISSA_BITS) * (1 + (steps % MANTISSAS) / MANTISSAS);
   }
 
   value(frame, body, part) {
@@ -118,7 +118,7 @@ export async function load() {
   const frame = scene.frame;
   const codes = {}, fields = {};
   for (const [name, spec] of Object.entries(scene.codes)) codes[name] = new Codes(spec, await column(spec, Uint8Array), n);
-  for (const [name, spec] of Object.entries(scene.fields)) fields[name] = new Field(spec, await column(spec, Uint16Array), n);
+  for (const [name, spec] of Object.entries(scene.fields)) fields[name] = new Field(spec, await column(spec), n);
   const surfaces = [];
   for (const spec of scene.surfaces) {
     surfaces.push({ ...spec, points: await places(spec.points, frame), triangles: await column(spec.triangles, Uint32Array) });

@@ -11,6 +11,8 @@ import { Deposits, Paths, Plane, Walls } from "./surroundings.js";
 
 const $ = (id) => document.getElementById(id);
 const words = new URLSearchParams(location.hash.slice(1));
+// Digits of the values of a page.
+const DIGITS = 4;
 const MOST_PATHS = 400_000;
 const SPEEDS = [2, 5, 10, 15, 25, 30, 60];
 
@@ -555,7 +557,7 @@ function showCard() {
     rows.push([`position (${unit})`, x.map((v) => number((Math.abs(v) < 1e-6 * size ? 0 : v) / factor, 4)).join(", "), null]);
     for (const f of Object.values(data.fields)) {
       if (f.name === "t0" || f.name === "t1") continue;
-      for (const part of f.parts) rows.push([nameOf(f, part), written(f.value(t, i, part), f.unit, undefined, f.stepOf(part)), { name: f.name, part }]);
+      for (const part of f.parts) rows.push([nameOf(f, part), written(f.value(t, i, part), f.unit), { name: f.name, part }]);
     }
   }
   const list = $("card-rows");
@@ -584,12 +586,12 @@ function showCard() {
 
 function saveTable() {
   const i = state.chosen, { middle, size } = data.scene.frame;
-  const columns = [["t [s]", data.times]];
-  for (let c = 0; c < 3; c++) columns.push([`${"xyz"[c]} [m]`, data.times.map((_, t) => middle[c] + size * data.x[3 * (data.n * t + i) + c])]);
+  const columns = [["t [s]", data.times, 7]];
+  for (let c = 0; c < 3; c++) columns.push([`${"xyz"[c]} [m]`, data.times.map((_, t) => middle[c] + size * data.x[3 * (data.n * t + i) + c]), 7]);
   for (const f of Object.values(data.fields)) {
-    for (const part of f.parts) columns.push([`${f.name}${part ? `_${part}` : ""}${f.unit ? ` [${f.unit}]` : ""}`, series(f, part, i)]);
+    for (const part of f.parts) columns.push([`${f.name}${part ? `_${part}` : ""}${f.unit ? ` [${f.unit}]` : ""}`, series(f, part, i), DIGITS]);
   }
-  const rows = data.times.map((_, t) => (data.present(t, i) ? columns.map(([, values]) => Number(values[t].toPrecision(7))).join(",") : null));
+  const rows = data.times.map((_, t) => (data.present(t, i) ? columns.map(([, values, digits]) => Number(values[t].toPrecision(digits))).join(",") : null));
   const text = [columns.map(([name]) => name).join(","), ...rows.filter(Boolean)].join("\n");
   save(new Blob([`${text}\n`], { type: "text/csv" }), `${data.scene.title}_body_${data.ids[i]}.csv`);
 }
