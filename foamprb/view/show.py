@@ -284,7 +284,7 @@ def start_paraview(case: Path, cloud: str | None, region: str, results: Path | N
     if program is None:
         raise InputError("no paraview on PATH. On Debian: apt-get install paraview python3-paraview.")
     if not has_display():
-        raise InputError(f"no display for ParaView. Without a display: pvpython {state}.")
+        raise InputError(f"no display for ParaView. On a virtual display: xvfb-run -a pvpython {state}.")
     return subprocess.run([program, f"--script={state.resolve()}"], check=False).returncode
 
 
