@@ -205,6 +205,12 @@ def _files(entry: Stream) -> tuple[Path, ...] | None:
     return found if len(found) == len(paths) else None
 
 
+def _empty_list(entry: Stream) -> DictionaryList | None:
+    if entry.tokens != ("(", ")"):
+        return None
+    return DictionaryList(entry.key, entry.parent, entry.source, entry.line)
+
+
 READERS: dict[Any, Reader] = {
     float: Reader(lambda entry: _number(entry.text), "a number"),
     int: Reader(lambda entry: int(entry.text) if _INTEGER.fullmatch(entry.text) else None, "an integer"),
@@ -228,6 +234,6 @@ READERS: dict[Any, Reader] = {
     Pairs: Reader(_pairs, "a list of pairs ( (x w) (x w) … )"),
     Axes: Reader(_axes, "a list of positions with an axis ( ((x y z) (x y z)) … )"),
     Dictionary: Reader(lambda _: None, DICTIONARY_TEXT),
-    DictionaryList: Reader(lambda _: None, "a list ( name { … } name { … } )"),
+    DictionaryList: Reader(_empty_list, "a list ( name { … } name { … } )"),
 }
 """By the type in a schema's hint."""

@@ -63,6 +63,12 @@ def test_patches_of_a_constraint_type() -> None:
     assert match_patches([PatchRule("left", Escape())], [patch("left", "cyclicAMI")]) == [Escape()]
 
 
+def test_flows_whose_patches_need_no_entry_have_an_empty_list(read: Reader) -> None:
+    text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
+    empty = "patchInteractionModel localInteraction; localInteractionCoeffs { patches ( ); }"
+    assert read((text, empty)).patches == ()
+
+
 def test_standard_wall_interaction(read: Reader) -> None:
     """Walls do what the entries say, open patches let through, constraint types keep their meaning."""
     text = CLOUD[CLOUD.index("    patchInteractionModel") : CLOUD.rindex("}")]
