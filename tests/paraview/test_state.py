@@ -68,11 +68,17 @@ exec xvfb-run -a {shutil.which("paraview")} --dr "$1"
         in (folder / "softCloud.py").read_text()
     )
     shown = scene.bodies.shown[scene.first]
-    bodies = pyvista.read(tmp_path / "bodies.vtp").split_bodies()
-    assert len(bodies) == shown.sum()
-    middles = np.array([np.array(body.bounds).reshape(3, 2).mean(axis=1) for body in bodies])
+    # Each body is the unit sphere under R F, enlarged. Its first points are the poles ±e3 of the material.
     places = scene.bodies.x[scene.first, shown]
-    assert np.linalg.norm(middles[:, None] - places, axis=2).min(axis=1).max() < 1e-5
+    surfaces = np.asarray(pyvista.read(tmp_path / "bodies.vtp").points, dtype=float).reshape(
+        shown.sum(), -1, 3
+    )
+    offsets = surfaces - places[:, None]
+    H = scene.enlargement * scene.bodies.radius[shown, None, None] * scene.bodies.F[scene.first, shown]
+    on_sphere = np.einsum("nij,nkj->nki", np.linalg.inv(H), offsets)
+    np.testing.assert_allclose(np.linalg.norm(on_sphere, axis=2), 1.0, atol=1e-3)
+    np.testing.assert_allclose(offsets[:, 0], H[:, :, 2], atol=1e-5)
+    np.testing.assert_allclose(offsets[:, 1], -H[:, :, 2], atol=1e-5)
     picture = np.asarray(Image.open(tmp_path / "shot.png").convert("RGB"), dtype=float)
     coloured = np.ptp(picture[:330, :400], axis=2) > 60.0
     assert 0.001 < coloured.mean() < 0.5
