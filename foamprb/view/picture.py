@@ -125,7 +125,7 @@ class Drawing:
             if surface.type not in FLAT_TYPES:
                 self.plotter.add_point_labels(
                     anchor(surface, scene.camera)[None], [surface.name], name=f"patch {surface.name}",
-                    font_size=round(12 * self.scale), text_color=self.style.soft, show_points=False,
+                    font_size=round(12 * self.scale), text_color=self.style.ink, show_points=False,
                     shape=None, always_visible=True, justification_horizontal="center",
                     justification_vertical="bottom", **_LATER,
                 )  # fmt: skip

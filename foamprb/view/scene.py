@@ -259,7 +259,8 @@ def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats)
 
     A long geometry lies across the picture, viewed from the side, a little from above and from one end. If it
     is much longer than wide, only the part with most bodies is visible. A thin geometry is viewed along its
-    shortest side, one with ``empty`` patches or wedges along their normal. Gravity points down.
+    shortest side, or from above if gravity acts along that side. One with ``empty`` patches or wedges is
+    viewed along their normal. Gravity points down.
 
     Parameters
     ----------
@@ -303,8 +304,10 @@ def _directions(
     if flat is not None:
         up = _up(g, flat)
         return np.cross(up, flat), up, flat, (0.0, 0.0)
-    if sides[order[2]] < _THIN * sides[order[1]]:
-        depth = axes[:, order[2]] * np.sign(axes[:, order[2]].sum() or 1.0)
+    depth = axes[:, order[2]] * np.sign(axes[:, order[2]].sum() or 1.0)
+    thin = sides[order[2]] < _THIN * sides[order[1]]
+    lies = thin and abs(g @ depth) > 0.7 * np.linalg.norm(g)
+    if thin and not lies:
         up = _up(g, depth)
         return np.cross(up, depth), up, depth, (math.radians(16.0), math.radians(22.0))
     up = _up(g, np.zeros(3))
@@ -313,6 +316,8 @@ def _directions(
     right = right / np.linalg.norm(right) * np.sign(right[np.argmax(np.abs(right))])
     is_long = sides[order[0]] > 2.0 * sides[order[1]]
     yaw, pitch = (32.0, 6.0) if is_long else (28.0, 20.0)
+    # A flat room that lies on the floor is seen from above.
+    pitch = 55.0 if lies else pitch
     return right, up, np.cross(right, up), (math.radians(yaw), math.radians(pitch))
 
 

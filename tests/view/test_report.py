@@ -15,7 +15,7 @@ from foamprb import memory
 from foamprb.cli import main
 from foamprb.errors import InputError
 from foamprb.results.tables import write_table
-from foamprb.view.geometry import Surface
+from foamprb.view.geometry import Geometry, Surface
 from foamprb.view.report import plots
 from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import table
@@ -231,4 +231,7 @@ def test_few_deposits_are_dots():
     for n, painted in ((1, False), (100, True)):
         x = np.column_stack([np.linspace(0.1, 0.9, n), np.full(n, 0.5), np.zeros(n)])
         svg = plots.unrolled(deposits(tube(), x)).svg
+        assert ("particles per area" in svg) == painted
+        walls = {"tube": deposits(tube(), x)}
+        svg = plots.on_geometry(Geometry((tube(),), np.zeros((0, 2, 3)), None), walls).svg
         assert ("particles per area" in svg) == painted

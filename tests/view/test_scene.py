@@ -164,6 +164,11 @@ class TestCamera:
         np.testing.assert_allclose(camera.towards, [0.0, 0.0, 1.0])
         np.testing.assert_allclose(camera.up, [0.0, 1.0, 0.0])
 
+    def test_a_flat_room_on_the_floor_is_seen_from_above_with_gravity_down(self):
+        camera = camera_for(slab((4.0, 3.0, 0.5)), EMPTY, 0, np.array([0.0, 0.0, -9.81]))
+        assert camera.up @ [0.0, 0.0, 1.0] > 0.5
+        assert camera.towards @ [0.0, 0.0, 1.0] == pytest.approx(math.sin(math.radians(55.0)))
+
     def test_a_tilted_box_is_seen_along_its_own_axes(self):
         angle = math.radians(35.0)
         turn = np.array(

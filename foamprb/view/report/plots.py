@@ -275,6 +275,7 @@ def on_geometry(geometry: Geometry, walls: dict[str, Deposits]) -> Plot:
             panel.set_title(f"seen from {'+' if side > 0.0 else '−'}{'xyz'[hidden]}", loc="left")
             panel.set_ylabel(f"{'xyz'[second]} [{name}]")
         panels[-1].set_xlabel(f"{'xyz'[first]} [{name}]")
-        _colour_bar(figure, shown, list(panels))
+        if not all(wall.few for wall in walls.values()):
+            _colour_bar(figure, shown, list(panels))
 
     return _plot(draw, height=(2.6 if len(sides) > 1 else 3.6) * len(sides) + 0.4)
