@@ -209,7 +209,7 @@ class RunLog:
         if counts[Status.PENDING]:
             log.warning("%d particles were not yet injected at the end time.", counts[Status.PENDING])
         if job.cloud.recovered:
-            log.info("    %-24s %10d", "walks mended by the tree", job.cloud.recovered)
+            log.info("    %-24s %10d", "relocated by tree search", job.cloud.recovered)
         if counts[Status.FAILED] > _MAX_LISTED_FAILURES:
             log.warning(
                 "%d particles failed; %s lists them.",

@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.dictionary.dimensions import RATE, VELOCITY, VOLUME_FLUX, Dimensions
+from foamprb.dictionary.values import factor_of, unit_of
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
 from foamprb.flow.mesh.mesh import Mesh
@@ -35,6 +37,7 @@ class PatchGeometry(NamedTuple):
     """(n, 1), distances of the cell centres behind them along the normals, m."""
 
 
+_LENGTH: Dimensions = (0, 1, 0, 0, 0, 0, 0)
 Rule = Callable[[PatchField, PatchGeometry], Floats | None]
 """Returns the values (n, 3), m/s, of a boundary condition; None if it lacks an entry."""
 
@@ -100,7 +103,10 @@ def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) ->
 def _values(field: FoamField, patch: PatchInfo, entry: PatchField, faces: PatchGeometry) -> Floats:
     always, otherwise = RULES.get(entry.type, (False, None))
     given = entry.fields.get("value")
-    found = given if given is not None and not always else otherwise and otherwise(entry, faces)
+    try:
+        found = given if given is not None and not always else otherwise and otherwise(entry, faces)
+    except ValueError as error:
+        raise InputError(f"{field.path}: patch {patch.name} has an entry {error}.") from None
     if found is None:
         raise InputError(f"{field.path}: {_missing(patch, entry, otherwise)}")
     if len(found) not in (1, patch.faces):
@@ -160,7 +166,7 @@ def _fixed_gradient(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return the cells' velocity plus ``gradient``, or the constant ``uniformGradient``, times the depth."""
     slope = entry.fields.get("gradient")
     if slope is None:
-        slope = _constant(entry.words.get("uniformGradient", ""), 3)
+        slope = _constant(entry.words.get("uniformGradient", ""), 3, RATE)
     return None if slope is None else faces.cells + slope * faces.depths
 
 
@@ -175,14 +181,15 @@ def _entry(name: str) -> Rule:
 
 def _flow_rate(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return the uniform velocity into the domain that carries the volumetric flow rate, m³/s."""
-    rate = _constant(entry.words.get("volumetricFlowRate", ""), 1)
+    rate = _constant(entry.words.get("volumetricFlowRate", ""), 1, VOLUME_FLUX)
     return None if rate is None else -rate / faces.areas.sum() * faces.normals
 
 
 def _rotating_wall(entry: PatchField, faces: PatchGeometry) -> Floats | None:
     """Return ω a × (x − origin) with a the direction of the axis."""
-    origin, axis = (_constant(entry.words.get(key, ""), 3) for key in ("origin", "axis"))
-    omega = _constant(entry.words.get("omega", ""), 1)
+    origin = _constant(entry.words.get("origin", ""), 3, _LENGTH)
+    axis = _constant(entry.words.get("axis", ""), 3)
+    omega = _constant(entry.words.get("omega", ""), 1, RATE)
     if origin is None or axis is None or omega is None or not axis.any():
         return None
     return omega * np.cross(axis / np.linalg.norm(axis), faces.centres - origin)
@@ -191,11 +198,18 @@ def _rotating_wall(entry: PatchField, faces: PatchGeometry) -> Floats | None:
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 
 
-def _constant(text: str, components: int) -> Floats | None:
-    """Return a number or a vector (1, components), after ``constant`` or not; None for other text."""
+def _constant(text: str, components: int, dimensions: Dimensions = VELOCITY) -> Floats | None:
+    """Return a number or a vector (1, components), after ``constant`` or not; None for other text.
+
+    It may have a unit; ValueError is raised if that has other dimensions.
+    """
+    unit, tokens = unit_of(text.split(" "))
+    text = " ".join(tokens)
     numbers = " ".join([_NUMBER] * components)
     match = re.fullmatch("(?:constant )?" + (numbers if components == 1 else rf"\( {numbers} \)"), text)
-    return None if match is None else np.array([match.groups()], dtype=np.float64)
+    if match is None:
+        return None
+    return (factor_of(unit, dimensions) if unit else 1.0) * np.array([match.groups()], dtype=np.float64)
 
 
 RULES: dict[str, tuple[bool, Rule]] = {

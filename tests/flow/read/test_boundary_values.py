@@ -107,6 +107,10 @@ RULES = {
         "type flowRateInletVelocity; volumetricFlowRate constant 0.5;",
         lambda lid: -0.5 * lid.n,
     ),
+    "flowRateInletVelocity with a unit": (
+        "type flowRateInletVelocity; volumetricFlowRate constant 500 [dm^3/s];",
+        lambda lid: -0.5 * lid.n,
+    ),
     "rotatingWallVelocity": (
         "type rotatingWallVelocity; origin (0 0 1); axis (0 0 2); omega 3;",
         lambda lid: 3.0 * np.column_stack([-lid.x[:, 1], lid.x[:, 0], 0.0 * lid.x[:, 0]]),
@@ -175,6 +179,10 @@ MISSING = {
     "a unit of another quantity": (
         "type fixedValue; value uniform (0 0 0) [mm];",
         r"lid/value is .uniform \(0 0 0\) \[mm\]., with the di",
+    ),
+    "a constant with another unit": (
+        "type uniformFixedValue; uniformValue (0 0 0) [rpm];",
+        r"patch lid has an entry whose dimensions cannot be read",
     ),
     "a symmetry on a plain patch": (
         "type symmetry;", r"on patch lid the field is of type symmetry, which a patch of type patch can",
