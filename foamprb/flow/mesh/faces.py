@@ -335,6 +335,11 @@ def bound(cells: Ints, values: Floats, low: Floats, high: Floats) -> None:
             low[c, i], high[c, i] = min(low[c, i], values[f, i]), max(high[c, i], values[f, i])
 
 
+# Quality by which a fan must exceed the one from the point of the smallest label; of coordinates in single
+# precision, the round-off is less.
+_EQUAL = 1e-6
+
+
 def choose_bases(
     points: Floats, centres: Floats, start: Ints, lists: Ints, owner: Ints, neighbour: Ints
 ) -> int:
@@ -352,7 +357,12 @@ def choose_bases(
     inverted = 0
     for f in range(owner.shape[0]):
         begin, size = start[f], start[f + 1] - start[f]
-        best, chosen, negative = -np.inf, 0, 0
+        best, chosen, negative, first = -np.inf, 0, 0, 0
+        for k in range(1, size):
+            first = k if lists[begin + k] < lists[begin + first] else first
+        if size == 4:
+            # The opposite base has the same fan.
+            first %= 2
         stride = 1 + size // _MOST_BASES
         for base in range(0, 1 if size == 3 else 2 if size == 4 else size, stride):
             worst, wrong = np.inf, 0
@@ -364,8 +374,8 @@ def choose_bases(
                     q = q if side == 0 else -q
                     worst = min(worst, q)
                     wrong += q <= 0.0
-            # Round-off must not choose between equal fans.
-            worst += 1e-9 if base == 0 else 0.0
+            # Round-off, or the order in a file, must not choose between equal fans.
+            worst += _EQUAL if base == first else 0.0
             if base == 0 or worst > best:
                 best, chosen, negative = worst, base, wrong
         inverted += negative
