@@ -32,43 +32,57 @@ CHUNK = 1 << 15
 class LeastSquaresGradient:
     """Least-squares gradient at cell centres, differences weighted by the inverse square of the distance.
 
-    Where the neighbours and boundary values of a cell leave a direction open, its neighbours' neighbours are
-    used as well. If the direction stays open, as on a mesh one cell thick, the gradient along it is zero.
+    Along directions in which a cell has no sites around it, as on a mesh one cell thick, it is zero.
 
     Parameters
     ----------
-    mesh
-        The mesh.
     sites
         Places with values, (n_sites, 3), m; the cell centres first.
-    faces, numbers
-        Boundary faces (n,), and the index of the site beyond each.
+    around
+        Start of each cell's sites around it, (n + 1,), and these sites.
     least
         A direction is open if its eigenvalue of the normal equations is below this fraction of the largest.
     """
 
-    def __init__(self, mesh: Mesh, sites: Floats, faces: Index, numbers: Ints, least: float = 1e-6) -> None:
-        n = mesh.n_cells
-        inner, neighbour = mesh.owner[: mesh.n_internal], mesh.neighbour
-        self._n, self._sites, self._kernel = n, sites, link(sum_differences)
-        self._around = grouped(
-            np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
-            np.concatenate([neighbour, inner, numbers]),
-            n,
-        )
-        open_cells = np.concatenate(
-            [low + np.flatnonzero(_nearly_singular(matrix, least)) for low, matrix in self._matrices()]
-        )
-        if len(open_cells):
-            start, columns = self._around
-            more = _second_neighbours(inner, neighbour, n, open_cells)
-            rows = np.repeat(np.arange(n), np.diff(start))
-            self._around = grouped(np.concatenate([rows, more[0]]), np.concatenate([columns, more[1]]), n)
-        self._inverse = np.empty((n, 6))
+    def __init__(self, sites: Floats, around: tuple[Ints, Ints], least: float = 1e-6) -> None:
+        self._n, self._sites, self._kernel = len(around[0]) - 1, sites, link(sum_differences)
+        self._around, self._least = around, least
+        self._inverse = np.empty((self._n, 6))
         for low, matrix in self._matrices():
             inverse = invert(matrix, least)
             for pair, (j, k) in enumerate(PAIRS):
                 self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
+
+    @classmethod
+    def over_faces(
+        cls, mesh: Mesh, sites: Floats, faces: Index, numbers: Ints, least: float = 1e-6
+    ) -> LeastSquaresGradient:
+        """Return the gradient from the sites across the faces of the cells.
+
+        Where these leave a direction of a cell open, its neighbours' neighbours are used as well.
+
+        Parameters
+        ----------
+        faces, numbers
+            Boundary faces (n,), and the index of the site beyond each.
+        """
+        n, inner, neighbour = mesh.n_cells, mesh.owner[: mesh.n_internal], mesh.neighbour
+        around = grouped(
+            np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
+            np.concatenate([neighbour, inner, numbers]),
+            n,
+        )
+        gradient = cls(sites, around, least)
+        poor = np.concatenate(
+            [low + np.flatnonzero(_nearly_singular(m, least)) for low, m in gradient._matrices()]
+        )
+        if len(poor) == 0:
+            return gradient
+        more = _second_neighbours(inner, neighbour, n, poor)
+        rows = np.repeat(np.arange(n), np.diff(around[0]))
+        return cls(
+            sites, grouped(np.concatenate([rows, more[0]]), np.concatenate([around[1], more[1]]), n), least
+        )
 
     def _matrices(self) -> Iterator[tuple[int, Floats]]:
         """Yield the first cell of each chunk, and the matrices Σ e ⊗ e (n, 3, 3) of the normal equations."""
@@ -94,6 +108,30 @@ class LeastSquaresGradient:
             bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
         self._kernel(self._sites, *self._around, values, bends, low, sums)
+
+
+class PointGradient:
+    """Least-squares gradient in the cells of a mesh from values at their points."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        self._points_of = mesh.cell_point_start, mesh.cell_points
+        self._n, self._sites = mesh.n_cells, np.concatenate([np.empty((mesh.n_cells, 3)), mesh.points])
+        link(average)(*self._points_of, mesh.points, self._sites[: self._n])
+        self._fit = LeastSquaresGradient(self._sites, (mesh.cell_point_start, self._n + mesh.cell_points))
+
+    @property
+    def middles(self) -> Floats:
+        """Return the means of the points of the cells (n_cells, 3), m."""
+        return self._sites[: self._n]
+
+    def __call__(self, values: Floats, gradients: Floats) -> Floats:
+        """Write the gradients of m fields (n_cells, m, 3); return the means of the values in the cells.
+
+        The first rows of ``values`` (n_cells + n_points, m) are overwritten by these means.
+        """
+        link(average)(*self._points_of, values[self._n :], values[: self._n])
+        self._fit(values, gradients)
+        return values[: self._n]
 
 
 def grouped(rows: NDArray[Any], columns: NDArray[Any], n: int) -> tuple[Ints, Ints]:
@@ -236,6 +274,17 @@ def mean_series(
             u_points[p, i] /= total
             for j in range(3):
                 l_points[p, i, j] /= total
+
+
+def average(start: Ints, columns: Ints, values: Floats, means: Floats) -> None:
+    """Write the mean of the rows of ``values`` (n, m) in each group of columns into ``means``."""
+    for r in range(means.shape[0]):
+        means[r] = 0.0
+        for k in range(start[r], start[r + 1]):
+            for f in range(means.shape[1]):
+                means[r, f] += values[columns[k], f]
+        for f in range(means.shape[1]):
+            means[r, f] /= start[r + 1] - start[r]
 
 
 def _half_bend(h: Floats, r: int, i: int, d: Vector) -> float:

@@ -2,8 +2,12 @@
 
 Gradients are least-squares fits over face neighbours and boundary values. The gradient of the gradients gives
 the second derivatives, whose contribution is then subtracted from the differences, so that quadratic fields
-are reproduced beside a wall nearly as well as in the core. The value at a node is the weighted mean of the
-Taylor series about its cells; on a wall the wall's values count.
+are reproduced. The value at a node is the weighted mean of the Taylor series about its cells; on a wall the
+wall's values count. In tetrahedra, prisms and polyhedra off the walls the gradients at the points of a cell
+give better second derivatives, and these better gradients, until they stay.
+
+A value that a boundary face has from its cell, as at an outlet, belongs to the point opposite the centre of
+the cell. The gradient continues it to the centre of the face.
 
 The field continues beyond a symmetry plane, an empty patch, a wedge or a cyclic patch: each cell there has an
 image (:mod:`foamprb.flow.images`) with known values, which counts as a neighbour.
@@ -15,9 +19,9 @@ import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.flow.base import WALLS, Floats, Ints
-from foamprb.flow.gradient import CHUNK, PAIR_OF, PAIRS, LeastSquaresGradient, grouped, invert, mean_series
+from foamprb.flow.gradient import PAIR_OF, PAIRS, LeastSquaresGradient, PointGradient, grouped, mean_series
 from foamprb.flow.images import Images, points_of_faces
-from foamprb.flow.mesh.lists import Index, Mask
+from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 
 VALUELESS = frozenset(
@@ -34,6 +38,9 @@ VALUELESS = frozenset(
     }
 )
 """Types of patches whose boundary values add nothing to the values of the cells."""
+_MOST_PASSES = 5
+_CHANGE = 1e-3
+"""Change of the gradients in a pass, over the gradients, after which no other one follows; norms."""
 
 
 class Reconstruction:
@@ -54,6 +61,7 @@ class Reconstruction:
         walls = np.array([p.type in WALLS for p in mesh.patches], dtype=bool)[patch_of_face] & valued
         self.mesh = mesh
         self._valued, self._walls = np.flatnonzero(valued), np.flatnonzero(walls)
+        self._open = ~walls[self._valued]
         self._owner = mesh.owner[mesh.n_internal :].astype(np.intp)
         self._images = images = Images(mesh)
         n = mesh.n_cells
@@ -63,9 +71,17 @@ class Reconstruction:
         self._of_faces = slice(n, self._of_images.start)
         faces = np.concatenate([self._valued, images.faces])
         numbers = np.arange(n, len(self._sites), dtype=np.int32)
-        self._gradient = LeastSquaresGradient(mesh, self._sites, faces, numbers)
+        self._gradient = LeastSquaresGradient.over_faces(mesh, self._sites, faces, numbers)
         imaged = len(self._valued)
-        self._bend = LeastSquaresGradient(mesh, self._sites, faces[imaged:], numbers[imaged:], least=0.01)
+        self._across = LeastSquaresGradient.over_faces(
+            mesh, self._sites, faces[imaged:], numbers[imaged:], least=0.01
+        )
+        self._inside = PointGradient(mesh)
+        regular = (np.diff(mesh.cell_point_start) == 8) & (np.diff(mesh.cell_face_start) == 6)
+        regular[self._owner[self._walls]] = True
+        # Their neighbours lie evenly around hexahedra; beside a wall the errors of a finite-volume solution
+        # exceed those of the first estimate.
+        self._settled = np.flatnonzero(regular)
         rows, columns = (part.astype(np.int32) for part in points_of_faces(mesh, faces))
         of_cells = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
         self._around = grouped(
@@ -92,10 +108,10 @@ class Reconstruction:
         n, n_points = self.mesh.n_cells, self.mesh.n_points
         u = np.concatenate([cells, boundary[self._valued], self._images.turned(cells)])
         slopes, bends = self._derivatives(u, l)
-        u_nodes, l_nodes = np.zeros((n_points + n, 3)), np.zeros((n_points + n, 3, 3))
+        u_nodes, l_nodes = np.empty((n_points + n, 3)), np.empty((n_points + n, 3, 3))
         u_nodes[n_points:], l_nodes[n_points:] = cells, slopes[:n]
         at_points = u_nodes[:n_points], l_nodes[:n_points]
-        link(mean_series)(self.mesh.points, self._sites, *self._around, u, slopes, bends, *at_points)
+        self._average(u, slopes, bends, *at_points)
         self._impose_walls(at_points[0], boundary, slopes, bends)
         for values in at_points:
             self._images.agree(values)
@@ -138,38 +154,87 @@ class Reconstruction:
     def _means(self, values: Floats) -> Floats:
         """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance."""
         m = values.shape[1]
-        means = np.zeros((self.mesh.n_points, m))
-        slopes, bends = np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6))
-        nothing = np.zeros((self.mesh.n_points, m, 3))
-        link(mean_series)(self.mesh.points, self._sites, *self._around, values, slopes, bends, means, nothing)
+        means, nothing = np.empty((self.mesh.n_points, m)), np.empty((self.mesh.n_points, m, 3))
+        self._average(values, np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6)), means, nothing)
         return means
 
-    def _derivatives(self, u: Floats, l: Floats | None) -> tuple[Floats, Floats]:
-        """Return first derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites."""
-        n = self.mesh.n_cells
+    def _average(self, u: Floats, l: Floats, h: Floats, u_points: Floats, l_points: Floats) -> None:
+        """Average the Taylor series about the sites at the mesh points, in ``u_points`` and ``l_points``."""
+        points, (start, columns) = self.mesh.points, self._around
+
+        def part(low: int, high: int) -> None:
+            results = u_points[low:high], l_points[low:high]
+            for result in results:
+                result[:] = 0.0
+            link(mean_series)(
+                points[low:high], self._sites, start[low : high + 1], columns, u, l, h, *results
+            )
+
+        share(len(points), part)
+
+    def _derivatives(self, u: Floats, given: Floats | None) -> tuple[Floats, Floats]:
+        """Return first derivatives (n_sites, 3, 3) and second derivatives (n_sites, 3, 6) at all sites.
+
+        Values of boundary faces in ``u`` that are those of their cells are continued to the faces.
+        """
+        n, n_points = self.mesh.n_cells, self.mesh.n_points
+        owner = self._owner[self._valued]
+        own = np.flatnonzero(self._open & np.all(u[self._of_faces] == u[owner], axis=1))
         slopes, bends = np.zeros((len(u), 3, 3)), np.zeros((len(u), 3, 6))
-        if l is None:
+        around, nothing = np.empty((n + n_points, 3, 3)), np.empty((n_points, 3))
+        if given is None:
             self._gradient(u, slopes[:n])
         else:
-            slopes[:n] = l
-        slopes[self._of_images] = self._images.turned(slopes[:n])
-        for low in range(0, n, CHUNK):
-            part = np.empty((min(CHUNK, n - low), 9, 3))
-            self._bend(slopes.reshape(-1, 9), part, low)
-            second = part.reshape(-1, 3, 3, 3)
-            for pair, (j, k) in enumerate(PAIRS):
-                bends[low : low + len(part), :, pair] = 0.5 * (second[:, :, j, k] + second[:, :, k, j])
-        if l is None:
-            # One correction suffices: beside a wall, the errors of a finite-volume solution exceed a second.
-            self._gradient(u, slopes[:n], bends=bends[:n])
-        images = self._images
-        slopes[self._of_faces] = self._at_faces(self._valued, slopes, bends)
-        slopes[self._of_images] = images.turned(slopes[:n])
-        bends[self._of_faces] = bends[self._owner[self._valued]]
-        turned = images.turned(bends, lambda own: own[:, :, PAIR_OF])
-        for pair, (j, k) in enumerate(PAIRS):
-            bends[self._of_images, :, pair] = turned[:, :, j, k]
+            slopes[:n] = given
+        self._beyond(u, slopes, bends, own)
+        for number in range(1 if len(self._settled) == n else 1 + _MOST_PASSES):
+            if number == 0:
+                self._bend_by_faces(slopes, bends[:n])
+            else:
+                self._average(u, slopes, bends, nothing, around[n:])
+                self._images.agree(around[n:])
+                kept = bends[self._settled]
+                self._bend_by_points(around, bends[:n])
+                bends[self._settled] = kept
+            if given is None:
+                before = slopes[:n].copy()
+                self._gradient(u, slopes[:n], bends=bends[:n])
+                before -= slopes[:n]
+            self._beyond(u, slopes, bends, own)
+            if given is not None or np.linalg.norm(before) <= _CHANGE * np.linalg.norm(slopes[:n]):
+                break
         return slopes, bends
+
+    def _bend_by_faces(self, l: Floats, h: Floats) -> None:
+        """Write the second derivatives (n_cells, 3, 6) from the gradients at the cells and images."""
+        second = np.empty((len(h), 9, 3))
+        self._across(l.reshape(-1, 9), second)
+        _symmetric(second, h)
+
+    def _bend_by_points(self, l: Floats, h: Floats) -> None:
+        """Write the second derivatives (n_cells, 3, 6) from the gradients at the points."""
+        second = np.empty((len(h), 9, 3))
+        self._inside(l.reshape(-1, 9), second)
+        _symmetric(second, h)
+
+    def _beyond(self, u: Floats, l: Floats, h: Floats, own: Index) -> None:
+        """Continue derivatives from the cells beyond the boundary, and values to boundary faces ``own``."""
+        n, images, valued = self.mesh.n_cells, self._images, self._valued
+        owner = self._owner[valued]
+        h[self._of_faces] = h[owner]
+        l[self._of_faces] = self._at_faces(valued, l, h)
+        l[self._of_images] = images.turned(l[:n])
+        turned = images.turned(h, lambda own: own[:, :, PAIR_OF])
+        for pair, (j, k) in enumerate(PAIRS):
+            h[self._of_images, :, pair] = turned[:, :, j, k]
+        if len(own):
+            faces, cells = valued[own], owner[own]
+            normals = self.mesh.boundary_areas[faces]
+            normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+            arms = self.mesh.boundary_centres[faces] - self.mesh.centres[cells]
+            arms -= np.einsum("ni,ni->n", arms, normals)[:, None] * normals
+            mean = l[cells] + 0.5 * np.einsum("nijk,nk->nij", h[cells][:, :, PAIR_OF], arms)
+            u[n + own] = u[cells] + np.einsum("nij,nj->ni", mean, arms)
 
     def _at_faces(self, faces: Index, l: Floats, h: Floats) -> Floats:
         """Extrapolate gradients from the cells to their boundary faces."""
@@ -197,7 +262,24 @@ class Reconstruction:
         )  # fmt: skip
         low = np.minimum.reduceat(values[around], start[:-1])
         high = np.maximum.reduceat(values[around], start[:-1])
-        u_points[on_wall] = np.where(np.all(low == high, axis=1, keepdims=True), low, mean)
+        apart = np.any(low != high, axis=1)
+        u_points[on_wall] = np.where(apart[:, None], mean, low)
+        normals = mesh.boundary_areas[faces]
+        normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+        tight = np.abs(np.einsum("ni,ni->n", normals, values)) <= 1e-9 * np.linalg.norm(values, axis=1)
+        for row in np.flatnonzero(apart):
+            own = around[start[row] : start[row + 1]]
+            if tight[own].all():
+                # Nothing flows through walls that meet at a point, though one of them moves.
+                excess = normals[own] @ u_points[on_wall[row]]
+                u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
+
+
+def _symmetric(second: Floats, h: Floats) -> None:
+    """Write derivatives (n, 9, 3) of the components of gradients as second derivatives (n, 3, 6)."""
+    second = second.reshape(-1, 3, 3, 3)
+    for pair, (j, k) in enumerate(PAIRS):
+        h[:, :, pair] = 0.5 * (second[:, :, j, k] + second[:, :, k, j])
 
 
 def _continued(
@@ -215,22 +297,12 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
     Each cell's gradient is the least-squares fit to its points; the nodes average these as in
     :class:`Reconstruction`, without second derivatives.
     """
-    rows = mesh.cell_points.astype(np.intp)
-    columns = np.repeat(np.arange(mesh.n_cells), np.diff(mesh.cell_point_start))
-    count = np.diff(mesh.cell_point_start)[:, None]
-
-    def mean(values: Floats) -> Floats:
-        return np.stack([np.bincount(columns, column, mesh.n_cells) for column in values.T], axis=1) / count
-
-    middle, average = mean(mesh.points[rows]), mean(points[rows])
-    arms, differences = mesh.points[rows] - middle[columns], points[rows] - average[columns]
-    matrix, right = np.empty((mesh.n_cells, 3, 3)), np.empty((mesh.n_cells, 3, 3))
-    for j in range(3):
-        matrix[:, j] = mean(arms * arms[:, j, None])
-        right[:, :, j] = mean(differences * arms[:, j, None])
-    l = np.einsum("nij,njk->nik", right, invert(matrix, 1e-12))
-    u = average + np.einsum("nij,nj->ni", l, mesh.centres - middle)
+    n, fit = mesh.n_cells, PointGradient(mesh)
+    l = np.empty((n, 3, 3))
+    mean = fit(np.concatenate([np.empty((n, 3)), points]), l)
+    u = mean + np.einsum("nij,nj->ni", l, mesh.centres - fit.middles)
+    columns = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
     # Without second derivatives the Taylor series average the gradients of the cells.
-    around = grouped(rows, columns, mesh.n_points)
+    around = grouped(mesh.cell_points, columns, mesh.n_points)
     _, l_points = _continued(mesh.points, mesh.centres, around, u, l)
     return np.concatenate([points, u]), np.concatenate([l_points, l])

@@ -62,7 +62,7 @@ def test_the_gradient_fits_differences_by_the_inverse_square_of_the_distance(ran
     """Against numpy's least squares, cell by cell; a cell at a corner asks its neighbours' neighbours."""
     mesh = build_mesh(block(4, 0.4))
     values, found = random.normal(size=(64, 2)), np.zeros((64, 2, 3))
-    LeastSquaresGradient(mesh, mesh.centres, *NONE)(values, found)
+    LeastSquaresGradient.over_faces(mesh, mesh.centres, *NONE)(values, found)
     pairs = np.stack([mesh.owner[: mesh.n_internal], mesh.neighbour], axis=1)
     for c in range(64):
         around = [*pairs[pairs[:, 0] == c, 1], *pairs[pairs[:, 1] == c, 0]]
@@ -76,7 +76,7 @@ def test_a_row_of_cells_has_a_gradient_along_it_alone():
     """Its ends have one neighbour each; across it nothing is known."""
     mesh = row_of_cells(5)
     slope = np.zeros((5, 1, 3))
-    LeastSquaresGradient(mesh, mesh.centres, *NONE)(3.0 * mesh.centres[:, :1], slope)
+    LeastSquaresGradient.over_faces(mesh, mesh.centres, *NONE)(3.0 * mesh.centres[:, :1], slope)
     np.testing.assert_allclose(slope[:, 0], [[3.0, 0.0, 0.0]] * 5, atol=1e-12)
 
 
@@ -88,5 +88,7 @@ def test_sites_beyond_boundary_faces_count(random):
     for faces in ([0, 1, 2, 3, 4, 5], [5, 3, 1, 0, 2, 4]):
         chosen = np.array(faces)
         found = np.zeros((1, 3, 3))
-        LeastSquaresGradient(mesh, sites, chosen, (1 + chosen).astype(np.int32))(sites @ l.T, found)
+        LeastSquaresGradient.over_faces(mesh, sites, chosen, (1 + chosen).astype(np.int32))(
+            sites @ l.T, found
+        )
         np.testing.assert_allclose(found[0], l, atol=1e-12)

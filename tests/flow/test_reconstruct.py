@@ -35,7 +35,8 @@ vectors = st.lists(st.floats(-3.0, 3.0), min_size=12, max_size=12)
 @settings(max_examples=40)
 def test_linear_fields_are_reproduced(kind, perturbation, seed, numbers):
     shape = block(2, perturbation, kind, seed)
-    mesh = build_mesh(shape, box_patches(shape))
+    # Walls do not stretch.
+    mesh = build_mesh(shape, [p._replace(type="patch") for p in box_patches(shape)])
     gradient, offset = np.reshape(numbers[:9], (3, 3)), np.array(numbers[9:])
     u, l = Reconstruction(mesh)(
         mesh.centres @ gradient.T + offset, mesh.boundary_centres @ gradient.T + offset
@@ -69,6 +70,35 @@ def test_quadratic_fields_are_nearly_reproduced_walls_included():
     exact_u, exact_l = quadratic(mesh.nodes)
     assert l == pytest.approx(exact_l, abs=0.03)
     assert u == pytest.approx(exact_u, abs=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("kind", "error"),
+    [("hexahedra", 0.0015), ("tetrahedra", 0.0015), ("polyhedra", 0.0022), ("prisms", 0.003)],
+)
+def test_cells_of_every_shape_reproduce_quadratic_fields(kind, error):
+    """Off the walls; from the neighbours alone the errors are 0.0012, 0.013, 0.0026 and 0.0062."""
+    shape = block(6, 0.3, kind)
+    mesh = build_mesh(shape, box_patches(shape))
+    _, l = Reconstruction(mesh)(quadratic(mesh.centres)[0], quadratic(mesh.boundary_centres)[0])
+    inside = np.abs(mesh.nodes - 0.5).max(axis=1) < 0.25
+    assert np.sqrt(np.mean((l - quadratic(mesh.nodes)[1])[inside] ** 2)) < error
+
+
+@pytest.mark.parametrize("kind", ["tetrahedra", "polyhedra"])
+def test_a_value_that_an_outlet_has_of_its_cell_is_continued_to_its_face(kind):
+    """Poiseuille's flow between plates; the cells' centres do not lie opposite those of the faces."""
+
+    def flow(x):
+        return np.column_stack([1.0 - (2.0 * x[:, 1] - 1.0) ** 2, np.zeros((len(x), 2))])
+
+    shape = block(6, 0.3, kind)
+    mesh = build_mesh(shape, [p._replace(type="patch") for p in box_patches(shape)])
+    boundary, cells = flow(mesh.boundary_centres), flow(mesh.centres)
+    ends = np.abs(mesh.boundary_centres[:, 0] - 0.5) > 0.499
+    boundary[ends] = cells[mesh.owner[mesh.n_internal :]][ends]
+    u, _ = Reconstruction(mesh)(cells, boundary)
+    assert np.sqrt(np.mean((u - flow(mesh.nodes)) ** 2)) < 2e-3
 
 
 def test_no_slip_is_exact_at_every_point_of_the_wall(random):
@@ -320,12 +350,3 @@ def test_a_gradient_that_is_known_is_taken(random):
     np.testing.assert_allclose(other[: mesh.n_points], 2.0 * l_nodes[: mesh.n_points], atol=1e-9)
     exact = quadratic(mesh.nodes)[1]
     assert np.abs(l_nodes - exact).max() < 0.35 * np.abs(exact).max()
-
-
-def test_parts_of_the_cells_are_reconstructed_alike(monkeypatch, random):
-    mesh = build_mesh(block(3, 0.3))
-    cells, faces = random.normal(size=(27, 3)), random.normal(size=(54, 3))
-    whole = Reconstruction(mesh)(cells, faces)
-    monkeypatch.setattr("foamprb.flow.reconstruct.CHUNK", 5)
-    for a, b in zip(Reconstruction(mesh)(cells, faces), whole, strict=True):
-        np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-11)
