@@ -113,7 +113,8 @@ class Flow(Sampled, Protocol):
     holds x. Kernels marked * are optional.
 
     * ``sample(flow, host, x, t) -> (u, l, u_t)``: velocity, m/s, ∂u_i/∂x_j row by row, 1/s, and ∂u/∂t at the
-      fixed point, m/s² (zero in a steady flow), at time t, s;
+      fixed point, m/s² (zero in a steady flow), at time t, s; u_t + l·v is the fluid's acceleration along a
+      path of velocity v, so that a flow subtracts from u_t what l·v would count of jumps in u;
     * ``walk(flow, host, x0, x1) -> (host, fraction, patch, triangle)``: follow the segment to its end (patch
       −1), to the patch that it crosses at ``fraction``, or to failure (patch −2);
     * ``walk_on(flow, host, ahead, x0, x1)`` *: ``walk`` with a hint: an earlier path from x0 to a point near

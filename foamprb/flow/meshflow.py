@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
-from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
+from foamprb.flow.fluxes import free_nodes
+from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
@@ -91,7 +92,7 @@ _AT_ONCE = 1 << 20
 
 
 class MeshFlow:
-    """Flow given by u and ∇u at the nodes of a mesh, linear in each tetrahedron.
+    """Flow given by u and ∇u at the nodes of a mesh, and a correction of u in each tetrahedron.
 
     Parameters
     ----------
@@ -107,6 +108,8 @@ class MeshFlow:
         Name of the time that was read, if there are times.
     turbulence
         (n_nodes, 8): k, ε, ∇k and ∇(k²/3ε) at the nodes, if they were read.
+    correction
+        (n_tets, 8) correction of u that keeps volume, by :class:`foamprb.flow.fluxes.Conservation`.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -134,6 +137,7 @@ class MeshFlow:
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         time: str = "",
         turbulence: Floats | None = None,
+        correction: NDArray[np.float32] | None = None,
     ) -> None:
         self._time = time
         self.mesh = mesh
@@ -151,6 +155,7 @@ class MeshFlow:
         nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
         nodes[:, 3:6] = u
         nodes[:, 6:15] = l.reshape(-1, 9)
+        nodes[:, FREE] = free_nodes(mesh)
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         boxes = cell_boxes(mesh)
@@ -179,6 +184,7 @@ class MeshFlow:
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
+            correction=np.empty((0, 8), dtype=np.float32) if correction is None else correction,
         )
 
     @staticmethod

@@ -13,15 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector, minus, vector_product
+from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
 from foamprb.flow.base import Floats, Ints, PatchFaces, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh, point
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.series import SeriesFlow
+from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
-from foamprb.flow.walk import sample as sample_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
 
 __all__ = ["RotatingFlow", "RotatingZone"]
@@ -56,17 +56,17 @@ def rotation_at(flow: RotatingArrays, host: int) -> tuple[Vector, Vector]:
     return point(flow.omega, z), point(flow.origin, z)
 
 
-def sample(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
+def sample(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
     """Return velocity, m/s, and gradient, 1/s, relative to the frame of the host."""
-    u, l, _ = sample_mesh(flow.mesh, host, x, t)
+    u, c, l = parts(flow.mesh, host, x)
     w, o = rotation_at(flow, host)
-    u = minus(u, vector_product(w, minus(x, o)))
+    u = minus(plus(u, c), vector_product(w, minus(x, o)))
     l = (
         l[0], l[1] + w[2], l[2] - w[1],
         l[3] - w[2], l[4], l[5] + w[0],
         l[6] + w[1], l[7] - w[0], l[8],
     )  # fmt: skip
-    return u, l, (0.0, 0.0, 0.0)
+    return u, l, minus(STEADY, dot_vector(l, c))
 
 
 def turbulence(flow: RotatingArrays, host: int, x: Vector, t: float) -> Turbulence:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from foamprb.body.faxen import Curvature
-from foamprb.body.tensor import Tensor, Vector, between, minus
+from foamprb.body.tensor import Tensor, Vector, between, dot_vector, minus, plus
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Turbulence
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
@@ -30,6 +30,7 @@ from foamprb.flow.walk import (
     FAILED,
     blend_turbulence,
     corners,
+    correction_at,
     curvature_in,
     follow,
     interpolate,
@@ -62,17 +63,22 @@ class SeriesArrays(NamedTuple):
     """(rows, 12 or 20): u v w and the nine ∂u_i/∂x_j row by row, time by time; k, ε, ∇k and ∇(k²/3ε)."""
     slack: float
     """Times closer than this are the same, s."""
+    first_tet: NDArray[np.int64]
+    """(n,) row of ``correction`` at which the tetrahedra of each time begin."""
+    correction: NDArray[np.float32]
+    """(rows, 8) as that of :class:`MeshArrays`, time by time; no rows for none."""
 
 
 def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:
-    """Return u (m/s), l_ij = ∂u_i/∂x_j (1/s) and ∂u/∂t (m/s²), linear in the tetrahedron ``host`` and in t.
+    """Return u + c (m/s), l_ij = ∂u_i/∂x_j (1/s) and ∂u/∂t − l·c (m/s²), linear in t.
 
-    At a loaded time ∂u/∂t is the one of the following interval, if that interval is loaded.
+    See :func:`foamprb.flow.walk.sample`. At a loaded time ∂u/∂t is the one of the following interval, if that
+    interval is loaded.
     """
     k = _interval(flow, t)
     w = shape(flow.mesh, host, x)
-    u0, l0 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k]), w)
-    u1, l1 = interpolate(flow.fields, 0, corners(flow.mesh, host, flow.first[k + 1]), w)
+    u0, l0 = interpolate(flow.mesh, host, flow.fields, 0, flow.first[k], w)
+    u1, l1 = interpolate(flow.mesh, host, flow.fields, 0, flow.first[k + 1], w)
     length = flow.times[k + 1] - flow.times[k]
     s = (t - flow.times[k]) / length
     d = minus(u1, u0)
@@ -81,7 +87,11 @@ def sample(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[Vector, 
         l0[3] + s * (l1[3] - l0[3]), l0[4] + s * (l1[4] - l0[4]), l0[5] + s * (l1[5] - l0[5]),
         l0[6] + s * (l1[6] - l0[6]), l0[7] + s * (l1[7] - l0[7]), l0[8] + s * (l1[8] - l0[8]),
     )  # fmt: skip
-    return between(u0, u1, s), l, (d[0] / length, d[1] / length, d[2] / length)
+    c0 = correction_at(flow.mesh, flow.correction, flow.first_tet[k] + host, host, w)
+    c1 = correction_at(flow.mesh, flow.correction, flow.first_tet[k + 1] + host, host, w)
+    c = between(c0, c1, s)
+    u_t = d[0] / length, d[1] / length, d[2] / length
+    return plus(between(u0, u1, s), c), l, minus(u_t, dot_vector(l, c))
 
 
 def _interval(flow: SeriesArrays, t: float) -> int:
@@ -178,7 +188,8 @@ class SeriesFlow(MeshFlow):
         At least two, rising, s.
     read
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
-        also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8). It is called by one thread at a time, not always the same.
+        also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``conservative`` last the correction of u, (n_tets, 8)
+        (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
         that time the first field follows.
@@ -188,8 +199,8 @@ class SeriesFlow(MeshFlow):
         Number of times to keep in memory, if more than a step needs.
     zones
         Returns the cells of each zone by name; called when a zone is requested.
-    turbulent
-        Whether ``read`` returns the turbulence.
+    turbulent, conservative
+        Whether ``read`` returns the turbulence, and the correction.
 
     Raises
     ------
@@ -216,12 +227,13 @@ class SeriesFlow(MeshFlow):
         self,
         mesh: Mesh,
         times: Sequence[float],
-        read: Callable[[int], tuple[Floats, ...]],
+        read: Callable[[int], tuple[Any, ...]],
         period: float | None = None,
         notes: Iterable[str] = (),
         keep: int = 0,
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         turbulent: bool = False,
+        conservative: bool = False,
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -235,16 +247,20 @@ class SeriesFlow(MeshFlow):
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
         width = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
         self._fields = np.empty((0, nodes, width))
+        self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 8), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
         self._levels = range(0)
         self._reader = ThreadPoolExecutor(1, "foamprb-read")
-        self._prefetched: tuple[int, Future[tuple[Floats, ...]]] | None = None
+        self._prefetched: tuple[int, Future[tuple[Any, ...]]] | None = None
 
     @staticmethod
     def nothing() -> SeriesArrays:  # type: ignore[override]
         """See :meth:`MeshFlow.nothing`."""
-        return SeriesArrays(no_mesh(), np.empty(0), np.empty(0, dtype=np.int64), np.empty((0, 12)), 0.0)
+        rows = np.empty(0, dtype=np.int64)
+        return SeriesArrays(
+            no_mesh(), np.empty(0), rows, np.empty((0, 12)), 0.0, rows, np.empty((0, 8), dtype=np.float32)
+        )
 
     def load(self, start: float, end: float) -> float:
         """Load the times from the last one up to ``start`` to the first one from ``end`` on.
@@ -293,6 +309,8 @@ class SeriesFlow(MeshFlow):
             np.array(places, dtype=np.int64) * nodes,
             self._fields.reshape(-1, self._fields.shape[2]),
             self._slack,
+            np.array(places, dtype=np.int64) * self._corrections.shape[1],
+            self._corrections.reshape(-1, 8),
         )
 
     def _first(self) -> Floats:
@@ -316,6 +334,7 @@ class SeriesFlow(MeshFlow):
         """Return mesh, times, and fields at the first time, by name."""
         return {
             **super().traits(), "times": self.times, "period": self.period or 0.0, "fields": self._first(),
+            "correction": self._corrections[self._in_memory[0]],
         }  # fmt: skip
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
@@ -364,6 +383,9 @@ class SeriesFlow(MeshFlow):
             fields = np.empty((capacity, *self._fields.shape[1:]))
             fields[: len(self._fields)] = self._fields
             self._fields = fields
+            corrections = np.empty((capacity, *self._corrections.shape[1:]), dtype=np.float32)
+            corrections[: len(self._corrections)] = self._corrections
+            self._corrections = corrections
         for index in wanted:
             if index in self._in_memory:
                 self._in_memory[index] = self._in_memory.pop(index)
@@ -372,18 +394,20 @@ class SeriesFlow(MeshFlow):
         if index in self._in_memory:
             return
         future, self._prefetched = self._prefetch(index), None
-        u, l, *turbulence = future.result()
+        u, l, *more = future.result()
         if len(self._in_memory) < len(self._fields):
             place = len(self._in_memory)
         else:
             place = self._in_memory.pop(next(iter(self._in_memory)))
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
-        if turbulence:
-            self._fields[place, :, _OF_VELOCITY:] = turbulence[0]
+        if self._fields.shape[2] > _OF_VELOCITY:
+            self._fields[place, :, _OF_VELOCITY:] = more[0]
+        if self._corrections.shape[1] > 0:
+            self._corrections[place] = more[-1]
         self._in_memory[index] = place
 
-    def _prefetch(self, index: int) -> Future[tuple[Floats, ...]]:
+    def _prefetch(self, index: int) -> Future[tuple[Any, ...]]:
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
         return self._prefetched[1]
@@ -422,11 +446,12 @@ def series_of(
     source: Path,
     mesh: Mesh,
     names: Sequence[str],
-    read: Callable[[str], tuple[Floats, ...]],
+    read: Callable[[str], tuple[Any, ...]],
     period: float | None,
     notes: Sequence[str],
     zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
     turbulent: bool = False,
+    conservative: bool = False,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -440,7 +465,7 @@ def series_of(
         Names of the times, rising.
     read
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
-    period, notes, zones, turbulent
+    period, notes, zones, turbulent, conservative
         See :class:`SeriesFlow`.
 
     Raises
@@ -451,11 +476,20 @@ def series_of(
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
     columns = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
-    keep = _MOST_IN_MEMORY // (8 * columns * (mesh.n_points + mesh.n_cells)) if period is not None else 0
+    size = 8 * columns * (mesh.n_points + mesh.n_cells) + (32 * len(mesh.tets) if conservative else 0)
+    keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
         return SeriesFlow(
-            mesh, times, lambda i: read(names[i]), period, [*notes, note], keep, zones, turbulent
+            mesh,
+            times,
+            lambda i: read(names[i]),
+            period,
+            [*notes, note],
+            keep,
+            zones,
+            turbulent,
+            conservative,
         )
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

@@ -10,11 +10,12 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.faxen import Curvature, curvature_of
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, inner, minus, plus
 from foamprb.flow.base import Floats, Turbulence
-from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
+from foamprb.flow.mesh.arrays import FREE, TOLERANCE, MeshArrays, arm, frame, nodes_of, point, weights
 from foamprb.flow.mesh.folds import SOUND, trace
 from foamprb.flow.mesh.locator import locate, seek
 
@@ -38,12 +39,19 @@ Weights: TypeAlias = tuple[float, float, float, float]
 
 
 def sample(flow: MeshArrays, host: int, x: Vector, t: float) -> tuple[Vector, Tensor, Vector]:  # noqa: ARG001
-    """Return u (m/s) and l_ij = ∂u_i/∂x_j (1/s) at x, linear in the tetrahedron ``host``.
+    """Return u + c (m/s), l_ij = ∂u_i/∂x_j (1/s) and −l·c (m/s²) at x; see :func:`parts`.
 
-    The flow is steady: the third result, ∂u/∂t (m/s²), is zero.
+    With a velocity v the acceleration of the fluid is l·v − l·c, in which the jumps of c cancel.
     """
-    u, l = interpolate(flow.nodes, 3, corners(flow, host, 0), shape(flow, host, x))
-    return u, l, STEADY
+    u, c, l = parts(flow, host, x)
+    return plus(u, c), l, minus(STEADY, dot_vector(l, c))
+
+
+def parts(flow: MeshArrays, host: int, x: Vector) -> tuple[Vector, Vector, Tensor]:
+    """Return u at x in the tetrahedron ``host``, its correction c, both m/s, and l, 1/s."""
+    w = shape(flow, host, x)
+    u, l = interpolate(flow, host, flow.nodes, 3, 0, w)
+    return u, correction_at(flow, flow.correction, host, host, w), l
 
 
 def sample_ahead(
@@ -71,10 +79,12 @@ def sample_ahead(
         w0, w1, w2, w3 = weights(origin, c1, c2, c3, volume, x1)
         least = min(w0, w1, w2, w3)
     s = 1.0 / volume
-    u, l = interpolate(flow.nodes, 3, corners(flow, last, 0), (s * w0, s * w1, s * w2, s * w3))
+    w = (s * w0, s * w1, s * w2, s * w3)
+    u, l = interpolate(flow, last, flow.nodes, 3, 0, w)
+    c = correction_at(flow, flow.correction, last, last, w)
     # The gradient of a weight is its cofactor vector; that of the origin minus the sum of the others.
     room = least / (_components(c1) + _components(c2) + _components(c3)) if sound else 0.0
-    return last, room, entered, u, l, STEADY
+    return last, room, entered, plus(u, c), l, minus(STEADY, dot_vector(l, c))
 
 
 def _components(v: Vector) -> Any:
@@ -112,15 +122,100 @@ def shape(flow: MeshArrays, host: int, x: Vector) -> Weights:
     return s * w0, s * w1, s * w2, s * w3
 
 
-def interpolate(f: Floats, k: int, nodes: Corners, w: Weights) -> tuple[Vector, Tensor]:
-    """Return velocity and gradient from a table with a row for each node, from column k on."""
-    u = blend(f, k, nodes, w), blend(f, k + 1, nodes, w), blend(f, k + 2, nodes, w)
+def interpolate(
+    flow: MeshArrays, host: int, f: Floats, k: int, first: int, w: Weights
+) -> tuple[Vector, Tensor]:
+    """Return velocity and gradient from a table with a row for each node, from row ``first`` and column k on.
+
+    The gradient is linear, Σ λ_i l_i. The velocity is quadratic: at the middle of an edge between nodes off
+    the walls it is ½(u_i + u_j) + ⅛(l_i − l_j)·(x_j − x_i). Along other edges it is linear; with its
+    correction it is thus parallel to the wall in a tetrahedron with a side on one.
+    """
+    a, b, c, d = nodes_of(flow, host)
+    at = first + a, first + b, first + c, first + d
+    nodes = flow.nodes
+    o = point(nodes, a)
+    p, q, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    # The velocity is Σ λ_i u_i + ½ Σ m_i l_i·(z − m p_i), with the weights m_i of the nodes off the walls,
+    # their sum m, and z = Σ m_i p_i.
+    ma, mb, mc, md = (
+        nodes[a, FREE] * w[0], nodes[b, FREE] * w[1], nodes[c, FREE] * w[2], nodes[d, FREE] * w[3]
+    )  # fmt: skip
+    m = ma + mb + mc + md
+    z = (
+        mb * p[0] + mc * q[0] + md * r[0],
+        mb * p[1] + mc * q[1] + md * r[1],
+        mb * p[2] + mc * q[2] + md * r[2],
+    )
+    arms = _half(ma, m, z, (0.0, 0.0, 0.0)), _half(mb, m, z, p), _half(mc, m, z, q), _half(md, m, z, r)
+    u = (
+        blend(f, k, at, w) + _product(f, at, k + 3, arms),
+        blend(f, k + 1, at, w) + _product(f, at, k + 6, arms),
+        blend(f, k + 2, at, w) + _product(f, at, k + 9, arms),
+    )
     l = (
-        blend(f, k + 3, nodes, w), blend(f, k + 4, nodes, w), blend(f, k + 5, nodes, w),
-        blend(f, k + 6, nodes, w), blend(f, k + 7, nodes, w), blend(f, k + 8, nodes, w),
-        blend(f, k + 9, nodes, w), blend(f, k + 10, nodes, w), blend(f, k + 11, nodes, w),
+        blend(f, k + 3, at, w), blend(f, k + 4, at, w), blend(f, k + 5, at, w),
+        blend(f, k + 6, at, w), blend(f, k + 7, at, w), blend(f, k + 8, at, w),
+        blend(f, k + 9, at, w), blend(f, k + 10, at, w), blend(f, k + 11, at, w),
     )  # fmt: skip
     return u, l
+
+
+def _half(weight: float, m: float, z: Vector, p: Vector) -> Vector:
+    s = 0.5 * weight
+    return s * (z[0] - m * p[0]), s * (z[1] - m * p[1]), s * (z[2] - m * p[2])
+
+
+def _product(f: Floats, at: Corners, k: int, arms: tuple[Vector, Vector, Vector, Vector]) -> Any:
+    """Return the sum over four rows of the products of three columns, from k on, with the arms."""
+    i, j, m, n = at
+    a, b, c, d = arms
+    return (
+        f[i, k] * a[0] + f[i, k + 1] * a[1] + f[i, k + 2] * a[2]
+        + f[j, k] * b[0] + f[j, k + 1] * b[1] + f[j, k + 2] * b[2]
+        + f[m, k] * c[0] + f[m, k + 1] * c[1] + f[m, k + 2] * c[2]
+        + f[n, k] * d[0] + f[n, k + 1] * d[1] + f[n, k + 2] * d[2]
+    )  # fmt: skip
+
+
+def correction_at(
+    flow: MeshArrays, correction: NDArray[np.float32], row: int, host: int, w: Weights
+) -> Vector:
+    """Return the velocity, m/s, that keeps volume (:mod:`foamprb.flow.fluxes`), at weights ``w`` in a host.
+
+    Row ``row`` of ``correction`` holds its fluxes q over volume and free nodes, and a quarter of the
+    divergences d. A flux through the side opposite vertex k moves along the edges from k to the free vertices
+    j of the side, as λ_j q_k (x_j − x_k).
+    With f_j = 1 for free vertices, else 0, the sum is Σ_j x_j (f_j λ_j Σ_k q_k − q_j Σ_k f_k λ_k).
+    """
+    if correction.shape[0] == 0:
+        return 0.0, 0.0, 0.0
+    a, b, c, d = nodes_of(flow, host)
+    at, nodes = np.uint64(row), flow.nodes
+    qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
+    fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
+    count = fa + fb + fc + fd
+    if count == 0.0:
+        fa = fb = fc = fd = 1.0
+    q, f = qa + qb + qc + qd, fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
+    sb, sc, sd = fb * w[1] * q - qb * f, fc * w[2] * q - qc * f, fd * w[3] * q - qd * f
+    if count == 1.0:
+        # The side opposite the only free vertex has a uniform flux.
+        q = fa * qa + fb * qb + fc * qc + fd * qd
+        sb += q * (w[1] - fb)
+        sc += q * (w[2] - fc)
+        sd += q * (w[3] - fd)
+    # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k.
+    eb, ec, ed = correction[at, 5] * w[1], correction[at, 6] * w[2], correction[at, 7] * w[3]
+    e = correction[at, 4] * w[0] + eb + ec + ed
+    sb, sc, sd = sb + eb - e * w[1], sc + ec - e * w[2], sd + ed - e * w[3]
+    o = point(nodes, a)
+    p, s, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
+    return (
+        sb * p[0] + sc * s[0] + sd * r[0],
+        sb * p[1] + sc * s[1] + sd * r[1],
+        sb * p[2] + sc * s[2] + sd * r[2],
+    )
 
 
 def curvature(flow: MeshArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001

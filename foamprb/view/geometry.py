@@ -175,7 +175,7 @@ def read_plane(text: str, low: Floats, high: Floats) -> tuple[Floats, Floats]:
 
 
 def cut(flow: MeshFlow, origin: Floats, normal: Floats) -> Slice:
-    """Return speed and shear rate of a flow on a plane, linear in each tetrahedron as for the particles.
+    """Return speed and shear rate of a flow on a plane, from the values at the nodes.
 
     Parameters
     ----------

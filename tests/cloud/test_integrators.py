@@ -411,7 +411,9 @@ def test_jumps_of_the_gradient_between_coarse_cells_do_not_shorten_steps(coarse_
     assert taken < 4.0
     assert np.all(p.status == exact.status)
     # The way is at most 1 m long, and nearby ways part by little.
-    assert np.linalg.norm(p.x - exact.x, axis=1).max() < 2.0 * tolerance
+    off = np.linalg.norm(p.x - exact.x, axis=1)
+    assert np.sqrt(np.mean(off**2)) < 0.5 * tolerance
+    assert np.quantile(off, 0.99) < 2.0 * tolerance
 
 
 def test_rosenbrock_and_the_papers_scheme_go_to_one_limit():

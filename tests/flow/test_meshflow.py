@@ -7,6 +7,8 @@ import pytest
 from mesh_shapes import block, boundary, box_patches, corners, cyclic_row, grid, interfaces, merged, period
 
 from foamprb.errors import InputError
+from foamprb.flow.fluxes import free_nodes
+from foamprb.flow.mesh.arrays import FREE
 from foamprb.flow.mesh.folds import FOLDED
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
@@ -132,7 +134,7 @@ def test_nodes_are_points_and_centres_with_their_values(random):
     np.testing.assert_array_equal(nodes[:, :3], np.concatenate([mesh.points, mesh.centres]))
     np.testing.assert_array_equal(nodes[:, 3:6], u)
     np.testing.assert_array_equal(nodes[:, 6:15], l.reshape(-1, 9))
-    assert not nodes[:, 15].any()
+    assert np.array_equal(nodes[:, FREE], free_nodes(mesh))
     name, u_nodes, l_nodes = flow.at_nodes()
     assert name == "0.25"
     np.testing.assert_array_equal(u_nodes, u)

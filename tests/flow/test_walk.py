@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import permutations, product
+from itertools import combinations, permutations, product
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ from mesh_shapes import (
 
 from foamprb.compile.link import link
 from foamprb.errors import InputError
-from foamprb.flow.mesh.arrays import frame, no_mesh
+from foamprb.flow.mesh.arrays import FREE, frame, no_mesh
 from foamprb.flow.mesh.locator import cell_boxes
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import LONG, MeshFlow
@@ -436,8 +436,11 @@ def test_cells_and_patches_of_a_flow():
 @pytest.fixture
 def tetrahedra(random):
     """Arrays of two tetrahedra among eight nodes with values of their own, and of turbulence."""
+    nodes = random.normal(size=(8, 16))
+    nodes[:, FREE] = 1.0
+    nodes[[1, 2, 4], FREE] = 0.0
     return no_mesh()._replace(
-        nodes=random.normal(size=(8, 16)),
+        nodes=nodes,
         turbulence=random.normal(size=(8, 8)),
         tets=np.array([[0, 1, 2, 3], [6, 2, 7, 4]]),
     )
@@ -448,12 +451,22 @@ def shares(nodes, tet, x):
     return np.linalg.solve(np.vstack([nodes[tet, :3].T, np.ones(4)]), [*x, 1.0])
 
 
+def quadratic(nodes, rows, w):
+    """The value at weights w: that of the linear field, and the bends along the edges off the walls."""
+    u = w @ nodes[rows, 3:6]
+    for (i, a), (j, b) in combinations(enumerate(rows), 2):
+        bend = (nodes[a, 6:15] - nodes[b, 6:15]).reshape(3, 3) @ (nodes[b, :3] - nodes[a, :3])
+        u = u + 0.5 * w[i] * w[j] * nodes[a, FREE] * nodes[b, FREE] * bend
+    return u
+
+
 @pytest.mark.parametrize("host", [0, 1])
-def test_values_between_nodes_are_linear_in_each_component(tetrahedra, host, random):
+def test_the_gradient_is_linear_between_nodes_and_the_velocity_quadratic(tetrahedra, host, random):
+    """Along edges between two nodes off the walls; nodes 1, 2 and 4 are on walls."""
     arrays, x = tetrahedra, tuple(random.normal(size=3))
     w, rows = shares(arrays.nodes, arrays.tets[host], x), arrays.tets[host]
     u, l, u_t = sample(arrays, host, x, 0.3)
-    assert u == pytest.approx(w @ arrays.nodes[rows, 3:6], rel=1e-9)
+    assert u == pytest.approx(quadratic(arrays.nodes, rows, w), rel=1e-9)
     assert l == pytest.approx(w @ arrays.nodes[rows, 6:15], rel=1e-9)
     assert u_t == (0.0, 0.0, 0.0)
     k, epsilon, slope, drift = turbulence(arrays, host, x, 0.3)

@@ -21,15 +21,18 @@ def runs(tmp_path_factory):
     ]
 
 
-def test_programs_agree_better_than_meshes(runs):
+def test_programs_converge_to_the_same_places(runs):
+    """On the coarse mesh cellPoint, linear between the nodes, is farther from them than foamprb."""
     (ours, theirs), (our_best, their_best) = runs
     coarse = np.median(elbow.distances(ours, theirs))
     fine = np.median(elbow.distances(our_best, their_best))
-    of_the_mesh = [np.median(elbow.distances(*pair)) for pair in ((ours, their_best), (theirs, our_best))]
-    assert fine < 0.3 * coarse
-    assert coarse < 0.5 * min(of_the_mesh)
+    our_error, their_error = (
+        np.median(elbow.distances(*pair)) for pair in ((ours, their_best), (theirs, our_best))
+    )
+    assert fine < 0.2 * coarse
+    assert our_error < 0.5 * their_error
     # Of 64 m.
-    assert fine < 0.04
+    assert fine < 0.2
 
 
 def test_fates_are_alike(runs):

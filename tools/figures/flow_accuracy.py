@@ -18,6 +18,7 @@ import numpy as np
 import pyvista
 from numpy.typing import NDArray
 
+from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.case import select_time
@@ -49,8 +50,9 @@ class Pipe(NamedTuple):
 
 
 def ours(mesh: Mesh, cells: Floats, boundary: Floats) -> Sampler:
-    """Return nodal u and ∇u of foamprb."""
-    flow = MeshFlow(mesh, *Reconstruction(mesh)(cells, boundary))
+    """Return u and ∇u of foamprb, with the fluxes that follow from them."""
+    u, l = Reconstruction(mesh)(cells, boundary)
+    flow = MeshFlow(mesh, u, l, correction=Conservation(mesh)(u, l))
     return lambda x: flow.sample(x, flow.locate(x), 0.0)
 
 

@@ -477,9 +477,19 @@ def _fluid_slope(block: Any, i: int, h: Any, v: Vector, du: Vector) -> Vector:
         Change of the fluid's over the step, m/s.
     """
     a_u, bend, way = fluid_acceleration(block, i, v), load3(block, during.start_a, i), _way(block, i)
-    # The body as it is predicted.
-    a_end = acceleration_at_end(block, i, (v[0] + h * bend[0], v[1] + h * bend[1], v[2] + h * bend[2]))
-    chord = chord_error(h, way, a_u, a_end)
+    # The fluid at the end, with the slip of the body as it is or as it is predicted. Thus the jumps of the
+    # fluid's velocity between cells, which u_t leaves out and a lagging body does not follow, do not count.
+    u, u_end = load3(block, during.start_u, i), load3(block, during.end_u, i)
+    kept = (u_end[0] + v[0] - u[0], u_end[1] + v[1] - u[1], u_end[2] + v[2] - u[2])
+    seen = (
+        kept[0] + h * (bend[0] - a_u[0]),
+        kept[1] + h * (bend[1] - a_u[1]),
+        kept[2] + h * (bend[2] - a_u[2]),
+    )
+    a_end = acceleration_at_end(block, i, seen)
+    chord = np.minimum(
+        chord_error(h, way, a_u, a_end), chord_error(h, way, a_u, acceleration_at_end(block, i, kept))
+    )
     straight = chord < parabola_error(h, way, du, a_u, a_end)
     # The body as it starts: a bent path counts for more than the parabola is off by, so that steps are short
     # enough for forces that change along it, too.

@@ -16,12 +16,16 @@ TOLERANCE = 1e-9
 Weights follow from differences of coordinates: their round-off is about 1e-16 × distance from the origin.
 """
 
+FREE = 15
+"""Column of the nodes that is 0 for those on walls, else 1."""
+
 
 class MeshArrays(NamedTuple):
     """Arrays of a flow on a mesh that the kernels read; SI units, indices int32."""
 
     nodes: Floats
-    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, one spare: two cache lines a node."""
+    """(n_nodes, 16): x y z, u v w, the nine ∂u_i/∂x_j row by row, and 1, or 0 if the node lies on a wall: two
+    cache lines a node."""
     n_points: int
     """Number of mesh points; the centre of cell c is node ``n_points + c``."""
     tets: Ints
@@ -71,6 +75,10 @@ class MeshArrays(NamedTuple):
     2 × triangle, + 1 if an edge of it may be the nearest wall."""
     turbulence: Floats
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); no rows if they were not read."""
+    correction: NDArray[np.float32]
+    """(n_tets, 8), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
+    through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
+    wall; and a quarter of the divergence of the velocity at each vertex. No rows for no correction."""
 
 
 _FLOATS = {
@@ -84,7 +92,8 @@ def no_mesh() -> MeshArrays:
     empty: dict[str, Any] = {name: np.empty(0, dtype=np.int32) for name in MeshArrays._fields}
     empty |= {name: np.empty((0, columns)) for name, columns in _FLOATS.items()}
     empty |= {name: np.empty((0, columns), dtype=np.int32) for name, columns in _TABLES.items()}
-    return MeshArrays(**empty | {"n_points": 0, "folds": np.empty(0, dtype=np.uint8)})
+    empty |= {"folds": np.empty(0, dtype=np.uint8), "correction": np.empty((0, 8), dtype=np.float32)}
+    return MeshArrays(**empty | {"n_points": 0})
 
 
 def point(table: Floats, i: int) -> Vector:

@@ -59,6 +59,10 @@ class Mesh:
     """(n_faces + 1,) into ``face_points``."""
     face_points: Ints
     """Points of each face, turning outwards from the owner; the first is the base of the face's fan."""
+    cell_face_start: Ints
+    """(n_cells + 1,) into ``cell_faces``."""
+    cell_faces: Ints
+    """Faces of each cell, in the order of its tetrahedra."""
     owner: Ints
     """(n_faces,)."""
     neighbour: Ints
@@ -196,6 +200,8 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         cell_points=cells[1],
         face_start=faces.start,
         face_points=faces.points,
+        cell_face_start=faces.first,
+        cell_faces=faces.of_cell,
         owner=owner,
         neighbour=neighbour,
         patches=patches,

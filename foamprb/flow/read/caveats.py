@@ -228,6 +228,16 @@ def _zones(
     return None if root is None else ", ".join(zone.key for zone in active_zones(root) if meant(zone))
 
 
+def keeps_volume(read: Callable[[str, Kind], FoamField]) -> bool:
+    """Return False in a compressible flow: the density varies, and ``phi``, if there is one, is of mass."""
+    if not _spread(_density(read)):
+        return True
+    try:
+        return read("phi", _FLUX).dimensions != MASS_FLUX
+    except InputError:
+        return False
+
+
 def _flux(
     read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
 ) -> tuple[Floats, str, str] | None:

@@ -18,6 +18,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
+from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PatchSurface
 from foamprb.flow.mesh.mesh import Mesh, build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -73,7 +74,8 @@ def read_mesh_file(
     path = Path(path)
     grid, mesh, surfaces, note = open_file(path, velocity, time, division)
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
-    return MeshFlow(mesh, *field(grid, surfaces), [note, *field.notes])
+    u, l, correction = field(grid, surfaces)
+    return MeshFlow(mesh, u, l, [note, *field.notes], correction=correction)
 
 
 def read_mesh_series(
@@ -113,7 +115,7 @@ def read_mesh_series(
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
     topology = _topology(grid, surfaces)
 
-    def read(name: str) -> tuple[Floats, Floats]:
+    def read(name: str) -> tuple[Any, ...]:
         whole, now = grid_and_surfaces(read_file(path, name), path)
         cells = solid_cells(whole, path)[0]
         join_components(velocity, cells, *(surface for _, surface in now))
@@ -125,7 +127,7 @@ def read_mesh_series(
             )
         return field(cells, now)
 
-    return series_of(path, mesh, names, read, period, [note, *field.notes])
+    return series_of(path, mesh, names, read, period, [note, *field.notes], conservative=True)
 
 
 class _NodalVelocity:
@@ -160,6 +162,7 @@ class _NodalVelocity:
         self._path, self._mesh, self._velocity, self._gradient = path, mesh, velocity, gradient
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
+        self._conserve = Conservation(mesh)
         if velocity in grid.cell_data:
             given = [velocity in surface.cell_data for _, surface in surfaces]
             self._valued: list[int] = np.flatnonzero(given).tolist()
@@ -184,8 +187,10 @@ class _NodalVelocity:
                 '-velocity "(Ux Uy Uz)".'
             )
 
-    def __call__(self, grid: Any, surfaces: Sequence[tuple[str, Any]]) -> tuple[Floats, Floats]:
-        """Return velocity and gradient at the nodes, from the data read at any time.
+    def __call__(
+        self, grid: Any, surfaces: Sequence[tuple[str, Any]]
+    ) -> tuple[Floats, Floats, NDArray[np.float32]]:
+        """Return velocity and gradient at the nodes and the correction, from the data read at any time.
 
         Raises
         ------
@@ -194,17 +199,20 @@ class _NodalVelocity:
         """
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
-            return from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
+            u, l = from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
+            return u, l, self._conserve(u, l)
         cells = _array(grid.cell_data, name, 3, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
             rows = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
             patch, surface = surfaces[index]
             boundary[rows] = _array(surface.cell_data, name, 3, path, f"on patch {patch}, face")
-        if not self._gradient:
-            return self._reconstruct(cells, boundary)
-        given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
-        return self._reconstruct(cells, boundary, given.reshape(-1, 3, 3).transpose(0, 2, 1))
+        slopes = None
+        if self._gradient:
+            given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
+            slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1)
+        u, l = self._reconstruct(cells, boundary, slopes)
+        return u, l, self._conserve(u, l)
 
 
 def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
 from foamprb.flow.meshflow import MeshFlow
@@ -30,7 +32,7 @@ from foamprb.flow.read.case import (
     select_time,
     select_times,
 )
-from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, refuse_absolute
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, keeps_volume, refuse_absolute
 from foamprb.flow.read.checks import (
     at_cells,
     notes_of_types,
@@ -212,7 +214,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     if rotations:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
-    at_nodes = _at_nodes(case, name, source, whole, Reconstruction(whole.mesh), cells, boundary)
+    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
+    at_nodes = _at_nodes(case, name, source, whole, operators, cells, boundary)
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
@@ -227,8 +230,8 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     u, l = at_nodes[:2]
     zones, turbulence = partial(case.zones, name), at_nodes[2] if source.turbulent else None
     if rotating:
-        return RotatingFlow(rotating, whole.mesh, u, l, notes, zones, name, turbulence)
-    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence)
+        return RotatingFlow(rotating, whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
+    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
 
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
@@ -241,17 +244,20 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     whole = case.mesh(names[0])
     first = velocities(case.field(names[0], source.velocity, VELOCITY_FIELD), whole)
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
-    reconstruct = Reconstruction(whole.mesh)
+    operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
 
-    def read(name: str) -> tuple[Floats, ...]:
+    def read(name: str) -> tuple[Any, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        return _at_nodes(case, name, source, whole, reconstruct, *values)
+        return _at_nodes(case, name, source, whole, operators, *values)
 
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
     notes += _caveats(case, names[-1], moving=False, turbulent=source.turbulent)
     zones = partial(case.zones, names[0])
-    return series_of(case.root, whole.mesh, names, read, period, [*notes, *flux], zones, source.turbulent)
+    notes += flux
+    return series_of(
+        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True
+    )
 
 
 def _at_nodes(
@@ -259,18 +265,20 @@ def _at_nodes(
     time: str,
     source: FlowSource,
     whole: CaseMesh,
-    reconstruct: Reconstruction,
+    operators: tuple[Reconstruction, Conservation],
     cells: Floats,
     boundary: Floats,
-) -> tuple[Floats, ...]:
-    """Return u and l at the nodes, and the turbulence if the source requests it."""
-    given = None
+) -> tuple[Any, ...]:
+    """Return u and l at the nodes, the turbulence if the source requests it, and the correction of u."""
+    reconstruct, conserve = operators
+    read, given = partial(case.field, time), None
     if source.gradient:
-        given = gradients(case.field(time, source.gradient, GRADIENT_FIELD), whole.mesh)
+        given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
     u, l = reconstruct(cells, boundary, given)
+    correction = conserve(u, l, keeps_volume(read))
     if not source.turbulent:
-        return u, l
-    return u, l, read_turbulence(partial(case.field, time), case.folder(time), whole, reconstruct)
+        return u, l, correction
+    return u, l, read_turbulence(read, case.folder(time), whole, reconstruct), correction
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:
