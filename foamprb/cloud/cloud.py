@@ -29,8 +29,8 @@ from foamprb.flow.base import Flow
 __all__ = ["Cloud", "Snapshot", "Stepper", "explain", "longest_semi_axis"]
 
 _REACH_MARGIN, _REACH_GROWTH = 1.25, 1.5
-_CHECKS = 8
-"""Number of times that the stability of ``paper`` is checked in a call of :meth:`Cloud.advance`."""
+_FIRST_CHECK = 4
+"""Steps before the stability of ``paper`` is first checked; it is again whenever they have doubled."""
 _ROUND_OFF = 1e-6
 """Share of a step by which it may end after the time until which the flow is ready."""
 
@@ -131,6 +131,7 @@ class Cloud:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")
         self._warned: set[str] = set()
+        self._next_check = self.step + _FIRST_CHECK
         self._reach_grows = True
         self._largest = float(p.R.max(initial=0.0))
         self._refuse_large()
@@ -167,11 +168,14 @@ class Cloud:
         before = p.counts()[Status.FAILED]
         for model in self.models.surroundings:
             self._warn_once(type(model).__name__, model.long_step(p, self.flow, self.medium, self.dt))
-        # A shape beyond the limit oscillates, and is at times within it.
-        checks = _CHECKS if self.models.integrator == PAPER.name and PAPER.name not in self._warned else 1
-        for part in np.diff(np.linspace(0, steps, checks + 1).astype(int)).tolist():
-            Stepper(self).advance(part)
-            if checks > 1 and part:
+        end, reached = self.step + steps, -1
+        while reached < self.step < end:
+            reached = self.step
+            checks = self.models.integrator == PAPER.name and PAPER.name not in self._warned
+            Stepper(self).advance(min(end, self._next_check if checks else end) - reached)
+            if checks and self.step >= self._next_check:
+                # A shape beyond the limit oscillates, and is at times within it.
+                self._next_check = self.step + max(self.step, _FIRST_CHECK)
                 _, text = instability(p, self.medium.mu, self.dt, self.models.material)
                 self._warn_once(PAPER.name, text)
         failed = p.counts()[Status.FAILED] - before
