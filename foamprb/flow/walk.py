@@ -194,21 +194,22 @@ def correction_at(
     at, nodes = np.uint64(row), flow.nodes
     qa, qb, qc, qd = correction[at, 0], correction[at, 1], correction[at, 2], correction[at, 3]
     fa, fb, fc, fd = nodes[a, FREE], nodes[b, FREE], nodes[c, FREE], nodes[d, FREE]
-    count = fa + fb + fc + fd
-    if count == 0.0:
-        fa = fb = fc = fd = 1.0
-    q, f = qa + qb + qc + qd, fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
-    sb, sc, sd = fb * w[1] * q - qb * f, fc * w[2] * q - qc * f, fd * w[3] * q - qd * f
+    q, count = qa + qb + qc + qd, fa + fb + fc + fd
+    # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k.
+    eb, ec, ed = correction[at, 5], correction[at, 6], correction[at, 7]
+    e = correction[at, 4] * w[0] + eb * w[1] + ec * w[2] + ed * w[3]
+    sb, sc, sd = (eb - e) * w[1], (ec - e) * w[2], (ed - e) * w[3]
+    if count == 4.0 or count == 0.0:
+        sb, sc, sd = sb + q * w[1] - qb, sc + q * w[2] - qc, sd + q * w[3] - qd
+    else:
+        f = fa * w[0] + fb * w[1] + fc * w[2] + fd * w[3]
+        sb, sc, sd = sb + fb * w[1] * q - qb * f, sc + fc * w[2] * q - qc * f, sd + fd * w[3] * q - qd * f
     if count == 1.0:
         # The side opposite the only free vertex has a uniform flux.
         q = fa * qa + fb * qb + fc * qc + fd * qd
         sb += q * (w[1] - fb)
         sc += q * (w[2] - fc)
         sd += q * (w[3] - fd)
-    # The second part is Σ e_k λ_k x_k − (Σ e_k λ_k) x, with x = Σ λ_k x_k.
-    eb, ec, ed = correction[at, 5] * w[1], correction[at, 6] * w[2], correction[at, 7] * w[3]
-    e = correction[at, 4] * w[0] + eb + ec + ed
-    sb, sc, sd = sb + eb - e * w[1], sc + ec - e * w[2], sd + ed - e * w[3]
     o = point(nodes, a)
     p, s, r = arm(nodes, b, o), arm(nodes, c, o), arm(nodes, d, o)
     return (
