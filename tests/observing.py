@@ -46,6 +46,7 @@ def observe(cloud, function, folder, writes=(200, 400, 700)):
 
 
 def go_on(cloud, functions, folder, writes):
+    folder.mkdir(exist_ok=True)
     for target in writes:
         while cloud.step < target:
             until = functions.next_sample(target)

@@ -108,6 +108,7 @@ def write_run(case: Path, moved: Motion, mesh: bool = True, fates: bool = False)
     if mesh:
         write_case(case, perturbation=0.0)
     folder = case / "postProcessing" / "softCloud"
+    folder.mkdir(parents=True, exist_ok=True)
     series = Series(ResultsFolder(folder, "softCloud"))
     for cloud in clouds(moved):
         series.append(cloud)

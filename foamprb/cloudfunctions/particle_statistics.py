@@ -77,6 +77,7 @@ class ParticleStatistics(SampledFunction):
         }
         stuck = _stuck_on_faces(cloud, mesh)
         areas = np.linalg.norm(mesh.boundary_areas, axis=1)
+        folder.mkdir(exist_ok=True)
         for name, values in fields.items():
             on_faces = stuck / areas if name == "deposition" else values[mesh.owner[mesh.n_internal :]]
             patches = {

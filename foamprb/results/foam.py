@@ -121,6 +121,8 @@ def write_lagrangian(
     own = time / "uniform" / "lagrangian" / folder.name / "cloudProperties"
     # Without this file OpenFOAM would expect barycentric coordinates, and find no particles.
     location = str(own.parent.relative_to(time.parent))
+    for place in (folder, own.parent):
+        place.mkdir(parents=True, exist_ok=True)
     write_text(own, _header("dictionary", own.name, location) + _GEOMETRY)
     n = len(points)
     lines = [

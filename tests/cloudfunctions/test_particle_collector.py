@@ -86,6 +86,7 @@ def orbit(folder, dt, function, turns=3.2):
         p.v[:] = radius * np.array([-np.sin(phase), np.cos(phase), 0.0])
         cloud.step = step + 1
         function_set.sample()
+    folder.mkdir(exist_ok=True)
     function_set.write(folder)
     return table(folder / "f/crossings.csv"), table(folder / "f/collector.csv")
 

@@ -1,5 +1,6 @@
 import errno
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from foamprb.errors import InputError
-from foamprb.results.atomic import atomic_write, drop_cache, only_writer, remove_unfinished
+from foamprb.results.atomic import atomic_write, drop_cache, only_writer, remove_unfinished, write_text
 
 
 def test_whole_file_is_written(tmp_path: Path) -> None:
@@ -45,6 +46,15 @@ def test_error_keeps_old_file(tmp_path: Path, error: type[BaseException]) -> Non
         write_half(path, error)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_folder_that_was_moved_is_not_made_anew(tmp_path: Path) -> None:
+    case = tmp_path / "case"
+    (case / "results").mkdir(parents=True)
+    case.rename(tmp_path / "elsewhere")
+    with pytest.raises(FileNotFoundError, match=re.escape(str(case / "results"))):
+        write_text(case / "results/file", "")
+    assert not case.exists()
 
 
 def test_two_writers_do_not_share_a_temporary_file(tmp_path: Path) -> None:

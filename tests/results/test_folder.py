@@ -14,7 +14,9 @@ from foamprb.results.pvd import Series, SnapshotFile
 def written(case, *places):
     for place in places:
         *region, cloud = place.split("/")
-        Series(ResultsFolder.of_case(case, cloud, *region)).relist([SnapshotFile(0.0, f"{cloud}_000000.vtp")])
+        folder = ResultsFolder.of_case(case, cloud, *region)
+        folder.path.mkdir(parents=True)
+        Series(folder).relist([SnapshotFile(0.0, f"{cloud}_000000.vtp")])
 
 
 @pytest.mark.parametrize(

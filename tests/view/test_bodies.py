@@ -222,6 +222,7 @@ def test_a_cloud_without_particles(tmp_path):
     none = dataclasses.replace(
         empty, points=np.zeros((0, 3)), arrays={name: array[:0] for name, array in empty.arrays.items()}
     )
+    folder.mkdir(parents=True)
     Series(ResultsFolder(folder, "softCloud")).append(none)
     bodies = gather(open_run(tmp_path), [0])
     assert bodies.x.shape == (1, 0, 3)
