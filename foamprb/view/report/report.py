@@ -219,7 +219,7 @@ def _deposition(given: _Given) -> PageSection | None:
         return None
     x = np.stack([fates[key] for key in ("x1", "y1", "z1")], axis=1)
     walls = {
-        surface.name: deposits(surface, x[here])
+        surface.name: deposits(surface, x[here], geometry.flat)
         for surface in geometry.surfaces
         if (here := stuck & (fates["patch"] == surface.name)).any()
     }
@@ -241,9 +241,10 @@ def _deposition(given: _Given) -> PageSection | None:
     )
     for name, own in sorted(walls.items(), key=lambda item: -item[1].number)[:_MOST_WALLS]:
         how = "unrolled about its axis" if own.across[1] == "around" else "in its plane"
-        drawn += given.figure(
-            f"deposits-{name}", plots.unrolled(own), f"{name}, {how}: particles per area; dots are particles."
-        )
+        caption = f"{name}, {how}: particles per area; dots are particles."
+        if own.flat:
+            caption = f"{name}, along the wall: particles per area."
+        drawn += given.figure(f"deposits-{name}", plots.unrolled(own), caption)
     return PageSection("deposition", "Deposition on walls", listed + grid(drawn))
 
 
