@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+import zlib
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, TypeAlias
 
 from foamprb.errors import InputError
 from foamprb.results.atomic import write_text
 from foamprb.results.folder import MANIFEST
 
 FORMAT = 1
+
+Checksum: TypeAlias = list[int]
+"""Size and CRC-32 of a file."""
 
 
 class Manifest:
@@ -78,9 +82,26 @@ class Manifest:
         self.files -= {file for file in self._expected if not file.exists()}
         self._expected = files
         self.files |= self._expected
+        self._write({})
+
+    def _write(self, sums: Mapping[str, Checksum]) -> None:
         names = sorted(file.relative_to(self.folder).as_posix() for file in self.files)
-        content = {"format": FORMAT, "files": names, "sha256": _digest(names)}
+        content = {"format": FORMAT, "files": names, "sha256": _digest(names), "sums": sums}
         write_text(self.path, f"{json.dumps(content, indent=1)}\n")
+
+    def seal(self, contents: Mapping[Path, Path]) -> None:
+        """Store the checksums of files that no longer change, until the next :meth:`expect`.
+
+        ``contents`` gives, for each file, the file that has its contents now.
+
+        Raises
+        ------
+        OSError
+            If a file cannot be read, or the manifest cannot be written.
+        """
+        self._write(
+            {file.relative_to(self.folder).as_posix(): checksum(contents[file]) for file in sorted(contents)}
+        )
 
     def remove(self, files: Iterable[Path]) -> None:
         """Remove listed files, in order, and the folders that become empty.
@@ -96,6 +117,24 @@ class Manifest:
             for parent in file.relative_to(self.folder).parents[:-1]:
                 with suppress(OSError):
                     (self.folder / parent).rmdir()
+
+
+def checksum(path: Path) -> Checksum:
+    """Return the size and the CRC-32 of a file."""
+    size, code = 0, 0
+    with path.open("rb") as file:
+        while chunk := file.read(1 << 22):
+            size, code = size + len(chunk), zlib.crc32(chunk, code)
+    return [size, code]
+
+
+def has_changed(path: Path, folder: Path) -> bool:
+    """Return whether a file in a run's folder differs from the file that the run left there at its end."""
+    try:
+        sum_then = json.loads((folder / MANIFEST).read_bytes())["sums"][path.relative_to(folder).as_posix()]
+        return bool(checksum(path) != sum_then)
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return False
 
 
 def _refuse_links(folder: Path, files: Iterable[Path]) -> None:

@@ -34,7 +34,7 @@ def require_kind(kind: str) -> None:
 
 
 def write_table(
-    path: Path, columns: Mapping[str, Column], before: Callable[[], object] = lambda: None
+    path: Path, columns: Mapping[str, Column], before: Callable[[Path], object] = lambda _: None
 ) -> None:
     """Write a table, in one step; the ending of the file selects its kind.
 
@@ -49,7 +49,7 @@ def write_table(
     columns
         Numbers or text of each column, all of the same length n, by name and in order.
     before
-        Called when all is written, before the file takes its name; if it raises, no file remains.
+        Called with the temporary file when all is written; if it raises, no file remains.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def write_table(
             for start in range(0, max(lengths.values(), default=0), _CHUNK):
                 cells = (_texts(array[start : start + _CHUNK]) for array in arrays.values())
                 file.writelines(",".join(row) + "\n" for row in zip(*cells, strict=True))
-        before()
+        before(temporary)
 
 
 def read_table(path: Path, words: Collection[str] = ()) -> dict[str, NDArray[Any]]:
@@ -113,7 +113,7 @@ def _parquet(what: str) -> tuple[Any, Any]:
     return load("pyarrow", "parquet", f"{what} needs"), importlib.import_module("pyarrow.parquet")
 
 
-def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[], object]) -> None:
+def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Callable[[Path], object]) -> None:
     """Write Parquet. Its bytes depend on nothing but the columns and the version of pyarrow."""
     arrow, parquet = _parquet(str(path))
     plain = {name: _plain(array) for name, array in arrays.items()}
@@ -126,7 +126,7 @@ def _write_parquet(path: Path, arrays: Mapping[str, NDArray[Any]], before: Calla
             parquet.write_table(
                 table, file, compression="zstd", use_dictionary=words, use_byte_stream_split=split
             )
-        before()
+        before(temporary)
 
 
 def _plain(array: NDArray[Any]) -> NDArray[Any]:

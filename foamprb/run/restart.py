@@ -25,6 +25,7 @@ from foamprb.cloud.state import VARIABLES, Particles
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.errors import InputError
 from foamprb.results.checkpoint import Checkpoint
+from foamprb.results.manifest import Checksum, checksum
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd, with_ending
 from foamprb.settings.settings import Settings
 
@@ -32,8 +33,6 @@ log = logging.getLogger("foamprb")
 
 Sums: TypeAlias = list[list[float]]
 Fingerprint: TypeAlias = dict[str, str | Sums]
-Checksum: TypeAlias = list[int]
-"""Size of a file, bytes, and its CRC-32."""
 
 # Settings without effect on the physics, and settings that the cloud's own fields represent.
 _LEFT_OUT = ("case", "file", "name", "solution", "traction", "drag", "touching", "overrides")
@@ -114,16 +113,8 @@ def checksums(
             found |= {name: known[name] for name in names}
         else:
             files = files_of(folder / entry.file)
-            found |= {file.relative_to(folder).as_posix(): _checksum(file) for file in files}
+            found |= {file.relative_to(folder).as_posix(): checksum(file) for file in files}
     return found
-
-
-def _checksum(path: Path) -> Checksum:
-    size, code = 0, 0
-    with path.open("rb") as file:
-        while chunk := file.read(1 << 22):
-            size, code = size + len(chunk), zlib.crc32(chunk, code)
-    return [size, code]
 
 
 def refuse_changes(checkpoint: Checkpoint, marks: Fingerprint, where: str) -> None:

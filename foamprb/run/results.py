@@ -26,14 +26,13 @@ from foamprb.results.atomic import only_writer, remove_unfinished
 from foamprb.results.background import Writer
 from foamprb.results.checkpoint import Checkpoint, Checkpoints
 from foamprb.results.folder import FAILURES, FATES, KINDS
-from foamprb.results.manifest import Manifest
+from foamprb.results.manifest import Checksum, Manifest
 from foamprb.results.pvd import Series, files_of, read_pvd, with_ending
 from foamprb.results.tables import Column, write_table
 from foamprb.results.vtk import Parts
 from foamprb.run.description import renew_record, write_record
 from foamprb.run.job import Job
 from foamprb.run.restart import (
-    Checksum,
     checkpoint_of,
     checksums,
     fingerprint,
@@ -224,13 +223,16 @@ class Results:
         self._require_place()
         failed = np.flatnonzero(self._job.cloud.particles.status == Status.FAILED)
 
-        def list_them() -> None:
+        def finish(fates: Path) -> None:
             self._writer.finish()
             self._manifest.expect([self._fates, self._failures] if len(failed) else [self._fates])
+            if len(failed):
+                _write_failures(self._failures, self._job, failed)
+            others = {file for file in self._manifest.files - {self._fates} if file.suffix[1:] in KINDS}
+            others |= {self._job.folder.record, self._job.folder.pvd}
+            self._manifest.seal({file: file for file in others if file.is_file()} | {self._fates: fates})
 
-        _write_fates(self._fates, self._job, list_them)
-        if len(failed):
-            _write_failures(self._failures, self._job, failed)
+        _write_fates(self._fates, self._job, finish)
 
     def _gathered(self, stepper: Stepper) -> Cloud:
         """Return the cloud with the state of the last step, after earlier writes have ended."""
@@ -381,7 +383,7 @@ def _times_of_change(folders: Iterable[Path]) -> dict[Path, int]:
     return found
 
 
-def _write_fates(path: Path, job: Job, before: Callable[[], object]) -> None:
+def _write_fates(path: Path, job: Job, before: Callable[[Path], object]) -> None:
     p = job.cloud.particles
     fates = np.array(STATUS_NAMES, dtype=object)
     # The last name belongs to the code −1.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import logging
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,6 +22,7 @@ from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.vtk_guard import require_survival
 from foamprb.flow.read.vtk_reader import vtk_messages
 from foamprb.results.folder import FATES, HOW, ResultsFolder
+from foamprb.results.manifest import has_changed
 from foamprb.results.pvd import SnapshotFile, files_of, read_pvd
 from foamprb.results.tables import read_table
 from foamprb.results.vtk import PointCloud, Tracks, poly_data
@@ -29,6 +31,8 @@ from foamprb.view.libraries import load
 
 if TYPE_CHECKING:
     import pyvista
+
+log = logging.getLogger("foamprb")
 
 __all__ = ["NEEDED", "Run", "Table", "open_run"]
 
@@ -99,6 +103,7 @@ class Run:
         file = self.results.record
         if not file.exists():
             return {}
+        self.warn_if_changed(file)
         try:
             found = json.loads(file.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
@@ -106,6 +111,16 @@ class Run:
         if not isinstance(found, dict):
             raise InputError(f"{file} is damaged: it is not the record of a run.")
         return found
+
+    def warn_if_changed(self, file: Path) -> None:
+        """Warn, once, about a file that was changed after the end of the run."""
+        if file not in self._checked and has_changed(file, self.folder):
+            log.warning("%s changed after the end of the run; its present contents are used.", file)
+        self._checked.add(file)
+
+    @cached_property
+    def _checked(self) -> set[Path]:
+        return set()
 
     @property
     def tables(self) -> tuple[str, ...]:
@@ -133,6 +148,7 @@ class Run:
         InputError
             If there is no such table, or it is damaged; if it is Parquet and pyarrow is not installed.
         """
+        self.warn_if_changed(self.file(name))
         return read_table(self.file(name), _WORDS)
 
     def frame(self, name: str = "fates") -> Any:
@@ -291,7 +307,9 @@ def open_run(
     fields = data.GetFieldData()
     units = dict(text.split(" ", 1) for text in _texts(fields, "units"))
     names = {key: meanings for key in components if (meanings := _texts(fields, f"{key}Names"))}
-    return Run(folder, entries, units, names, components)
+    run = Run(folder, entries, units, names, components)
+    run.warn_if_changed(folder.pvd)
+    return run
 
 
 def _read(path: Path, arrays: Iterable[str] | None = None) -> Any:
