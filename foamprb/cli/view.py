@@ -37,8 +37,8 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--range", type=float, nargs=2, metavar=("LOW", "HIGH"), help="limits of the colours [-percentiles]"
     )
     ranges.add_argument(
-        "--percentiles", type=float, nargs=2, metavar=("LOW", "HIGH"), default=[1.0, 99.0],
-        help="percentiles of all values, as limits of the colours [1 99]; 0 100: all values",
+        "--percentiles", type=float, nargs=2, metavar=("LOW", "HIGH"), default=[5.0, 95.0],
+        help="percentiles of all values, as limits of the colours [5 95]; 0 100: all values",
     )  # fmt: skip
     add("--enlargement", type=float, metavar="S", help="draw the bodies S times larger [automatic]")
     add("--slice", metavar="PLANE", help="show the flow on a plane: x, z=0.01 or '(point) (normal)'")

@@ -147,14 +147,23 @@ def _written(selected: Mapping[str, object]) -> dict[str, str]:
 
 
 def _ranges(cloud: Cloud) -> dict[str, Any]:
-    """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes."""
+    """Return the time of the flow, s, and the ranges of |U|, m/s, and shear rate, 1/s, at its nodes.
+
+    ``direction`` is the mean velocity of the nodes over their mean speed.
+    """
     time, u, l = cloud.flow.at_nodes()
     if len(u) == 0:
-        return {"time": time, "U": None, "shearRate": None}
+        return {"time": time, "U": None, "shearRate": None, "direction": None}
     # Part by part: norms of all nodes at once would need the memory of another field.
     parts = [slice(start, start + _CHUNK) for start in range(0, len(u), _CHUNK)]
     speeds = _range(np.linalg.norm(u[part], axis=1) for part in parts)
-    return {"time": time, "U": speeds, "shearRate": _range(shear_rate(tuple(l[part].T)) for part in parts)}
+    total = sum(float(np.linalg.norm(u[part], axis=1).sum()) for part in parts)
+    return {
+        "time": time,
+        "U": speeds,
+        "shearRate": _range(shear_rate(tuple(l[part].T)) for part in parts),
+        "direction": (u.sum(axis=0) / total).tolist() if total > 0.0 else None,
+    }
 
 
 def _range(parts: Iterable[NDArray[np.float64]]) -> tuple[float, float]:

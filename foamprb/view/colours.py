@@ -111,9 +111,9 @@ def written(value: float, unit: str, most: float) -> str:
     return f"{text} {name}" if name else text
 
 
-def number(value: float) -> str:
+def number(value: float, digits: int = 3) -> str:
     """Return the text of a tick of a scale."""
-    return f"{value:.3g}".replace("-", "−")
+    return f"{value:.{digits}g}".replace("-", "−")
 
 
 def ticks(low: float, high: float, wanted: int = 5) -> list[float]:

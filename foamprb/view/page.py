@@ -24,6 +24,7 @@ from foamprb.view.scene import (
     INSETS,
     MARGIN,
     MOST_DEPOSITS,
+    SCALE_BAR,
     TALL,
     VIEW_ANGLE,
     Camera,
@@ -126,6 +127,8 @@ class Page:
             "colour": list(scene.colour),
             "range": None if scene.range is None else list(scene.range),
             "first": scene.first,
+            "directions": {name: _rounded(vector) for name, vector in scene.directions.items()},
+            "scaleBar": SCALE_BAR,
             "maps": {name: colour_map(name).tobytes().hex() for name in MAPS},
             "planeMaps": {"light": LIGHT.plane.tobytes().hex(), "dark": DARK.plane.tobytes().hex()},
         }

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -22,15 +23,21 @@ BODY_SIZE = 1 / 16
 """Default diameter at which bodies at rest are drawn, as a share of the second longest side."""
 WINDOW_LENGTH = 3.5
 """Visible length of a long geometry, as a multiple of the second longest side."""
+LONG = 8.0
+"""A geometry is visible as a whole unless it is longer than this multiple of the second longest side."""
 VIEW_ANGLE = 30.0
 """Vertical, degrees."""
 MARGIN = 1.06
 """Ratio of the visible size to the size that must be visible."""
-INSETS = (66.0, 88.0)
+INSETS = (66.0, 94.0)
 """Pixels that texts take above and below the scene."""
+SCALE_BAR = 120.0
+"""Largest length of the scale bar, pixels of the page."""
+COHERENT = 0.3
+"""Least ratio of the mean velocity's size to the mean speed at which the flow has a direction."""
 TALL = 1.6
 """A long object takes at least 1/1.6 of the height of the picture. Its length is cut for that."""
-PERCENTILES = (1.0, 99.0)
+PERCENTILES = (5.0, 95.0)
 """Default percentiles of all shown values that limit the colours; values beyond may be clamped."""
 ALL = (0.0, 100.0)
 """Percentiles that include all values."""
@@ -104,6 +111,10 @@ class Scene:
         Index of the time that is shown first.
     percentiles
         Percentiles of all values that limit the colours without a range.
+    flow
+        Unit vector of the mean velocity; zero if the flow has no main direction.
+    gravity
+        Unit vector; zero without gravity.
     """
 
     title: str
@@ -119,6 +130,8 @@ class Scene:
     range: tuple[float, float] | None
     first: int
     percentiles: tuple[float, float] = PERCENTILES
+    flow: Floats = field(default_factory=lambda: np.zeros(3))
+    gravity: Floats = field(default_factory=lambda: np.zeros(3))
 
     @cached_property
     def limits(self) -> tuple[float, float]:
@@ -128,10 +141,20 @@ class Scene:
     @cached_property
     def beyond(self) -> tuple[bool, bool]:
         """Whether shown values of the chosen array lie below the limits, and above them."""
-        low, high = self.limits
-        least, most = extremes_of(self.bodies, *self.colour) or (low, high)
+        (low, high), (least, most) = self.limits, self.extremes
         slack = _SLACK * (high - low)
         return least < low - slack, most > high + slack
+
+    @cached_property
+    def extremes(self) -> tuple[float, float]:
+        """Least and largest shown value of the chosen array."""
+        return extremes_of(self.bodies, *self.colour) or self.limits
+
+    @property
+    def directions(self) -> dict[str, Floats]:
+        """Unit vectors of the flow and of gravity, if they have one, by their labels."""
+        both = {"flow": self.flow, "gravity": self.gravity}
+        return {name: vector for name, vector in both.items() if vector.any()}
 
     def codes(self, name: str) -> Codes:
         """Return a property that has names."""
@@ -209,11 +232,24 @@ def _round_up(value: float) -> float:
     return float(f"{math.ceil(value / power * (1 - 1e-6)) * power:.12g}")
 
 
-def round_down(value: float) -> float:
-    """Return the largest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not above a positive value."""
+def round_down(value: float, digits: Sequence[int] = (1, 2, 3, 4, 5, 6, 8)) -> float:
+    """Return the largest of some digits times a power of ten that is not above a positive value."""
     power = 10.0 ** math.floor(math.log10(value))
-    digit = max(digit for digit in (1, 2, 3, 4, 5, 6, 8) if digit * power <= value * (1 + 1e-12))
+    digit = max(digit for digit in digits if digit * power <= value * (1 + 1e-12))
     return float(f"{digit * power:.12g}")
+
+
+def main_direction(mean: object) -> Floats:
+    """Return the unit vector of a mean velocity that is relative to the mean speed, or zero.
+
+    The argument comes from ``run.json`` and may be anything.
+    """
+    try:
+        v = np.asarray(mean, dtype=np.float64)
+    except (TypeError, ValueError):
+        return np.zeros(3)
+    size = float(np.linalg.norm(v)) if v.shape == (3,) else 0.0
+    return v / size if COHERENT <= size < math.inf else np.zeros(3)
 
 
 def automatic_enlargement(bodies: Bodies, sides: Floats) -> float:
@@ -258,9 +294,9 @@ def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats)
     """Return the first view of a geometry and bodies.
 
     A long geometry lies across the picture, viewed from the side, a little from above and from one end. If it
-    is much longer than wide, only the part with most bodies is visible. A thin geometry is viewed along its
-    shortest side, or from above if gravity acts along that side. One with ``empty`` patches or wedges is
-    viewed along their normal. Gravity points down.
+    is longer than :data:`LONG` widths, only the part with most bodies is visible. A thin geometry is viewed
+    along its shortest side, or from above if gravity acts along that side. One with ``empty`` patches or
+    wedges is viewed along their normal. Gravity points down.
 
     Parameters
     ----------
@@ -285,7 +321,7 @@ def camera_for(geometry: Geometry | None, bodies: Bodies, first: int, g: Floats)
     signs = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
     extent, second = float(np.abs(right @ axes) @ sides), float(np.sort(sides)[1])
     window = WINDOW_LENGTH * second
-    if not 0.0 < window < extent:
+    if not 0.0 < LONG * second < extent:
         return Camera(middle, towards, up, 0.5 * signs * sides @ axes.T @ frame.T, math.inf)
     places = bodies.x[first][bodies.shown[first]] @ right
     ends = middle @ right + 0.5 * extent * np.array([-1.0, 1.0])

@@ -34,6 +34,7 @@ from foamprb.view.scene import (
     box,
     busiest,
     camera_for,
+    main_direction,
 )
 
 log = logging.getLogger("foamprb")
@@ -188,6 +189,11 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
     with suppress(InputError):
         g = np.array(read_gravity(request.case, run.results.region))
     corners = box(geometry, bodies)
+    try:
+        flow = run.record.get("flow")
+    except InputError as error:
+        log.warning("The direction of the flow is not shown: %s", error)
+        flow = None
     return Scene(
         title=title_of(request.case),
         subtitle=run.name,
@@ -202,6 +208,8 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         range=request.range,
         first=first,
         percentiles=request.percentiles,
+        flow=main_direction(flow.get("direction") if isinstance(flow, dict) else None),
+        gravity=g / (float(np.linalg.norm(g)) or 1.0),
     )
 
 

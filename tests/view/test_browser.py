@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 import shutil
 import time
 from collections.abc import Iterator
@@ -449,7 +450,7 @@ class TestControls:
     def test_colours_have_a_legend_with_a_unit(self, tab):
         tab.page.select_option("#colour", "U:magnitude")
         legend = tab.page.locator("#legends").inner_text()
-        assert "Velocity, magnitude (m/s)" in legend
+        assert "Velocity, magnitude (m/s)" in " ".join(legend.split())
         tab.page.fill("#range-high", "0.25")
         tab.page.keyboard.press("Tab")
         assert tab.run("foamprb.state.high") == 0.25
@@ -525,6 +526,24 @@ class TestControls:
         # Ink in the upper corners, where the title and the caption are.
         assert (image[20:120, 30:300].min(axis=2) < 60).any()
         assert (image[20:120, -300:-30].min(axis=2) < 60).any()
+        # The scale bar in the lower right corner.
+        assert (image[-80:-10, -300:-30].min(axis=2) < 60).any()
+
+    def test_the_scale_bar_is_that_of_the_plane_of_the_focus(self, tab):
+        for _ in range(2):
+            label = tab.page.get_attribute("#compass", "aria-label")
+            value, unit = re.search(r"scale bar of (\S+) (\w+)$", label).groups()
+            length = float(value) * {"m": 1.0, "mm": 1e-3}[unit]
+            assert value[0] in "125" or value.startswith("0.")
+            pixels = tab.run(
+                f"(() => {{ const e = foamprb.eye, along = {length} / foamprb.data.scene.frame.size, "
+                "a = e.target.clone().project(e.camera), "
+                "b = e.target.clone().addScaledVector(e.axes().right, along).project(e.camera); "
+                "return (b.x - a.x) / 2 * e.width; })()"
+            )
+            assert 47.0 < pixels <= 120.5
+            tab.run("foamprb.eye.zoom(0.1)")
+            tab.run("foamprb.draw()")
 
     def test_the_keys_are_listed(self, tab):
         tab.page.keyboard.press("h")
@@ -560,7 +579,7 @@ def test_nothing_overlaps_and_nothing_is_cut(browser, address, size, scheme):
         const sides = ({ left, top, right, bottom }) => [left, top, right, bottom];
         const box = (e) => sides(e.getBoundingClientRect());
         const of = (q) => [...document.querySelectorAll(q)].filter(e => e.checkVisibility()).map(box);
-        return [...of("#heading h1, #heading p"), ...of("#facts p"), ...of(".legend"),
+        return [...of("#heading h1, #heading p"), ...of("#facts p"), ...of(".legend"), ...of("#compass"),
                 ...of("#corner button, #transport button, #transport input, #transport select"),
                 ...of("#transport output, #labels span:not([hidden])")];
     })()""")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,7 +14,7 @@ from view_run import motion, write_run
 
 from foamprb.cli import main
 from foamprb.view.colours import DARK, LIGHT, rgb
-from foamprb.view.picture import draw, mark, sphere_for, window
+from foamprb.view.picture import _drawing, draw, mark, sphere_for, window
 from foamprb.view.results import open_run
 from foamprb.view.show import Request, make_scene
 
@@ -132,4 +134,24 @@ class TestPictures:
         monkeypatch.setattr(pyvista.Plotter, "show", lambda plotter: found.update(names=list(plotter.actors)))
         window(scene, (300, 200), LIGHT)
         assert found["limits"] == (0, 4)
-        assert {"bodies", "mark", "clock", "caption", "title", "legend"} <= set(found["names"])
+        assert {"bodies", "mark", "clock", "caption", "title", "legend", "scale", "axis x"} <= set(
+            found["names"]
+        )
+
+    def test_the_scale_bar_has_a_round_length_in_the_plane_of_the_focus(self, case):
+        scene = replace(make_scene(Request(case), open_run(case), range(5)), flow=np.array([0.6, 0.8, 0.0]))
+        drawing = _drawing(scene, (900, 900), LIGHT, texts=True, off_screen=True)
+        actors, eye = drawing.plotter.actors, drawing.plotter.camera
+        assert "direction flow" in actors
+        assert actors["scale"].input == "200 mm"
+        last = max(
+            int(name.split()[1]) for name in actors if name.startswith("compass") and "veil" not in name
+        )
+        bar = np.ptp(np.array(actors[f"compass {last}"].GetMapper().GetInput().points)[:, 0])
+        height = (
+            2.0
+            * np.linalg.norm(np.subtract(eye.position, eye.focal_point))
+            * math.tan(math.radians(eye.view_angle / 2))
+        )
+        assert bar / 900 == pytest.approx(0.2 / height, rel=1e-6)
+        drawing.plotter.close()

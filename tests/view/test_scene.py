@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 
@@ -158,6 +159,13 @@ class TestCamera:
         assert 68.0 < camera.focus[0] < 73.0
         np.testing.assert_allclose(camera.up, [0.0, 1.0, 0.0])
 
+    def test_a_step_of_six_widths_opens_whole(self, bodies):
+        """All of it is visible, though the bodies lie in a part."""
+        geometry = slab((6.0, 1.0, 0.01))._replace(flat=np.array([0.0, 0.0, 1.0]))
+        camera = camera_for(geometry, bodies, busiest(bodies), np.zeros(3))
+        np.testing.assert_allclose(camera.focus[:2], [3.0, 0.5])
+        assert camera.distance(2.0) * 2.0 * math.tan(math.radians(VIEW_ANGLE / 2)) > 3.0
+
     def test_a_flat_case_is_looked_at_straight(self):
         geometry = slab((2.0, 1.0, 0.01))._replace(flat=np.array([0.0, 0.0, 1.0]))
         camera = camera_for(geometry, EMPTY, 0, np.zeros(3))
@@ -182,12 +190,24 @@ class TestCamera:
             principal_axes(straight, np.zeros(3), np.array([9.0, 2.0, 1.0])), np.eye(3)
         )
 
+    @pytest.mark.parametrize(
+        ("recorded", "shown"),
+        [([0.8, 0.0, 0.0], [1.0, 0.0, 0.0]), ([0.1, 0.0, 0.0], None), (None, None), ("[1, 0]", None)],
+    )
+    def test_the_direction_of_the_flow_is_that_of_the_record(self, tmp_path, recorded, shown):
+        write_run(tmp_path, motion(4, 2), mesh=False)
+        run = open_run(tmp_path)
+        run.results.record.write_text(json.dumps({"flow": {"direction": recorded}}))
+        found = make_scene(Request(tmp_path), run, range(2)).directions
+        assert {name: vector.tolist() for name, vector in found.items()} == ({"flow": shown} if shown else {})
+
     def test_gravity_of_the_case_points_down(self, tmp_path):
         write_run(tmp_path, motion(4, 2), mesh=False)
         (tmp_path / "constant").mkdir()
         (tmp_path / "constant/g").write_text("FoamFile { format ascii; } value (0 0 -9.81);")
         scene = make_scene(Request(tmp_path), open_run(tmp_path), range(2))
         assert scene.camera.up.tolist() == [0.0, 0.0, 1.0]
+        assert scene.directions["gravity"].tolist() == [0.0, 0.0, -1.0]
 
 
 class TestNumbers:
@@ -264,8 +284,13 @@ class TestOutliers:
         assert limits_of(bodies, "D", "", PERCENTILES) == (0.0, pytest.approx(0.1))
         assert limits_of(bodies, "D", "", ALL) == limits_of(bodies, "D", "") == (0.0, 70.0)
 
-    def test_of_up_to_a_hundred_values_none_is_left_out(self):
-        assert limits_of(with_values([*[0.1] * 99, 7.0]), "D", "", PERCENTILES)[1] == 7.0
+    def test_three_in_a_hundred_at_a_wall_do_not_make_the_others_alike(self):
+        """In pitzDaily, most D lie below 0.1, and those at the walls near 1."""
+        bodies = with_values([*np.linspace(0.0, 0.1, 97), 0.8, 0.9, 1.0])
+        assert limits_of(bodies, "D", "", PERCENTILES) == (0.0, pytest.approx(0.1))
+
+    def test_of_up_to_twenty_values_none_is_left_out(self):
+        assert limits_of(with_values([*[0.1] * 19, 7.0]), "D", "", PERCENTILES)[1] == 7.0
         assert limits_of(with_values([]), "D", "", PERCENTILES) == (0.0, 1.0)
 
     def test_where_nearly_all_are_alike_the_others_count(self):

@@ -1,4 +1,4 @@
-"""Pictures of the page of ``foamprb view``: docs/view.png, view-dark.png and view-phone.png.
+"""Pictures of ``foamprb view``: docs/pipe.png by VTK; view.png, view-dark.png and view-phone.png of its page.
 
 Runs the pipe case of the tree and opens its page in Chromium, which draws by software, so that any machine
 makes the same pictures. Needs Chromium on PATH and the extra ``browser``.
@@ -79,7 +79,8 @@ def main() -> None:
         case = Path(scratch) / "pipe"
         shutil.copytree(ROOT / "cases/pipe", case, ignore=shutil.ignore_patterns("postProcessing"))
         page = Path(scratch) / "pipe.html"
-        for words in (["run"], ["view", "-output", str(page)]):
+        picture = ["view", "-png", str(options.output / "pipe.png")]
+        for words in (["run"], ["view", "-noBrowser", "-output", str(page)], picture):
             if foamprb([words[0], "-case", str(case), *words[1:]]) != 0:
                 raise SystemExit(1)
         with sync_playwright() as playwright:

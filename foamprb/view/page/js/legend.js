@@ -2,15 +2,24 @@
 
 import { colourOfName, number, pretty, readable, ticks } from "./colours.js";
 
+// Label of a legend, its unit, and as note the unit with the least and the largest value if they lie beyond the colours.
 const title = (spec) => {
-  const scale = spec.names ? { unit: "" } : readable(spec.unit, Math.max(Math.abs(spec.low), Math.abs(spec.high)));
-  return { text: spec.label, unit: scale.unit ? pretty(scale.unit) : "", factor: scale.factor };
+  if (spec.names) return { text: spec.label, unit: "", note: "", factor: 1 };
+  const { unit: name, factor } = readable(spec.unit, Math.max(Math.abs(spec.low), Math.abs(spec.high)));
+  const [below, above] = beyond(spec), text = (value) => number(value / factor, 2);
+  const range = [below ? `min ${text(spec.least)}` : "", above ? `max ${text(spec.most)}` : ""].filter(Boolean).join(", ");
+  const unit = pretty(name ?? "");
+  return { text: spec.label, unit, note: [unit ? `(${unit})` : "", range].filter(Boolean).join(" "), factor };
 };
+
+function beyond(spec) {
+  const slack = 1e-5 * (spec.high - spec.low);
+  return [spec.least < spec.low - slack, spec.most > spec.high + slack];
+}
 
 // Text of a tick, with ≤ or ≥ at an end if values lie beyond it.
 export function tickText(spec, value, factor) {
-  const slack = 1e-5 * (spec.high - spec.low);
-  const below = value === spec.low && spec.least < spec.low - slack, above = value === spec.high && spec.most > spec.high + slack;
+  const [under, over] = beyond(spec), below = value === spec.low && under, above = value === spec.high && over;
   return `${below ? "≤ " : above ? "≥ " : ""}${number(value / factor, 3)}`;
 }
 
@@ -18,11 +27,11 @@ export function showLegend(parent, spec) {
   const box = document.createElement("div");
   box.className = "legend";
   const heading = document.createElement("h3");
-  const { text, unit, factor } = title(spec);
+  const { text, unit, note, factor } = title(spec);
   heading.textContent = text;
-  if (unit) {
+  if (note) {
     const small = document.createElement("small");
-    small.textContent = `  (${unit})`;
+    small.textContent = note;
     heading.append(small);
   }
   box.append(heading);
@@ -60,7 +69,7 @@ export function showLegend(parent, spec) {
 export function paintLegends(context, specs, style, s, height) {
   let bottom = height - 22 * s;
   for (const spec of [...specs].reverse()) {
-    const { text, unit, factor } = title(spec);
+    const { text, note, factor } = title(spec);
     const left = 22 * s;
     if (spec.names) {
       context.font = `${13 * s}px ${style.font}`;
@@ -95,7 +104,7 @@ export function paintLegends(context, specs, style, s, height) {
     const width = context.measureText(`${text}  `).width;
     context.font = `${13 * s}px ${style.font}`;
     context.fillStyle = style.soft;
-    if (unit) context.fillText(`(${unit})`, left + width, bottom);
+    if (note) context.fillText(note, left + width, bottom);
     bottom -= 28 * s;
   }
 }

@@ -4,6 +4,7 @@ import { Color, ColorManagement, DataTexture, LinearFilter, LinearSRGBColorSpace
 import { Bodies } from "./bodies.js";
 import { Eye } from "./camera.js";
 import { drawChart } from "./chart.js";
+import { compassHeight, compassWidth, paintCompass } from "./compass.js";
 import { bytesOf, number, pretty, readable, table, tableOfNames, written } from "./colours.js";
 import { load } from "./data.js";
 import { paintLegends, showLegend } from "./legend.js";
@@ -98,7 +99,23 @@ function draw() {
   bodies.material.uniforms.pixel.value = tangent / eye.height;
   renderer.render(scene, eye.camera);
   placeLabels();
+  drawCompass();
 }
+
+function drawCompass() {
+  const canvas = $("compass"), ratio = renderer.getPixelRatio(), { scene: spec } = data;
+  const [width, height] = [compassWidth(spec), compassHeight].map((size) => Math.round(size * ratio));
+  if (canvas.width !== width) Object.assign(canvas, { width, height });
+  const context = canvas.getContext("2d");
+  context.clearRect(0, 0, width, height);
+  const text = paintCompass(context, 0, 0, eye.axes(), metresOfPixel(), spec, textStyle(), ratio);
+  canvas.setAttribute("aria-label", `Axes, ${Object.keys(spec.directions).map((name) => `direction of ${name}, `).join("")}scale bar of ${text}`);
+}
+
+// Length of a pixel of the page at the middle of the picture, m.
+const metresOfPixel = () => bodies.material.uniforms.pixel.value * eye.distance * data.scene.frame.size;
+
+const textStyle = () => ({ font: getComputedStyle(document.body).fontFamily, ink: variable("--ink"), soft: variable("--soft"), accent: variable("--accent") });
 
 function resize() {
   const { clientWidth: width, clientHeight: height } = $("stage");
@@ -116,7 +133,7 @@ function insets() {
   if (words.has("naked")) return [0, 0];
   const [above, below] = data.scene.home.insets, card = $("card");
   const covers = !card.hidden && getComputedStyle(card).position === "fixed";
-  return [above, covers ? card.offsetHeight - $("transport").offsetHeight : below];
+  return [above, covers ? card.offsetHeight - $("transport").offsetHeight : Math.max(below, $("bottom").offsetHeight + 12)];
 }
 
 // In the flow or on a wall.
@@ -213,7 +230,7 @@ function showPaths() {
 function placeLabels() {
   const kept = [];
   const point = new Vector3();
-  const blocked = [...$("stage").querySelectorAll("#heading, #facts, .legend")].map(boxOf);
+  const blocked = [...$("stage").querySelectorAll("#heading, #facts, .legend, #compass")].map(boxOf);
   for (const label of $("labels").children) {
     const patch = walls.patches[label.dataset.patch], anchor = data.surfaces[label.dataset.patch].anchor;
     label.hidden = true;
@@ -247,6 +264,8 @@ function describe(spec) {
   $("title").textContent = spec.title;
   $("subtitle").textContent = spec.subtitle;
   $("made").textContent = spec.made;
+  $("compass").style.width = `${compassWidth(spec)}px`;
+  $("compass").style.height = `${compassHeight}px`;
   $("notes").textContent = spec.notes.join(" ");
   for (const [key, meaning] of keys) {
     const term = document.createElement("dt"), what = document.createElement("dd");
@@ -408,6 +427,7 @@ function setSlice() {
 function showLegends() {
   $("legends").replaceChildren();
   for (const spec of [...legends].reverse()) if (spec && (spec.names || spec.table)) showLegend($("legends"), spec);
+  if (eye.width) resize();
 }
 
 function setEnlargement(value) {
@@ -620,7 +640,7 @@ async function paintPicture() {
   renderer.setSize(width, height, false);
   deposits.points.material.uniforms.ratio.value = before;
   draw();
-  const style = { font: getComputedStyle(document.body).fontFamily, ink: variable("--ink"), soft: variable("--soft") };
+  const style = textStyle();
   const write = (text, x, y, font, colour, align) => {
     context.font = font;
     context.fillStyle = colour;
@@ -639,6 +659,8 @@ async function paintPicture() {
   }
   context.textAlign = "left";
   paintLegends(context, legends, style, s, height * s);
+  const corner = boxOf($("compass"));
+  paintCompass(context, corner.left * s, corner.top * s, eye.axes(), metresOfPixel(), data.scene, style, s);
   return page;
 }
 
