@@ -25,6 +25,7 @@ Flows:
 Particles in a flow:
 
     spheres             particles at rest, as many as there are positions
+    drops               drops at rest, for the material ``drop``
     set_rest_shape      make ellipsoids at rest of them
     Particles           the arrays of all particles
     Status              what a particle is doing: pending, active, stuck, escaped or failed

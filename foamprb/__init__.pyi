@@ -28,6 +28,9 @@ from .cloud.state import (
     Status as Status,
 )
 from .cloud.state import (
+    drops as drops,
+)
+from .cloud.state import (
     set_rest_shape as set_rest_shape,
 )
 from .cloud.state import (
@@ -100,6 +103,7 @@ __all__ = [
     "add_material",
     "analytic",
     "context",
+    "drops",
     "execute",
     "log_ratio",
     "measure",

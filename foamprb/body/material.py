@@ -19,6 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foamprb.body.morphology import drop_derivatives, drop_energy
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -58,6 +59,8 @@ class Material(NamedTuple):
     """J d(J w_J)/dJ of (J, μ, λ), Pa, if P = φ F + ψ(J) F⁻ᵀ with φ constant: for the paper's scheme."""
     isochoric: bool = True
     """Whether a pressure may replace λ, as in the integrator without inertia."""
+    liquid: bool = False
+    """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
 
 
 def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
@@ -138,6 +141,7 @@ MATERIALS: dict[str, Material] = {
         saint_venant_kirchhoff_energy, saint_venant_kirchhoff_derivatives, isochoric=False
     ),
     "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
+    "drop": Material(drop_energy, drop_derivatives, liquid=True),
 }
 """Solids by their names in the settings."""
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.material import MATERIALS
 from foamprb.body.tensor import longest_stretch
 from foamprb.cloud.block import Medium
 from foamprb.cloud.contact import contact_normals
@@ -114,6 +115,7 @@ class Cloud:
                     "or name it in decoupled"
                 )
         p = self.particles
+        _refuse_mixture(p, self.models.material)
         tense = bool((p.gamma != 0.0).any())
         p.number[:] = np.arange(p.size)
         _refuse_extreme(p, self.medium)
@@ -123,7 +125,7 @@ class Cloud:
             moving = p.take(p.status <= Status.ACTIVE)
             shape = shape_stokes_number(moving, self.flow, self.medium.mu, self.time)
             path = path_stokes_number(moving, self.flow, self.medium, self.time)
-            self.models = replace(self.models, integrator=automatic(max(shape, path)))
+            self.models = replace(self.models, integrator=automatic(max(shape, path), self.models.material))
         check(self.models, tense)
         for model in self.models.surroundings:
             model.check(self.flow.patches)
@@ -399,7 +401,8 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
     scheme = INTEGRATORS[models.integrator]
     hint = ""
     if reason == Reason.STRETCHED:
-        hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there"
+        end = " and breaks up" if MATERIALS[models.material].liquid else ""
+        hint = f"maxStretch is {limits.maxStretch:g}; it has no steady shape there{end}"
     elif reason == Reason.TOO_LARGE:
         hint = f"maxSize is {limits.maxSize:g}; no gradient is uniform over such a body"
     elif reason == Reason.CELLS_TOO_MANY:
@@ -422,6 +425,18 @@ def explain(reason: Reason | int, models: Models, limits: Limits) -> str:
 def longest_semi_axis(p: Particles) -> float:
     """Return an upper bound of the semi-axes of active and pending particles, m; 0 without any."""
     return float(link(longest_of)(p))
+
+
+def _refuse_mixture(p: Particles, material: str) -> None:
+    """Raise InputError unless all particles are round drops, or all are solids, as the material is."""
+    liquid = MATERIALS[material].liquid
+    if (p.drop.astype(bool) != liquid).any():
+        raise InputError(
+            f"the material is {material}, but {np.count_nonzero(p.drop != liquid)} of {p.size} particles are "
+            f"{'solids: use foamprb.drops' if liquid else 'drops: use the material drop'}"
+        )
+    if liquid and ((p.gamma != 0.0).any() or (np.eye(3).ravel() != p.F0).any()):
+        raise InputError("a drop is a sphere at rest with the tension mu R. Allowed: neither F0 nor gamma")
 
 
 def _refuse_early(p: Particles, start: float) -> None:

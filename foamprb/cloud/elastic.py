@@ -1,4 +1,4 @@
-"""Elastic stress of the solid and its surface tension, for a lane of a block."""
+"""Elastic stress, surface tension and mobility of a body, for a lane of a block."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from typing import Any
 from foamprb.body.rosenbrock import Elasticity, elasticity, extra_elasticity
 from foamprb.body.rosenbrock import extra_stress_in_frame as extra_stress
 from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
+from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.cloud.block import at
+from foamprb.cloud.block import Medium, at, load_integrals
 from foamprb.cloud.layout import LANES
 
 
@@ -49,3 +50,13 @@ def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
     mu, _, k = solid(block, i)
     squares = (b_e[0], b_e[4], b_e[8])
     return extra_elasticity(squares, 1.0, mu, 0.0, k, block[at.tension * LANES + i])
+
+
+def body_mobility(block: Any, i: int, medium: Medium, stretches: Vector) -> Mobility:
+    """Return the mobility of an affinely deforming solid; :mod:`foamprb.cloud.drops` binds that of a drop."""
+    return mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
+
+
+def own_viscosity(block: Any, i: int, medium: Medium) -> Any:
+    """Return the ``own`` of that mobility."""
+    return 1.0 - block[at.eta * LANES + i] / medium.mu

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
 from foamprb.body.imex import relaxation_time
+from foamprb.body.morphology import drop_stress
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -165,7 +166,7 @@ def report_stage(block: Any, mu: float) -> None:
     """Compute the values that need frames, stretches and their integrals.
 
     The stresslet is S = V μ_f dev sym s̃(d, w), the body's extra stress times volume (Batchelor 1970), where
-    s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet.
+    s̃ is Jeffery's disturbance (B.5), the far field of which is the stresslet; a drop has its own.
     """
     for i in range(LANES):
         F, Q, stretches = load9(block, at.new_F, i), load9(block, at.Q, i), load3(block, at.stretch, i)
@@ -190,12 +191,27 @@ def report_stage(block: Any, mu: float) -> None:
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
+def drop_stage(block: Any, mu: float) -> None:
+    """Replace the stresslet by that of drops."""
+    for i in range(LANES):
+        l, R = load9(block, at.l, i), block[at.R * LANES + i]
+        body = dot(load9(block, at.A, i), inverse(load9(block, at.new_F, i)))
+        Ca = mu * block[result.rate * LANES + i] / block[at.mu * LANES + i]
+        s = drop_stress(block[at.eta * LANES + i] / mu, Ca, dev(sym(l)), sym(body))
+        S = scale(4.0 / 3.0 * np.pi * R * R * R * mu, s)
+        store3(block, result.stresslet, i, (S[0], S[4], S[8]))
+        store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
+
+
 def find_out(
     F: Floats,
     A: Floats,
     Q: Floats,
     F0: Floats,
     R: Floats,
+    modulus: Floats,
+    eta: Floats,
+    drop: NDArray[np.int8],
     l: Floats,
     mu: float,
     block: Floats,
@@ -206,7 +222,7 @@ def find_out(
 
     Parameters
     ----------
-    F, A, Q, F0, R
+    F, A, Q, F0, R, modulus, eta, drop
         As in :class:`~foamprb.cloud.state.Particles`.
     l
         ∂u_i/∂x_j of the fluid, (n, 9), 1/s.
@@ -231,10 +247,14 @@ def find_out(
                 block[(at.F0 + c) * LANES + i] = F0[k, c]
                 block[(at.l + c) * LANES + i] = l[k, c]
             block[at.R * LANES + i] = R[k]
+            block[at.mu * LANES + i], block[at.eta * LANES + i] = modulus[k], eta[k]
         resume_frames(block)
         sort_stage(block)
         new_integrals(block)
         report_stage(block, mu)
+        # A cloud is of drops or of solids.
+        if drop[start]:
+            drop_stage(block, mu)
         m = min(LANES, n - start)
         for c in range(9):
             for i in range(m):
@@ -249,7 +269,9 @@ def find_out(
                     values[start + i, c] = block[(first + c) * LANES + i]
 
 
-_STAGES = (stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage)
+_STAGES = (
+    stretch_stage, straighten_stage, compact_stage, elongated_stage, sort_stage, report_stage, drop_stage
+)  # fmt: skip
 """Stages that are compiled separately; the particle loop has most of them too."""
 
 
@@ -438,7 +460,9 @@ def _prepare(
         u, l = _sampled(p.x, p.host, flow, time)
     frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
     found = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
-    _finder()(p.F, p.A, p.Q, p.F0, p.R, l, mu, block, frames, tuple(found.values()))
+    _finder()(
+        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu, block, frames, tuple(found.values())
+    )  # fmt: skip
     F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
     return Context(p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu)

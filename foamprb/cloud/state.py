@@ -88,11 +88,14 @@ class Particles(NamedTuple):
         Array, Variable((), "f8", "m", "radius at rest, of the sphere of the same volume", fixed=True)
     ]
     rho: Annotated[Array, Variable((), "f8", "kg/m3", "density at rest", fixed=True)]
-    mu: Annotated[Array, Variable((), "f8", "Pa", "shear modulus of the solid", fixed=True)]
+    mu: Annotated[
+        Array, Variable((), "f8", "Pa", "shear modulus of a solid; tension of a drop over R", fixed=True)
+    ]
     lame: Annotated[Array, Variable((), "f8", "Pa", "Lame's first parameter of the solid", fixed=True)]
     k: Annotated[Array, Variable((), "f8", "1", "third parameter of the solid, if it has one", fixed=True)]
-    eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid", fixed=True)]
-    gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension", fixed=True)]
+    eta: Annotated[Array, Variable((), "f8", "Pa s", "viscosity of the solid or drop", fixed=True)]
+    gamma: Annotated[Array, Variable((), "f8", "N/m", "surface tension of the solid", fixed=True)]
+    drop: Annotated[Array, Variable((), "i1", "", "1 for a drop, 0 for a solid", fixed=True)]
     F0: Annotated[Array, Variable((9,), "f8", "1", "F at rest, from the sphere of the same volume")]
     Ca: Annotated[Array, Variable((), "f8", "1", "capillary number at the reference shear rate", fixed=True)]
     t0: Annotated[Array, Variable((), "f8", "s", "time of injection", fixed=True)]
@@ -234,6 +237,22 @@ def spheres(
     else:
         p.lame[:] = lame_from_bulk_modulus(np.asarray(bulk_modulus, dtype=float), p.mu)
     p.t0[:] = p.t[:] = t0
+    return p
+
+
+def drops(x: Any, *, d: Any, rho: Any, gamma: Any, eta: Any, t0: Any = 0.0) -> Particles:
+    """Return pending drops at rest, for the material ``drop``.
+
+    Parameters
+    ----------
+    x
+        Positions, shape (n, 3), m.
+    d, rho, gamma, eta, t0
+        Diameter (m), density (kg/m³), surface tension (N/m), viscosity (Pa s) and time of injection (s), one
+        for all or (n,).
+    """
+    p = spheres(x, d=d, rho=rho, mu=2.0 * np.asarray(gamma) / np.asarray(d), eta=eta, t0=t0)
+    p.drop[:] = 1
     return p
 
 

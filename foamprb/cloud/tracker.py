@@ -25,6 +25,7 @@ from foamprb.body.surface_tension import laplace_stress
 from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.block import Medium, Scratch, new_scratch
 from foamprb.cloud.contact import CROWDED, in_order
+from foamprb.cloud.drops import DROP_BINDINGS
 from foamprb.cloud.forces import DEFAULT, Force, coefficients, compose
 from foamprb.cloud.integrators.adaptive import stretch_of
 from foamprb.cloud.integrators.base import track_share
@@ -151,6 +152,8 @@ class Tracker:
             bindings["strain_by"] = strain_in_frame
         if tense:
             bindings["interface"] = laplace_stress
+        if material.liquid:
+            bindings |= DROP_BINDINGS
         self.integrator = integrator = INTEGRATORS[models.integrator]
         self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
         bindings["prefetch_rows"] = layout.prefetch
@@ -430,8 +433,16 @@ def check(models: Models, tense: bool) -> None:
     reason = integrator.refuses(models.traction, models.material, tense)
     if reason:
         raise InputError(f"the integrator {integrator.name} {reason}")
+    liquid = MATERIALS[models.material].liquid
+    if liquid and integrator.inertia:
+        raise InputError(
+            f"the shape of a {models.material} has no inertia: it needs the integrator stokes, not "
+            f"{integrator.name}"
+        )
     for model in models.surroundings:
         reason = model.refuses(integrator.inertia, integrator.name)
+        if liquid and not reason:
+            reason = model.refuses_drops()
         if reason:
             raise InputError(reason)
         _check_names(model)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.imex import relaxation_time
-from foamprb.body.material import lame_parameter
+from foamprb.body.material import MATERIALS, lame_parameter
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.injection.distribution import Distribution, draw
@@ -186,7 +186,10 @@ def _compile(settings: Settings, rotating: bool) -> Compilation:
     scheme = settings.solution.integrationSchemes.shape
     models = _models(settings, likely_integrator(settings) if scheme == "auto" else scheme, rotating)
     shaped = any(not isinstance(injection.shape, Sphere) for injection in settings.injections)
-    tense = any(injection.solid.surfaceTension != 0.0 for injection in settings.injections)
+    tense = any(
+        injection.solid.surfaceTension != 0.0 and not MATERIALS[injection.solid.type].liquid
+        for injection in settings.injections
+    )
     flow = SeriesFlow if settings.solution.transient else RotatingFlow if rotating else MeshFlow
     dt, medium = settings.solution.deltaT, _medium(settings)
     return Compilation(Tracker(models, flow.kernels, medium, [], dt, 0.0, shaped, tense), flow)
@@ -203,7 +206,7 @@ def likely_integrator(settings: Settings) -> str:
             rho, d = _most(injection.rho0), injection.sizeDistribution.limits[1]
             rate = injection.solid.referenceShearRate or 0.1 / settings.solution.deltaT
             numbers.append(rate * float(relaxation_time(rho, 0.5 * d, settings.fluid.mu)))
-    return automatic(max(numbers))
+    return automatic(max(numbers), _material(settings))
 
 
 def _most(quantity: float | Distribution) -> float:
@@ -214,8 +217,11 @@ def _medium(settings: Settings) -> Medium:
     return Medium(settings.fluid.mu, settings.fluid.rho, settings.gravity)
 
 
+def _material(settings: Settings) -> str:
+    return settings.injections[0].solid.type if settings.injections else Models.material
+
+
 def _models(settings: Settings, integrator: str, rotating: bool = False) -> Models:
-    solid = settings.injections[0].solid.type if settings.injections else Models.material
     tolerance = settings.solution.integrationSchemes.tolerance
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
@@ -223,7 +229,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
     return Models(
         settings.traction,
         settings.drag,
-        solid,
+        _material(settings),
         settings.touching,
         integrator,
         tolerance,
@@ -343,12 +349,21 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
     p.gamma[:] = values(given.get("surfaceTension"), solid.surfaceTension, "surfaceTension")
     p.k[:] = injection.parameter
+    liquid = MATERIALS[solid.type].liquid
+    if liquid:
+        if stiffness is not None:
+            raise InputError(
+                f"injection model {injection.name}: the file of positions gives a stiffness, which the solid "
+                f"{solid.type} does not have."
+            )
+        p.mu[:], p.gamma[:], p.drop[:] = p.gamma / p.R, 0.0, 1
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index
     wrong = ~((p.mu > 0.0) & (p.mu < math.inf))
     if wrong.any():
+        what = "tension over radius" if liquid else "shear modulus"
         raise InputError(
-            f"injection model {injection.name}: the shear modulus of {np.count_nonzero(wrong)} of {p.size} "
+            f"injection model {injection.name}: the {what} of {np.count_nonzero(wrong)} of {p.size} "
             f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {medium.mu:g} Pa s."
         )
     rate: Any = solid.referenceShearRate

@@ -83,10 +83,20 @@ class Solid:
     viscosity: Annotated[
         float | Distribution,
         NonNegative,
-        Meaning("[of the solid](models/viscosity.md) (Kelvin–Voigt)", "Pa s", "0"),
+        Meaning(
+            "[of the solid](models/viscosity.md) (Kelvin–Voigt), or of the liquid of a `drop`",
+            "Pa s",
+            "0, with `drop` required",
+        ),
     ] = 0.0
     surfaceTension: Annotated[
-        float | Distribution, NonNegative, Meaning("[surface tension](models/surface-tension.md)", "N/m", "0")
+        float | Distribution,
+        NonNegative,
+        Meaning(
+            "[surface tension](models/surface-tension.md), or that of a `drop`",
+            "N/m",
+            "0, with `drop` required, > 0",
+        ),
     ] = 0.0
 
 
@@ -94,6 +104,8 @@ STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
 """Entries of a solid of which exactly one is given."""
 COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
 """Entries of a solid of which at most one is given."""
+LIQUID = ("surfaceTension", "viscosity")
+"""Entries of a drop, in place of both."""
 
 
 def parameters() -> dict[str, Any]:
@@ -264,17 +276,21 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     where = places[-1].entries["solid"].dictionary()
     hints = parameters() | get_type_hints(Solid, include_extras=True)
     stiffness = combined.keys() & set(STIFFNESS)
-    if not stiffness:
+    liquid = "type" in combined and MATERIALS[combined["type"]].liquid
+    if not stiffness and not liquid:
         mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(STIFFNESS)}."))
     required = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
     needed = ["type", *(required[key] for key in stiffness if key in required)]
+    if liquid:
+        needed = ["type", *LIQUID]
     parameter = MATERIALS[combined["type"]].parameter if "type" in combined else None
     if parameter:
         needed.append(parameter.entry)
     for key in needed:
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
-    for name in parameters() if "type" in combined else ():
+    others = {*parameters(), *((*STIFFNESS, *COMPRESSIBILITY) if liquid else ())}
+    for name in sorted(others) if "type" in combined else ():
         if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
     mistakes.raise_any()

@@ -94,7 +94,7 @@ def test_the_elasticity_of_a_solid_with_a_dilation_is_that_by_differences(name, 
 
 def _bulk_of_shear(name, k):
     """By how much λ' is less than λ in the solid's volume energy."""
-    return {"mooneyRivlin": 2.0 * MU * k, "gent": 2.0 * MU / (k or 1.0)}.get(name, 0.0)
+    return {"mooneyRivlin": 2.0 * MU * k, "gent": 2.0 * MU / (k or 1.0), "drop": -MU / 1.5}.get(name, 0.0)
 
 
 def elasticity(stretch, tension=0.0):

@@ -220,7 +220,7 @@ def test_stokes_with_other_solids_against_an_independent_integrator(material):
     assert np.abs(expected - inertialess(2.0, 0.3, gradient)).max() > 1e-3
 
 
-@pytest.mark.parametrize("material", [name for name, m in MATERIALS.items() if m.isochoric])
+@pytest.mark.parametrize("material", [name for name, m in MATERIALS.items() if m.isochoric and not m.liquid])
 def test_with_little_inertia_the_inertial_body_goes_as_the_inertialess(material):
     gradient = np.array([[0, 1, 0], [0, 0, 0], [0, 0, 0.0]])
     flow = analytic.linear(gradient)

@@ -215,6 +215,18 @@ def test_a_solid_reads_its_third_parameter(read: Reader) -> None:
     assert read(("type neoHooke;", "type saintVenantKirchhoff;")).injections[0].parameter == 0.0
 
 
+def test_a_drop_has_a_tension_and_a_viscosity_in_place_of_a_stiffness(read: Reader) -> None:
+    def drop(entries: str) -> tuple[str, str]:
+        return "type neoHooke; poissonsRatio 0.4; shearModulus 1000;", f"type drop; {entries}"
+
+    solid = read(drop("surfaceTension 0.002; viscosity 0.01;")).injections[0].solid
+    assert (solid.type, solid.surfaceTension, solid.viscosity) == ("drop", 0.002, 0.01)
+    with pytest.raises(InputError, match="solid/viscosity is missing"):
+        read(drop("surfaceTension 0.002;"))
+    with pytest.raises(InputError, match="gives shearModulus, which the solid drop does not have"):
+        read(drop("surfaceTension 0.002; viscosity 0.01; shearModulus 100;"))
+
+
 PARAMETER_MISTAKES = [
     ("type gent;", "stretchLimit is missing"),
     ("type gent; stretchLimit -1;", "a number > 0"),

@@ -135,7 +135,11 @@ MISTAKES = [
         "poissonsRatio 0.4; bulkModulus 1e5;",
         "constantProperties/solid gives poissonsRatio and bulkModulus. Allowed: one of",
     ),
-    ("type neoHooke;", "", "constantProperties/solid/type is missing. Allowed: gent, mooneyRivlin, neoHooke"),
+    (
+        "type neoHooke;",
+        "",
+        "constantProperties/solid/type is missing. Allowed: drop, gent, mooneyRivlin, neoHooke",
+    ),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
     ("shearModulus 1000", "Ca 1", "constantProperties/solid/referenceShearRate is missing"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from foamprb.body.material import MATERIALS
 from foamprb.cloud.integrators.base import Integrator
 from foamprb.cloud.integrators.paper import PAPER
 from foamprb.cloud.integrators.rosenbrock import ROSENBROCK
@@ -18,6 +19,6 @@ SMALL_STOKES = 0.01
 """Stokes number of shape or path below which ``auto`` neglects the solid's inertia."""
 
 
-def automatic(stokes_number: float) -> str:
-    """Return the name of the integrator for a Stokes number: ``stokes`` where it is small."""
-    return (STOKES if stokes_number < SMALL_STOKES else ROSENBROCK).name
+def automatic(stokes_number: float, material: str) -> str:
+    """Return the name of the integrator for a Stokes number: ``stokes`` where it is small, and for drops."""
+    return (STOKES if stokes_number < SMALL_STOKES or MATERIALS[material].liquid else ROSENBROCK).name

@@ -21,7 +21,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
 from foamprb.body.relaxation import Relaxation, Response, fastest, relaxation, relaxing, responses
 from foamprb.body.slip import balanced_slip
-from foamprb.body.stokes import Mobility, isochoric, mobility, velocity_gradient
+from foamprb.body.stokes import Mobility, isochoric, velocity_gradient
 from foamprb.body.tensor import (
     ZERO,
     Tensor,
@@ -38,7 +38,12 @@ from foamprb.body.tensor import (
 )
 from foamprb.body.turning import commutator, turning_gradient
 from foamprb.cloud.block import Medium, at, choose, choose3, load3, load9, load_integrals, store3, store9
-from foamprb.cloud.elastic import incompressible_elasticity, incompressible_stress
+from foamprb.cloud.elastic import (
+    body_mobility,
+    incompressible_elasticity,
+    incompressible_stress,
+    own_viscosity,
+)
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import (
     ADAPTIVE_BINDINGS,
@@ -262,7 +267,7 @@ def end_inertialess(block: Any, medium: Medium) -> None:
 
 def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor) -> tuple[Mobility, Tensor]:
     """Return the mobility, and the elastic stress over μ_f, 1/s, in the particle frame."""
-    m = mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
+    m = body_mobility(block, i, medium, stretches)
     tau = incompressible_stress(block, i, stretches, b_e)
     return m, scale(1.0 / medium.mu, tau)
 
@@ -299,7 +304,7 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
         load9(block, during.end_l, i),
     )
     bend = scale(2.0, add(add(l, l_end), scale(-2.0, middle)))
-    own_part = 1.0 - block[at.eta * LANES + i] / medium.mu
+    own_part = own_viscosity(block, i, medium)
     m = Mobility(
         load9(block, own.normal, i), load3(block, own.compliance, i), load3(block, own.slip, i), own_part
     )

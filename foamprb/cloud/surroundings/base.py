@@ -88,6 +88,10 @@ class Surrounding:
         """Return why it is incompatible with an integrator; empty if it is compatible."""
         return ""
 
+    def refuses_drops(self) -> str:
+        """Return why it does not hold for drops; empty if it does."""
+        return ""
+
     def check(self, patches: Sequence[Patch]) -> None:  # noqa: ARG002
         """Raise InputError if its entries name patches that the flow does not have."""
         return

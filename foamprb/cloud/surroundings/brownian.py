@@ -178,6 +178,10 @@ class BrownianMotion(Surrounding):
             return "BrownianMotion needs the integrator stokes or rosenbrock, not paper"
         return ""
 
+    def refuses_drops(self) -> str:
+        """Refuse drops: the resistances and the thermal strain are those of solids."""
+        return "BrownianMotion holds for solids, not for drops"
+
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
         """Return the range of the thermal strain."""
         if p.size == 0:

@@ -73,3 +73,7 @@ class FaxenCorrection(Surrounding):
     update: ClassVar = staticmethod(store_curvature)
     disturb: ClassVar = staticmethod(correct)
     required_kernels: ClassVar = ("curvature",)
+
+    def refuses_drops(self) -> str:
+        """Refuse drops, inside which the fluid moves."""
+        return "faxenCorrection holds for solids, not for drops"

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.ellipsoid import reach
 from foamprb.body.material import finger_of_sphere_in_frame as finger_in_frame
-from foamprb.body.stokes import Mobility, mobility, velocity_gradient
+from foamprb.body.stokes import Mobility, velocity_gradient
 from foamprb.body.tensor import (
     Tensor,
     Vector,
@@ -63,7 +63,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
 )
-from foamprb.cloud.elastic import incompressible_stress
+from foamprb.cloud.elastic import body_mobility, incompressible_stress, own_viscosity
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles, Status
@@ -311,8 +311,8 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     Only here, l includes the gradient of the image of the load. The stresslet is then the difference from
     that of a rigid body, which the hindrance includes.
     """
-    Q, stretches, g = load9(block, at.Q, i), load3(block, at.stretch, i), load_integrals(block, i)
-    m = mobility(stretches, g, block[at.eta * LANES + i] / medium.mu)
+    Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
+    m = body_mobility(block, i, medium, stretches)
     store9(block, near.mobility_normal, i, m.normal)
     store3(block, near.mobility_shear, i, m.compliance)
     store3(block, near.mobility_slip, i, m.slip)
@@ -328,7 +328,7 @@ def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tenso
         load9(block, near.mobility_normal, i),
         load3(block, near.mobility_shear, i),
         load3(block, near.mobility_slip, i),
-        1.0 - block[at.eta * LANES + i] / medium.mu,
+        own_viscosity(block, i, medium),
     )
     l = to_frame(load9(block, at.Q, i), E)
     return velocity_gradient(m, scale(0.0, l), l)
@@ -532,6 +532,10 @@ class WallLift(Surrounding):
                 "set mobility no, or integrationSchemes/shape rosenbrock"
             )
         return ""
+
+    def refuses_drops(self) -> str:
+        """Refuse the hindrance, which is that of solids."""
+        return "wallLift/mobility holds for solids, not for drops: set it no" if self.mobility else ""
 
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:
         """Return the range of the particles' distances from walls at their start."""

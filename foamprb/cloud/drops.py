@@ -1,0 +1,59 @@
+"""Drops in place of solids: the functions of a lane that the loop without inertia then calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from foamprb.body.morphology import drop_drag_factor, drop_mobility, drop_stress
+from foamprb.body.stokes import Mobility
+from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dev, from_frame, scale, sym
+from foamprb.cloud.block import Medium, at, load9
+from foamprb.cloud.integrators.adaptive import drag_rate as drag_rate_of_solid
+from foamprb.cloud.layout import LANES
+from foamprb.cloud.surroundings.base import volume_at_rest
+
+
+def _numbers(block: Any, i: int, medium: Medium) -> tuple[Scalar, Scalar]:
+    """Return λ and μ_f γ̇ R/σ of lane i."""
+    d = sym(load9(block, at.l, i))
+    Ca = medium.mu * np.sqrt(2.0 * ddot(d, d)) / block[at.mu * LANES + i]
+    return block[at.eta * LANES + i] / medium.mu, Ca
+
+
+def body_mobility(block: Any, i: int, medium: Medium, _stretches: Vector) -> Mobility:
+    """Return the mobility in the present gradient of the fluid."""
+    ratio, Ca = _numbers(block, i, medium)
+    return drop_mobility(ratio, Ca)
+
+
+def own_viscosity(block: Any, i: int, medium: Medium) -> Scalar:
+    """Return the ``own`` of that mobility."""
+    ratio, Ca = _numbers(block, i, medium)
+    return drop_mobility(ratio, Ca).own
+
+
+def drag_rate(block: Any, i: int, mu_f: float, k: Vector) -> Vector:
+    """Return μ_f K_a/m, 1/s, less by the factor of a spherical drop, with K_a in units of R."""
+    f = drop_drag_factor(block[at.eta * LANES + i] / mu_f)
+    x, y, z = drag_rate_of_solid(block, i, mu_f, k)
+    return f * x, f * y, f * z
+
+
+def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> Tensor:
+    """Return the stresslet, N m; l_f in space's axes, l_s in the particle's."""
+    ratio, Ca = _numbers(block, i, medium)
+    Q = load9(block, at.Q, i)
+    s = drop_stress(ratio, Ca, dev(sym(l_f)), from_frame(Q, sym(l_s)))
+    return scale(volume_at_rest(block, i) * medium.mu, s)
+
+
+DROP_BINDINGS: Mapping[str, Callable[..., Any]] = {
+    "body_mobility": body_mobility,
+    "own_viscosity": own_viscosity,
+    "drag_rate": drag_rate,
+    "stresslet": stresslet,
+}
+"""By the names of the solids' functions."""

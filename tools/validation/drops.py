@@ -1,0 +1,123 @@
+"""Drops after Maffettone and Minale (beyond the paper)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.state import drops as drops_at
+from foamprb.cloud.tracker import Models
+from foamprb.flow import analytic
+from foamprb.flow.base import Flow
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.references.morphology import angle, of_drop, shapes, taylor
+from validation.runs import advance_to, measures
+
+ODE = "equation of S by LSODA"
+SHEAR = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+RATIOS, NUMBERS = (0.1, 1.0, 5.0), np.array([0.1, 0.2, 0.3])
+
+
+def _cloud(flow: Flow, Ca: ArrayLike, ratio: float, dt: float, gravity: float = 0.0) -> Cloud:
+    """Return drops of radius 1 in a fluid of viscosity 1 and shear rate 1; the density is 1 more than its."""
+    Ca = np.atleast_1d(np.asarray(Ca, dtype=float))
+    p = drops_at(np.zeros((len(Ca), 3)), d=2.0, rho=1.000001e-4, gamma=1.0 / Ca, eta=ratio)
+    medium = Medium(1.0, 1e-10, (0.0, 0.0, -gravity))
+    return Cloud(p, flow, medium, (), dt, Models(material="drop", tolerance=1e-6), threads=1)
+
+
+def _tensors(cloud: Cloud) -> Floats:
+    F = cloud.particles.F.reshape(-1, 3, 3)
+    return np.asarray(F @ F.transpose(0, 2, 1))
+
+
+def _steady(ratio: float) -> tuple[list[Row], list[Curve]]:
+    """Compare steady shapes in shear."""
+    cloud = _cloud(analytic.shear(1.0), NUMBERS, ratio, 0.05)
+    advance_to(cloud, 100.0)
+    ours = _tensors(cloud)
+    found = [shapes(Ca * SHEAR, of_drop(ratio, Ca), np.array([400.0]))[0] for Ca in NUMBERS]
+    expected = np.array(found)
+    rows = []
+    for k, Ca in enumerate(NUMBERS):
+        name = f"λ = {ratio:g}, Ca = {Ca:g}: "
+        rows.append(Row(f"{name}D", taylor(ours)[k], taylor(expected)[k], ODE, 1e-6))
+        rows.append(Row(f"{name}θ [deg]", angle(ours)[k], angle(expected)[k], ODE, 1e-3))
+    volume = float(np.abs(np.linalg.det(ours) - 1.0).max())
+    rows.append(Row(f"λ = {ratio:g}: |det S − 1|, worst", volume, 0.0, "the equation", 1e-13))
+    colour = RATIOS.index(ratio)
+    return rows, [
+        Curve(NUMBERS, taylor(ours), f"foamprb, λ = {ratio:g}", colour=colour),
+        Curve(NUMBERS, taylor(expected), "LSODA" if colour == 0 else "", "reference", colour),
+        Curve(NUMBERS, (19.0 * ratio + 16.0) / (16.0 * ratio + 16.0) * NUMBERS, "Taylor", "guide", colour),
+    ]
+
+
+def _transient(quick: bool) -> tuple[list[Row], list[Curve]]:
+    """Compare the start of a shear, and an elongated drop that becomes round."""
+    times = np.linspace(0.5, 4.0 if quick else 10.0, 8 if quick else 20)
+    rows, curves = [], []
+    for k, (name, l, begin) in enumerate(
+        (
+            ("start of shear", SHEAR, np.eye(3)),
+            ("relaxation", np.zeros((3, 3)), np.diag(np.exp([1.2, -0.4, -0.8]))),
+        )
+    ):
+        # Time in μ_f R/σ at Ca = 0.3.
+        cloud = _cloud(analytic.linear(l), 0.3, 1.0, 0.05)
+        cloud.particles.F[:] = np.sqrt(begin).ravel()
+        path = []
+        for t in times:
+            advance_to(cloud, float(t))
+            path.append(_tensors(cloud)[0])
+        ours = taylor(np.array(path))
+        expected = taylor(shapes(0.3 * l, of_drop(1.0, 0.3 if k == 0 else 0.0), times / 0.3, begin))
+        rows.append(worst(f"{name}, λ = 1, μ_f R/σ = 0.3: D, worst of all times", ours, expected, ODE, 1e-4))
+        curves += [
+            Curve(times, ours, f"foamprb, {name}", colour=k),
+            Curve(times, expected, "LSODA" if k == 0 else "", "reference", k),
+        ]
+    return rows, curves
+
+
+def _settling(ratio: float) -> list[Row]:
+    """Compare the settling and the stress of nearly round drops."""
+    cloud = _cloud(analytic.shear(1.0), 1e-3, ratio, 0.05, gravity=1.0)
+    advance_to(cloud, 5.0)
+    p = cloud.particles
+    stokes = 2.0 / 9.0 * (p.rho[0] - cloud.medium.rho)
+    speed = float(-p.v[0, 2] / stokes)
+    stress = float(measures(cloud)["stresslet"][0, 3] / (4.0 / 3.0 * np.pi))
+    by_hadamard = (3.0 + 3.0 * ratio) / (2.0 + 3.0 * ratio)
+    by_taylor = (5.0 * ratio + 2.0) / (2.0 * ratio + 2.0)
+    name = f"λ = {ratio:g}, Ca = 0.001: "
+    return [
+        Row(f"{name}settling speed over a solid's", speed, by_hadamard, "Hadamard, Rybczyński (1911)", 1e-3),
+        Row(f"{name}shear stress over 2 μ_f E₁₂", stress, by_taylor, "Taylor (1932)", 1e-3),
+    ]
+
+
+def steady(quick: bool) -> Outcome:
+    """Drops in shear flow."""
+    rows: list[Row] = []
+    curves: list[Curve] = []
+    for ratio in RATIOS[:2] if quick else RATIOS:
+        more, lines = _steady(ratio)
+        rows += more
+        curves += lines
+        rows += _settling(ratio)
+    more, lines = _transient(quick)
+    figure = Figure(
+        "drops",
+        "Steady drops in simple shear; the start of a shear, and an elongated drop that becomes round.",
+        [Panel("Ca = μ_f γ̇ R/σ", "D", curves), Panel("γ̇ t", "D", lines)],
+    )
+    return Outcome([*rows, *more], [figure], [_REMARK])
+
+
+_REMARK = (
+    "The model of Maffettone and Minale (1998) is compared with an independent solution of its equation, and "
+    "with the exact results for nearly round drops. Their paper compares it with experiments."
+)
