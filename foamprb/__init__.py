@@ -31,6 +31,11 @@ Particles in a flow:
     Status              what a particle is doing: pending, active, stuck, escaped or failed
     Cloud               particles, the flow that carries them, and the models that act on them
     Medium              viscosity and density of the fluid, and gravity
+    PowerLaw            a viscosity by the shear rate, for a medium: OpenFOAM's powerLaw
+    CrossPowerLaw       OpenFOAM's model of that name
+    BirdCarreau         another
+    HerschelBulkley     one with a yield stress
+    Casson              another
     read_medium         the medium of an OpenFOAM case
     Models              names of traction, drag, solid, wall test and integrator, and the forces
     Limits              how far a particle may be stretched, how large and how costly it may become

@@ -46,6 +46,21 @@ from .cloud.surroundings.dispersion import (
 from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
 from .cloud.surroundings.wall_lift import WallLift as WallLift
 from .cloud.tracker import Models as Models
+from .cloud.viscosity import (
+    BirdCarreau as BirdCarreau,
+)
+from .cloud.viscosity import (
+    Casson as Casson,
+)
+from .cloud.viscosity import (
+    CrossPowerLaw as CrossPowerLaw,
+)
+from .cloud.viscosity import (
+    HerschelBulkley as HerschelBulkley,
+)
+from .cloud.viscosity import (
+    PowerLaw as PowerLaw,
+)
 from .errors import (
     FailedParticlesWarning as FailedParticlesWarning,
 )
@@ -74,14 +89,18 @@ from .settings.patches import patch_interactions as patch_interactions
 from .view.notebook import open_run as open_run
 
 __all__ = [
+    "BirdCarreau",
     "BrownianMotion",
+    "Casson",
     "Cloud",
+    "CrossPowerLaw",
     "Division",
     "Escape",
     "FailedParticlesWarning",
     "FaxenCorrection",
     "GradientDispersion",
     "Gravity",
+    "HerschelBulkley",
     "InputError",
     "Job",
     "Limits",
@@ -90,6 +109,7 @@ __all__ = [
     "Models",
     "Parameter",
     "Particles",
+    "PowerLaw",
     "PressureGradient",
     "Rebound",
     "RunStopped",

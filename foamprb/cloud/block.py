@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from foamprb.body.ellipsoid import COMPACT, Integrals, integrals, integrals_of_compact
 from foamprb.body.material import metric_at_rest
 from foamprb.body.tensor import (
+    Scalar,
     Tensor,
     Vector,
     dot_vector,
@@ -109,8 +110,8 @@ _LINE = 8
 class Medium(NamedTuple):
     """Fluid around the particles, and gravity."""
 
-    mu: float
-    """Pa s."""
+    mu: Any
+    """VaryingViscosity, Pa s, or a model of it (:mod:`foamprb.cloud.viscosity`)."""
     rho: float
     """kg/m³."""
     gravity: Vector = (0.0, 0.0, 0.0)
@@ -119,6 +120,11 @@ class Medium(NamedTuple):
     """Of the forces on the barycentre; a cloud takes them from its models."""
     surroundings: Any = ()
     """Coefficients of the models of the surroundings, likewise."""
+
+
+def viscosity_at(_block: Any, _i: int, medium: Medium) -> Scalar:
+    """Return μ_f at the barycentre of lane i, Pa s: a constant; a model of it binds its own function."""
+    return medium.mu
 
 
 REBOUND_NUMBERS = 21

@@ -23,6 +23,7 @@ from foamprb.cloud.patches import CYCLIC, REBOUND, STICK, Interaction
 from foamprb.cloud.stability import instability
 from foamprb.cloud.state import REASONS, Particles, Reason, Status
 from foamprb.cloud.tracker import Models, Outcome, Tracker, available_threads, check, never
+from foamprb.cloud.viscosity import medium_at, model_of, viscosity_at_rate
 from foamprb.compile.link import link, read_by
 from foamprb.errors import FailedParticlesWarning, InputError, ValidityWarning
 from foamprb.flow.base import Flow
@@ -58,7 +59,8 @@ class Cloud:
     flow
         Any :class:`~foamprb.flow.base.Flow`.
     medium
-        The fluid's viscosity (Pa s) and density (kg/m³), and gravity (m/s²).
+        The fluid's viscosity (Pa s, or a model of :mod:`foamprb.cloud.viscosity`) and density (kg/m³), and
+        gravity (m/s²).
     interactions
         Interactions of the flow's patches, in their order.
     dt
@@ -123,11 +125,12 @@ class Cloud:
         _find_hosts(p, self.flow)
         if self.models.integrator == "auto":
             moving = p.take(p.status <= Status.ACTIVE)
-            shape = shape_stokes_number(moving, self.flow, self.medium.mu, self.time)
-            path = path_stokes_number(moving, self.flow, self.medium, self.time)
+            medium = medium_at(self.medium, self.flow, moving, self.time)
+            shape = shape_stokes_number(moving, self.flow, medium.mu, self.time)
+            path = path_stokes_number(moving, self.flow, medium, self.time)
             self.models = replace(self.models, integrator=automatic(max(shape, path), self.models.material))
         check(self.models, tense)
-        for model in self.models.surroundings:
+        for model in (*model_of(self.medium.mu), *self.models.surroundings):
             model.check(self.flow.patches)
             for kernel in model.required_kernels:
                 if kernel not in self.flow.kernels:
@@ -154,6 +157,11 @@ class Cloud:
         """Time after the last step, s."""
         return self.start + self.step * self.dt
 
+    @property
+    def medium_there(self) -> Medium:
+        """Medium with the viscosity at each particle, (n,), if it varies."""
+        return medium_at(self.medium, self.flow, self.particles, self.time)
+
     def advance(self, steps: int) -> None:
         """Take ``steps`` time steps with the threads of this process.
 
@@ -168,8 +176,9 @@ class Cloud:
         """
         p = self.particles
         before = p.counts()[Status.FAILED]
+        medium = self.medium_there if self.models.surroundings else self.medium
         for model in self.models.surroundings:
-            self._warn_once(type(model).__name__, model.long_step(p, self.flow, self.medium, self.dt))
+            self._warn_once(type(model).__name__, model.long_step(p, self.flow, medium, self.dt))
         end, reached = self.step + steps, -1
         while reached < self.step < end:
             reached = self.step
@@ -178,7 +187,7 @@ class Cloud:
             if checks and self.step >= self._next_check:
                 # A shape beyond the limit oscillates, and is at times within it.
                 self._next_check = self.step + max(self.step, _FIRST_CHECK)
-                _, text = instability(p, self.medium.mu, self.dt, self.models.material)
+                _, text = instability(p, self.medium_there.mu, self.dt, self.models.material)
                 self._warn_once(PAPER.name, text)
         failed = p.counts()[Status.FAILED] - before
         if failed:
@@ -324,7 +333,7 @@ def _refuse_extreme(p: Particles, medium: Medium) -> None:
         ("the diameter of particle {}", 2.0 * p.R, "m"),
         ("the density of particle {}", p.rho, "kg/m3"),
         ("the shear modulus of particle {}", p.mu, "Pa"),
-        ("the fluid's viscosity", np.array([medium.mu]), "Pa s"),
+        ("the fluid's viscosity", np.array([viscosity_at_rate(medium.mu, None)]), "Pa s"),
         ("the fluid's density", np.array([medium.rho]), "kg/m3"),
     )
     for name, values, unit in properties:

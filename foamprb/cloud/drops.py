@@ -10,7 +10,7 @@ import numpy as np
 from foamprb.body.morphology import drop_drag_factor, drop_mobility, drop_stress
 from foamprb.body.stokes import Mobility
 from foamprb.body.tensor import Scalar, Tensor, Vector, ddot, dev, from_frame, scale, sym
-from foamprb.cloud.block import Medium, at, load9
+from foamprb.cloud.block import Medium, at, load9, viscosity_at
 from foamprb.cloud.integrators.adaptive import drag_rate as drag_rate_of_solid
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.surroundings.base import volume_at_rest
@@ -19,8 +19,9 @@ from foamprb.cloud.surroundings.base import volume_at_rest
 def _numbers(block: Any, i: int, medium: Medium) -> tuple[Scalar, Scalar]:
     """Return λ and μ_f γ̇ R/σ of lane i."""
     d = sym(load9(block, at.l, i))
-    Ca = medium.mu * np.sqrt(2.0 * ddot(d, d)) / block[at.mu * LANES + i]
-    return block[at.eta * LANES + i] / medium.mu, Ca
+    mu_f = viscosity_at(block, i, medium)
+    Ca = mu_f * np.sqrt(2.0 * ddot(d, d)) / block[at.mu * LANES + i]
+    return block[at.eta * LANES + i] / mu_f, Ca
 
 
 def body_mobility(block: Any, i: int, medium: Medium, _stretches: Vector) -> Mobility:
@@ -47,7 +48,7 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
     ratio, Ca = _numbers(block, i, medium)
     Q = load9(block, at.Q, i)
     s = drop_stress(ratio, Ca, dev(sym(l_f)), from_frame(Q, sym(l_s)))
-    return scale(volume_at_rest(block, i) * medium.mu, s)
+    return scale(volume_at_rest(block, i) * viscosity_at(block, i, medium), s)
 
 
 DROP_BINDINGS: Mapping[str, Callable[..., Any]] = {

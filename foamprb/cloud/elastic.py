@@ -10,7 +10,7 @@ from foamprb.body.rosenbrock import kirchhoff_in_frame as kirchhoff
 from foamprb.body.stokes import Mobility, mobility
 from foamprb.body.surface_tension import no_stress as interface
 from foamprb.body.tensor import Tensor, Vector
-from foamprb.cloud.block import Medium, at, load_integrals
+from foamprb.cloud.block import Medium, at, load_integrals, viscosity_at
 from foamprb.cloud.layout import LANES
 
 
@@ -54,9 +54,11 @@ def incompressible_elasticity(block: Any, i: int, b_e: Tensor) -> Elasticity:
 
 def body_mobility(block: Any, i: int, medium: Medium, stretches: Vector) -> Mobility:
     """Return the mobility of an affinely deforming solid; :mod:`foamprb.cloud.drops` binds that of a drop."""
-    return mobility(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
+    return mobility(
+        stretches, load_integrals(block, i), block[at.eta * LANES + i] / viscosity_at(block, i, medium)
+    )
 
 
 def own_viscosity(block: Any, i: int, medium: Medium) -> Any:
     """Return the ``own`` of that mobility."""
-    return 1.0 - block[at.eta * LANES + i] / medium.mu
+    return 1.0 - block[at.eta * LANES + i] / viscosity_at(block, i, medium)

@@ -23,7 +23,6 @@ from foamprb.body.tensor import (
     Tensor,
     add,
     axial,
-    ddot,
     det,
     dev,
     dot,
@@ -37,6 +36,7 @@ from foamprb.body.tensor import (
     transpose,
 )
 from foamprb.body.traction import disturbance
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import (
     ROWS,
     Medium,
@@ -56,6 +56,7 @@ from foamprb.cloud.block import (
 )
 from foamprb.cloud.layout import LANES, Row, end, offsets
 from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.viscosity import VaryingViscosity, viscosity_of
 from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
 
@@ -76,6 +77,7 @@ class FoundRows(NamedTuple):
     spin: Annotated[int, Row(3, "1/s", "angular velocity")]
     volume_ratio: Annotated[int, Row(1, "1", "J = det F")]
     rate: Annotated[int, Row(1, "1/s", "shear rate of the fluid")]
+    viscosity: Annotated[int, Row(1, "Pa s", "viscosity of the fluid")]
 
 
 result = offsets(FoundRows, ROWS)
@@ -102,8 +104,8 @@ class Context(NamedTuple):
     rows: NDArray[np.int64]
     """Row numbers in the whole cloud."""
     time: float
-    mu: float
-    """Viscosity of the fluid, Pa s."""
+    mu: Floats
+    """(n,), viscosity of the fluid at the centres, Pa s; NaN where it varies and the fluid is unknown."""
 
 
 class FlowSamples(NamedTuple):
@@ -113,6 +115,8 @@ class FlowSamples(NamedTuple):
     """Velocity, (n, 3), m/s."""
     l_f: Floats
     """∂u_i/∂x_j, (n, 9), 1/s."""
+    mu: Floats | None = None
+    """VaryingViscosity of the fluid, (n,), Pa s, if it varies."""
 
 
 class Measure(NamedTuple):
@@ -126,12 +130,6 @@ class Measure(NamedTuple):
 
 # ---------------------------------------------------------------------------------------------------------
 # Formulas
-
-
-def shear_rate(l_f: Tensor) -> Any:
-    """Return the shear rate γ̇ = √(2 d_f:d_f) of a velocity gradient, 1/s."""
-    d = sym(l_f)
-    return np.sqrt(2.0 * ddot(d, d))
 
 
 def quaternion(Q: Tensor) -> tuple[Scalar, Scalar, Scalar, Scalar]:
@@ -162,7 +160,7 @@ def sort_stage(block: Any) -> None:
         store3(block, at.stretch, i, stretches)
 
 
-def report_stage(block: Any, mu: float) -> None:
+def report_stage(block: Any) -> None:
     """Compute the values that need frames, stretches and their integrals.
 
     The stresslet is S = V μ_f dev sym s̃(d, w), the body's extra stress times volume (Batchelor 1970), where
@@ -186,16 +184,17 @@ def report_stage(block: Any, mu: float) -> None:
         relative = to_frame(Q, add(l, scale(-1.0, body)))
         s, _ = disturbance(stretches, load_integrals(block, i), dev(sym(relative)), skew(relative))
         volume = 4.0 / 3.0 * np.pi * R * R * R * J
-        S = from_frame(Q, scale(volume * mu, dev(sym(s))))
+        S = from_frame(Q, scale(volume * block[result.viscosity * LANES + i], dev(sym(s))))
         store3(block, result.stresslet, i, (S[0], S[4], S[8]))
         store3(block, result.stresslet + 3, i, (S[1], S[5], S[2]))
 
 
-def drop_stage(block: Any, mu: float) -> None:
+def drop_stage(block: Any) -> None:
     """Replace the stresslet by that of drops."""
     for i in range(LANES):
         l, R = load9(block, at.l, i), block[at.R * LANES + i]
         body = dot(load9(block, at.A, i), inverse(load9(block, at.new_F, i)))
+        mu = block[result.viscosity * LANES + i]
         Ca = mu * block[result.rate * LANES + i] / block[at.mu * LANES + i]
         s = drop_stress(block[at.eta * LANES + i] / mu, Ca, dev(sym(l)), sym(body))
         S = scale(4.0 / 3.0 * np.pi * R * R * R * mu, s)
@@ -213,7 +212,7 @@ def find_out(
     eta: Floats,
     drop: NDArray[np.int8],
     l: Floats,
-    mu: float,
+    mu: Floats,
     block: Floats,
     frames: Floats,
     found: tuple[Floats, ...],
@@ -227,7 +226,7 @@ def find_out(
     l
         ∂u_i/∂x_j of the fluid, (n, 9), 1/s.
     mu
-        Viscosity of the fluid, Pa s.
+        VaryingViscosity of the fluid, (n,), Pa s.
     block
         Working memory, (ALL_ROWS · LANES,).
     frames
@@ -247,14 +246,15 @@ def find_out(
                 block[(at.F0 + c) * LANES + i] = F0[k, c]
                 block[(at.l + c) * LANES + i] = l[k, c]
             block[at.R * LANES + i] = R[k]
+            block[result.viscosity * LANES + i] = mu[k]
             block[at.mu * LANES + i], block[at.eta * LANES + i] = modulus[k], eta[k]
         resume_frames(block)
         sort_stage(block)
         new_integrals(block)
-        report_stage(block, mu)
+        report_stage(block)
         # A cloud is of drops or of solids.
         if drop[start]:
-            drop_stage(block, mu)
+            drop_stage(block)
         m = min(LANES, n - start)
         for c in range(9):
             for i in range(m):
@@ -294,7 +294,7 @@ def carrier_velocity(p: Particles, u: Floats) -> Floats:
     return u + p.eddy
 
 
-def shape_stokes_number(p: Particles, flow: Flow, mu: float, time: float) -> float:
+def shape_stokes_number(p: Particles, flow: Flow, mu: float | Floats, time: float) -> float:
     """Return the largest γ̇ τ_s of the particles at ``time`` (s) in a fluid of viscosity μ_f (Pa s)."""
     if p.size == 0:
         return 0.0
@@ -306,7 +306,8 @@ def path_stokes_number(p: Particles, flow: Flow, medium: Medium, time: float) ->
     """Return the largest τ_p w/L of the particles at ``time`` (s), with τ_p = 2 ρ_s R²/(9 μ_f).
 
     w is the slip at the release or the settling speed, so that τ_p w is the distance in which drag stops a
-    particle. L is the flow's width; without walls the number is zero.
+    particle. L is the flow's width; without walls the number is zero. The medium is that at the particles
+    (:func:`foamprb.cloud.viscosity.medium_at`).
     """
     if p.size == 0 or not flow.width < math.inf:
         return 0.0
@@ -348,6 +349,7 @@ MEASURES: dict[str, Measure] = {
     "injector": Measure("", lambda c: c.particles.injector),
     "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), optional=True),
     "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), optional=True),
+    "muc": Measure("Pa s", _found("viscosity"), optional=True),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
@@ -355,7 +357,7 @@ MEASURES: dict[str, Measure] = {
 as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the frame; ``taylorDeformation`` is
 that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
 ``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
-fluid at the centre and the particle's velocity relative to it.
+fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there.
 """
 OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
 """Names of the measures that files contain on request only."""
@@ -364,7 +366,7 @@ OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
 def context(
     particles: Particles,
     flow: Sampled | FlowSamples,
-    mu: float,
+    mu: float | VaryingViscosity,
     time: float,
     ids: NDArray[np.int64] | None = None,
 ) -> Context:
@@ -377,7 +379,7 @@ def context(
     flow
         The flow around them, or what it was there.
     mu
-        Viscosity of the fluid, Pa s.
+        VaryingViscosity of the fluid, Pa s, or a model of it; values sampled with the flow take its place.
     time
         Time of the state, s.
     ids
@@ -389,7 +391,7 @@ def context(
 def contexts(
     particles: Particles,
     flow: Sampled | FlowSamples,
-    mu: float,
+    mu: float | VaryingViscosity,
     time: float,
     ids: NDArray[np.int64] | None = None,
 ) -> Iterator[Context]:
@@ -434,38 +436,47 @@ def measure(c: Context, further: Collection[str] = ()) -> dict[str, NDArray[Any]
     return {name: np.asarray(m.value(c)) for name, m in MEASURES.items() if name in further or not m.optional}
 
 
-def flow_samples(particles: Particles, flow: Sampled, time: float) -> FlowSamples:
-    """Return the flow at a time (s) at the injected particles of a cloud."""
+def flow_samples(
+    particles: Particles, flow: Sampled, time: float, mu: float | VaryingViscosity = math.nan
+) -> FlowSamples:
+    """Return the flow at a time (s) at the injected particles of a cloud, with its viscosity if it varies."""
     u, l_f = np.full((particles.size, 3), np.nan), np.full((particles.size, 9), np.nan)
+    mu_f = np.full(particles.size, np.nan) if isinstance(mu, VaryingViscosity) else None
     rows = injected(particles)
     for start in range(0, len(rows), PER_CONTEXT):
         chosen = as_slice(rows[start : start + PER_CONTEXT])
-        u[chosen], l_f[chosen] = _sampled(particles.x[chosen], particles.host[chosen], flow, time)
-    return FlowSamples(u, l_f)
+        x, hosts = particles.x[chosen], particles.host[chosen]
+        u[chosen], l_f[chosen] = _sampled(x, hosts, flow, time)
+        if mu_f is not None:
+            mu_f[chosen] = viscosity_of(mu, flow, x, hosts, l_f[chosen], time)
+    return FlowSamples(u, l_f, mu_f)
 
 
 def _prepare(
     particles: Particles,
     rows: NDArray[np.int64],
     flow: Sampled | FlowSamples,
-    mu: float,
+    mu: float | VaryingViscosity,
     time: float,
     ids: NDArray[np.int64] | None,
 ) -> Context:
     chosen = as_slice(rows)
     p = particles.take(chosen)
     if isinstance(flow, FlowSamples):
-        u, l = flow.u[chosen], flow.l_f[chosen]
+        u, l, sampled = flow.u[chosen], flow.l_f[chosen], flow.mu
     else:
         u, l = _sampled(p.x, p.host, flow, time)
+        sampled = None
+    mu_f = viscosity_of(mu, flow, p.x, p.host, l, time) if sampled is None else sampled[chosen]
+    mu_f = np.full(len(rows), mu_f)
     frames, block = np.empty((12, len(rows))), new_block(ALL_ROWS)
     found = {name: np.empty((len(rows), size)) for name, size in _SIZES.items()}
     _finder()(
-        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu, block, frames, tuple(found.values())
+        p.F, p.A, p.Q, p.F0, p.R, p.mu, p.eta, p.drop, l, mu_f, block, frames, tuple(found.values())
     )  # fmt: skip
     F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
-    return Context(p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu)
+    return Context(p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu_f)
 
 
 @cache

@@ -16,6 +16,7 @@ from foamprb.cloud.measures import (
     number_of_contexts,
 )
 from foamprb.cloud.state import Particles
+from foamprb.cloud.viscosity import VaryingViscosity
 from foamprb.flow.base import Sampled
 from foamprb.results.vtk import Parts, PointCloud
 
@@ -23,7 +24,7 @@ from foamprb.results.vtk import Parts, PointCloud
 def report(
     particles: Particles,
     flow: Sampled | FlowSamples,
-    mu: float,
+    mu: float | VaryingViscosity,
     time: float,
     names: Mapping[str, Sequence[str]],
     further: Collection[str] = (),

@@ -21,7 +21,7 @@ _CHUNK = 16_384
 _PENDING, _FAILED = int(Status.PENDING), int(Status.FAILED)
 
 
-def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
+def longest_stable_steps(p: Particles, mu_f: float | Floats, dt: float, material: str) -> Floats:
     """Return the longest stable step of ``paper`` for each shape, (n,), s; infinite if it is Δt or more.
 
     For a particle that has ended, the shape is its last one.
@@ -31,17 +31,18 @@ def longest_stable_steps(p: Particles, mu_f: float, dt: float, material: str) ->
     p
         The cloud.
     mu_f, dt
-        Viscosity of the fluid, Pa s, and Δt, s.
+        VaryingViscosity of the fluid, Pa s, a number or (n,), and Δt, s.
     material
         Name of the solid.
     """
     # Part by part, to limit memory.
-    starts = range(0, p.size, _CHUNK)
-    parts = [_limits(p.take(slice(k, k + _CHUNK)), mu_f, dt, material) for k in starts]
+    chunks = [slice(k, k + _CHUNK) for k in range(0, p.size, _CHUNK)]
+    mu_f = np.full(p.size, mu_f)
+    parts = [_limits(p.take(some), mu_f[some], dt, material) for some in chunks]
     return np.concatenate([np.empty(0), *parts])
 
 
-def instability(p: Particles, mu_f: float, dt: float, material: str) -> tuple[int, str]:
+def instability(p: Particles, mu_f: float | Floats, dt: float, material: str) -> tuple[int, str]:
     """Return the number of particles for whose shapes Δt is too long, and a sentence about them.
 
     The parameters are those of :func:`longest_stable_steps`.
@@ -57,7 +58,7 @@ def instability(p: Particles, mu_f: float, dt: float, material: str) -> tuple[in
     )
 
 
-def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
+def _limits(p: Particles, mu_f: Floats, dt: float, material: str) -> Floats:
     limits = np.full(p.size, np.inf)
     # Beyond the limit a shape oscillates from step to step, and is at times within it. Therefore the shapes
     # one step before and one step after are tested as well.
@@ -70,14 +71,14 @@ def _limits(p: Particles, mu_f: float, dt: float, material: str) -> Floats:
             shapes = chosen.F + steps * dt * chosen.A
             loop = link(_find_limits, {"derivatives": MATERIALS[material].derivatives})
             loop(shapes, chosen.F0, chosen.R, chosen.rho, chosen.mu, chosen.lame, chosen.k, chosen.eta,
-                 mu_f, dt, found)  # fmt: skip
+                 mu_f[rows], dt, found)  # fmt: skip
             limits[rows] = np.minimum(limits[rows], found)
     return limits
 
 
 def _find_doubtful(
     status: NDArray[np.int8], F: Floats, A: Floats, R: Floats, rho: Floats, eta: Floats,
-    mu_f: float, dt: float, steps: float, doubtful: NDArray[np.bool_],
+    mu_f: Floats, dt: float, steps: float, doubtful: NDArray[np.bool_],
 ) -> None:  # fmt: skip
     """Mark particles whose shape, after a number of steps, may be unstable for some elasticity."""
     h = steps * dt
@@ -87,13 +88,15 @@ def _find_doubtful(
             J, c = det(shape), cofactor(shape)
             # No stretch is less than J over the norm of the cofactors.
             least = J / np.sqrt(ddot(c, c))
-            limit = safe_step((least, least, J / (least * least)), 5.0 / (rho[n] * R[n] * R[n]), mu_f, eta[n])
+            limit = safe_step(
+                (least, least, J / (least * least)), 5.0 / (rho[n] * R[n] * R[n]), mu_f[n], eta[n]
+            )
             doubtful[n] = not limit >= dt
 
 
 def _find_limits(
     F: Floats, F0: Floats, R: Floats, rho: Floats, mu: Floats, lame: Floats, k: Floats, eta: Floats,
-    mu_f: float, dt: float, found: Floats,
+    mu_f: Floats, dt: float, found: Floats,
 ) -> None:  # fmt: skip
     """Store the longest stable steps in ``found``; see :class:`Particles` for the other arguments."""
     for n in range(len(found)):
@@ -106,12 +109,12 @@ def _find_limits(
         tau = (T[0], T[4], T[8])
         c = 5.0 / (rho[n] * R[n] * R[n])
         found[n] = np.inf
-        if is_stable(dt, stretches, g, e, tau, c, mu_f, eta[n]):
+        if is_stable(dt, stretches, g, e, tau, c, mu_f[n], eta[n]):
             continue
-        low, high = safe_step(stretches, c, mu_f, eta[n]), dt
+        low, high = safe_step(stretches, c, mu_f[n], eta[n]), dt
         for _ in range(_HALVINGS):
             middle = np.sqrt(low * high)
-            if is_stable(middle, stretches, g, e, tau, c, mu_f, eta[n]):
+            if is_stable(middle, stretches, g, e, tau, c, mu_f[n], eta[n]):
                 low = middle
             else:
                 high = middle

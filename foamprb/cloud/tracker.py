@@ -37,6 +37,7 @@ from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import compile_part, is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
 from foamprb.flow.analytic import gap_free
@@ -155,33 +156,38 @@ class Tracker:
         if material.liquid:
             bindings |= DROP_BINDINGS
         self.integrator = integrator = INTEGRATORS[models.integrator]
-        self.layout = layout = surroundings.with_rows(integrator.layout, models.surroundings)
+        self.mu = medium.mu
+        # The others may read the viscosity.
+        around = (*model_of(medium.mu), *models.surroundings)
+        self.layout = layout = surroundings.with_rows(integrator.layout, around)
         bindings["prefetch_rows"] = layout.prefetch
         required: dict[str, Any] = {"idle": layout.idle, "load_rows": layout.load, "save_rows": layout.save}
         required |= integrator.bindings
         required |= compose(models.forces)
         bindings |= required
-        bindings |= surroundings.compose(integrator.layout, models.surroundings, integrator.inertia)
+        bindings |= surroundings.compose(integrator.layout, around, integrator.inertia)
         # The flow and the models offer more than every loop reads.
         read = read_by(track_share, {**bindings, "track": integrator.track})
         self.kernels = kernels
         self.bindings = {name: bindings[name] for name in bindings if name in read or name in required}
         self.separate: tuple[Callable[..., Any], ...] = (
             *integrator.stages,
-            *(stage for model in models.surroundings for stage in type(model).stages()),
+            *(stage for model in around for stage in type(model).stages()),
             *integrator.rare,
             *RARE,
             *LONG,
         )
         self.table = _patch_table(interactions)
         self.medium = medium._replace(
+            # No kernel reads it where it varies.
+            mu=np.nan if model_of(medium.mu) else medium.mu,
             coefficients=coefficients(models.forces),
-            surroundings=surroundings.coefficients(models.surroundings, patches),
+            surroundings=surroundings.coefficients(around, patches),
         )
         self.dt, self.start = dt, start
         self.stride = 1
         # Surroundings may change, or draw random numbers, in each tracking step.
-        if integrator.adaptive and models.tolerance < np.inf and not models.surroundings:
+        if integrator.adaptive and models.tolerance < np.inf and not any(m.each_step for m in around):
             self.stride = models.stride
         self.options = (models.tolerance, self.stride) if integrator.adaptive else ()
         self.whole = stretch_of(self.stride)

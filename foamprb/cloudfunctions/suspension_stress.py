@@ -54,15 +54,17 @@ def _suspension(cloud: ObservedCloud, rows: Rows) -> list[float]:
     """Return volume, stress per volume (xx yy zz xy yz xz) and intrinsic viscosity; NaN without particles."""
     # The components off the diagonal count twice.
     weight = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
-    total, added, dissipated = np.zeros(7), 0.0, 0.0
+    total, added, dissipated, mu = np.zeros(7), 0.0, 0.0, 0.0
     for c in cloud.contexts(rows):
         volume = 4.0 / 3.0 * math.pi * c.particles.R**3 * MEASURES["J"].value(c)
         S = MEASURES["stresslet"].value(c)
         d = np.stack(dev(sym(c.l_f)), axis=1)[:, [0, 4, 8, 1, 5, 2]]
         total += np.column_stack([volume, S]).sum(axis=0)
         added += (weight * S * d).sum()
-        dissipated += (volume[:, None] * weight * d * d).sum()
+        # Over one viscosity, which is that of all where it is constant.
+        mu = mu or float(c.mu.max(initial=0.0))
+        dissipated += ((c.mu / mu * volume)[:, None] * weight * d * d).sum()
     with np.errstate(invalid="ignore"):
         stress = total[1:] / total[0]
-        viscosity = added / (2.0 * cloud.cloud.medium.mu * np.float64(dissipated))
+        viscosity = added / (2.0 * mu * np.float64(dissipated))
     return [float(total[0]), *map(float, stress), float(viscosity)]

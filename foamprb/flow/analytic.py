@@ -69,6 +69,11 @@ def turbulence_free(flow: Any, host: int, x: Vector, t: float) -> Turbulence:
     return 0.0, 0.0, _ZERO, _ZERO
 
 
+def viscosity_unknown(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+    """Return NaN and zeros: there is no field of the viscosity."""
+    return math.nan, _ZERO
+
+
 def no_rotation(flow: Any, host: int) -> tuple[Vector, Vector]:
     """Return zero angular velocity and the origin: the frame is at rest."""
     return _ZERO, _ZERO

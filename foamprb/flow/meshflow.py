@@ -20,7 +20,8 @@ from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
 from foamprb.flow.planes import planes_among, walls
-from foamprb.flow.sampling import sample_with
+from foamprb.flow.sampling import sample_with, viscosity_with
+from foamprb.flow.viscosity import viscosity
 from foamprb.flow.walk import (
     cell_volume,
     cross,
@@ -110,6 +111,8 @@ class MeshFlow:
         (n_nodes, 8): k, ε, ∇k and ∇(k²/3ε) at the nodes, if they were read.
     correction
         (n_tets, 8) correction of u that keeps volume, by :class:`foamprb.flow.fluxes.Conservation`.
+    viscosity
+        (n_nodes, 4): a field of the viscosity and its gradient, if it was read.
     """
 
     kernels: dict[str, Callable[..., Any]] = {  # noqa: RUF012
@@ -124,6 +127,7 @@ class MeshFlow:
         "cross": cross,
         "recover": recover,
         "turbulence": turbulence,
+        "viscosity": viscosity,
         "cell_volume": cell_volume,
     }
     lists_walls = True
@@ -138,6 +142,7 @@ class MeshFlow:
         time: str = "",
         turbulence: Floats | None = None,
         correction: NDArray[np.float32] | None = None,
+        viscosity: Floats | None = None,
     ) -> None:
         self._time = time
         self.mesh = mesh
@@ -182,6 +187,7 @@ class MeshFlow:
             rim=rim,
             near_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             turbulence=np.empty((0, 8)) if turbulence is None else turbulence,
+            viscosity=np.empty((0, 4)) if viscosity is None else viscosity,
             wall_boxes=np.empty((2, 6)),
             seen_start=np.zeros(mesh.n_cells + 1, dtype=np.int32),
             correction=np.empty((0, 8), dtype=np.float32) if correction is None else correction,
@@ -281,11 +287,20 @@ class MeshFlow:
         """Return k, ε, ∇k and ∇(k²/3ε) at all nodes, (n, 8); no rows if they were not read."""
         return self._arrays.turbulence
 
+    def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
+        """Return the field of the viscosity at points (n, 3) in hosts (n,) at t, s, as it was read, (n,)."""
+        return viscosity_with(self.kernels["viscosity"], self.arrays(), points, hosts, t)
+
+    def viscosity_at_nodes(self) -> Floats:
+        """Return the field of the viscosity at all nodes, as it was read, (n,)."""
+        return self._arrays.viscosity[:, 0]
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return mesh and velocities by name."""
-        return {
-            name: a for name, a in self._arrays._asdict().items() if not name.startswith(("wall_", "seen"))
-        }
+        arrays = self._arrays._asdict()
+        if len(arrays["viscosity"]) == 0:
+            del arrays["viscosity"]
+        return {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen"))}
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""

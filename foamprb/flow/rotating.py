@@ -20,6 +20,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.sampling import sample_with, with_velocity
 from foamprb.flow.series import SeriesFlow
+from foamprb.flow.viscosity import viscosity as viscosity_mesh
 from foamprb.flow.walk import STEADY, parts
 from foamprb.flow.walk import curvature as curvature_mesh
 from foamprb.flow.walk import turbulence as turbulence_mesh
@@ -74,6 +75,11 @@ def turbulence(flow: RotatingArrays, host: int, x: Vector, t: float) -> Turbulen
     return turbulence_mesh(flow.mesh, host, x, t)
 
 
+def viscosity(flow: RotatingArrays, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+    """See :func:`foamprb.flow.viscosity.viscosity`; the same in all frames."""
+    return viscosity_mesh(flow.mesh, host, x, t)
+
+
 def curvature(flow: RotatingArrays, host: int, x: Vector, t: float) -> Curvature:
     """See :func:`foamprb.flow.walk.curvature`; the same in all frames."""
     return curvature_mesh(flow.mesh, host, x, t)
@@ -95,6 +101,7 @@ class RotatingFlow(MeshFlow):
         "sample": sample,
         "curvature": curvature,
         "turbulence": turbulence,
+        "viscosity": viscosity,
         "rotation_at": rotation_at,
     }
 

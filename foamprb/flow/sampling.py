@@ -35,6 +35,24 @@ def _sampler(kernel: Callable[..., Any]) -> Any:
     return link(_sample_all, {"sample": kernel})
 
 
+def viscosity(flow: Any, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+    """Placeholder for the kernel of a flow, which :func:`viscosity_with` binds."""
+    raise NotImplementedError
+
+
+def viscosity_with(kernel: Callable[..., Any], arrays: Any, points: Floats, hosts: Ints, t: float) -> Floats:
+    """Return the field of the viscosity at points (n, 3) in hosts (n,), by a kernel and its arrays, (n,)."""
+    points, found = np.ascontiguousarray(points, dtype=np.float64), np.empty(len(points))
+    hosts = np.ascontiguousarray(hosts, dtype=np.int32)
+    link(_viscosity_all, {"viscosity": kernel})(arrays, points, hosts, t, found)
+    return found
+
+
+def _viscosity_all(flow: Any, points: Floats, hosts: Ints, t: float, found: Floats) -> None:
+    for i in range(points.shape[0]):
+        found[i], _ = viscosity(flow, hosts[i], (points[i, 0], points[i, 1], points[i, 2]), t)
+
+
 def with_velocity(faces: PatchFaces, flow: Sampled, t: float) -> PatchFaces:
     """Return triangles of a patch with the velocity at their corners at time t, s."""
     velocity, _ = flow.sample(faces.vertices.reshape(-1, 3), np.repeat(faces.hosts, 3), t)

@@ -26,6 +26,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
+from foamprb.flow.viscosity import blend_viscosity
 from foamprb.flow.walk import (
     FAILED,
     blend_turbulence,
@@ -45,8 +46,8 @@ from foamprb.flow.walls import gap as gap_mesh
 
 _SLACK = 1e-6
 """Share of the shortest interval by which two times may differ and still be the same."""
-_OF_VELOCITY, _OF_TURBULENCE = 12, 8
-"""Columns of u and ∇u, and of the turbulence after them."""
+_OF_VELOCITY, _OF_TURBULENCE, _OF_VISCOSITY = 12, 8, 4
+"""Columns of u and ∇u, of the turbulence after them, and of the viscosity at the end."""
 _LONGEST_END = 2.0
 """How many times longer than any other interval the last one of a period may be."""
 
@@ -60,7 +61,8 @@ class SeriesArrays(NamedTuple):
     first: NDArray[np.int64]
     """(n,) 64-bit, row of ``fields`` at which the nodes of each time begin."""
     fields: Floats
-    """(rows, 12 or 20): u v w and the nine ∂u_i/∂x_j row by row, time by time; k, ε, ∇k and ∇(k²/3ε)."""
+    """(rows, 12 or more): u v w and the nine ∂u_i/∂x_j row by row, time by time; k, ε, ∇k and ∇(k²/3ε) if
+    they were read; last viscosity and its gradient, if it was."""
     slack: float
     """Times closer than this are the same, s."""
     first_tet: NDArray[np.int64]
@@ -113,6 +115,16 @@ def turbulence(flow: SeriesArrays, host: int, x: Vector, t: float) -> Turbulence
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
     k_epsilon = a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])
     return *k_epsilon, between(a[2], b[2], s), between(a[3], b[3], s)
+
+
+def viscosity(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[float, Vector]:
+    """See :func:`foamprb.flow.viscosity.viscosity`; linear in t. The loop requests it only if it was read."""
+    k = _interval(flow, t)
+    w, column = shape(flow.mesh, host, x), flow.fields.shape[1] - _OF_VISCOSITY
+    a, da = blend_viscosity(flow.fields, column, corners(flow.mesh, host, flow.first[k]), w)
+    b, db = blend_viscosity(flow.fields, column, corners(flow.mesh, host, flow.first[k + 1]), w)
+    s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
+    return a + s * (b - a), between(da, db, s)
 
 
 def curvature(flow: SeriesArrays, host: int, x: Vector, t: float) -> Curvature:  # noqa: ARG001
@@ -188,7 +200,8 @@ class SeriesFlow(MeshFlow):
         At least two, rising, s.
     read
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
-        also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``conservative`` last the correction of u, (n_tets, 8)
+        also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``viscous`` also the viscosity and its gradient,
+        (n_nodes, 4); with ``conservative`` last the correction of u, (n_tets, 8)
         (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
@@ -199,8 +212,8 @@ class SeriesFlow(MeshFlow):
         Number of times to keep in memory, if more than a step needs.
     zones
         Returns the cells of each zone by name; called when a zone is requested.
-    turbulent, conservative
-        Whether ``read`` returns the turbulence, and the correction.
+    turbulent, conservative, viscous
+        Whether ``read`` returns the turbulence, the correction, and the viscosity.
 
     Raises
     ------
@@ -220,6 +233,7 @@ class SeriesFlow(MeshFlow):
         "cross": cross,
         "recover": recover,
         "turbulence": turbulence,
+        "viscosity": viscosity,
         "cell_volume": cell_volume,
     }
 
@@ -234,6 +248,7 @@ class SeriesFlow(MeshFlow):
         zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
         turbulent: bool = False,
         conservative: bool = False,
+        viscous: bool = False,
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -245,8 +260,8 @@ class SeriesFlow(MeshFlow):
         self._ends = self.times if period is None else (*self.times, self.times[0] + period)
         self._slack = _SLACK * float(np.diff(self._ends).min())
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
-        width = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
-        self._fields = np.empty((0, nodes, width))
+        self._turbulent = turbulent
+        self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
         self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 8), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
         """Row in ``_fields`` of each loaded time by its index, the least recently used first."""
@@ -326,9 +341,18 @@ class SeriesFlow(MeshFlow):
 
     def turbulence_at_nodes(self) -> Floats:
         """Return k, ε, ∇k and ∇(k²/3ε) (n, 8) at all nodes at the first time; no rows if not read."""
-        if self._fields.shape[2] == _OF_VELOCITY:
+        if not self._turbulent:
             return np.empty((0, _OF_TURBULENCE))
-        return self._first()[:, _OF_VELOCITY:]
+        return self._first()[:, _OF_VELOCITY : _OF_VELOCITY + _OF_TURBULENCE]
+
+    def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
+        """Load time t and sample there; see :meth:`MeshFlow.viscosity` and :meth:`load`."""
+        self.load(t, t)
+        return super().viscosity(points, hosts, t)
+
+    def viscosity_at_nodes(self) -> Floats:
+        """Return the field of the viscosity at all nodes at the first time, as it was read, (n,)."""
+        return self._first()[:, -_OF_VISCOSITY]
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return mesh, times, and fields at the first time, by name."""
@@ -401,16 +425,21 @@ class SeriesFlow(MeshFlow):
             place = self._in_memory.pop(next(iter(self._in_memory)))
         self._fields[place, :, :3] = u
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
-        if self._fields.shape[2] > _OF_VELOCITY:
-            self._fields[place, :, _OF_VELOCITY:] = more[0]
         if self._corrections.shape[1] > 0:
-            self._corrections[place] = more[-1]
+            self._corrections[place] = more.pop()
+        if more:
+            self._fields[place, :, _OF_VELOCITY:] = np.concatenate(more, axis=1)
         self._in_memory[index] = place
 
     def _prefetch(self, index: int) -> Future[tuple[Any, ...]]:
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
         return self._prefetched[1]
+
+
+def _width(turbulent: bool, viscous: bool) -> int:
+    """Return the number of columns of the fields."""
+    return _OF_VELOCITY + _OF_TURBULENCE * turbulent + _OF_VISCOSITY * viscous
 
 
 def _one_period(times: Sequence[float], period: float) -> tuple[float, ...]:
@@ -452,6 +481,7 @@ def series_of(
     zones: Callable[[], Mapping[str, NDArray[np.int64]]] = dict,
     turbulent: bool = False,
     conservative: bool = False,
+    viscous: bool = False,
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -465,7 +495,7 @@ def series_of(
         Names of the times, rising.
     read
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
-    period, notes, zones, turbulent, conservative
+    period, notes, zones, turbulent, conservative, viscous
         See :class:`SeriesFlow`.
 
     Raises
@@ -475,8 +505,8 @@ def series_of(
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
-    columns = _OF_VELOCITY + (_OF_TURBULENCE if turbulent else 0)
-    size = 8 * columns * (mesh.n_points + mesh.n_cells) + (32 * len(mesh.tets) if conservative else 0)
+    size = 8 * _width(turbulent, viscous) * (mesh.n_points + mesh.n_cells)
+    size += 32 * len(mesh.tets) if conservative else 0
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
     try:
@@ -490,6 +520,7 @@ def series_of(
             zones,
             turbulent,
             conservative,
+            viscous,
         )
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

@@ -20,7 +20,7 @@ from foamprb.cloud.state import Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
-from foamprb.flow.sampling import sample_with
+from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import RECORD, pack, unpack
 from foamprb.parallel.shared_memory import Windows
 from foamprb.results.vtk import PieceArray, write_snapshot
@@ -54,13 +54,16 @@ class Answer(NamedTuple):
 
 
 class _SharedFlow(NamedTuple):
-    """Flow of a process that did not read it: its kernel, and arrays in shared memory."""
+    """Flow of a process that did not read it: its kernels, and arrays in shared memory."""
 
-    kernel: Callable[..., Any]
+    kernels: Mapping[str, Callable[..., Any]]
     arrays: Any
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
-        return sample_with(self.kernel, self.arrays, points, hosts, t)
+        return sample_with(self.kernels["sample"], self.arrays, points, hosts, t)
+
+    def viscosity(self, points: Floats, hosts: Ints, t: float) -> Floats:
+        return viscosity_with(self.kernels["viscosity"], self.arrays, points, hosts, t)
 
 
 class Worker:
@@ -199,7 +202,7 @@ class Worker:
         """
         if self.rank and not len(injected(self.particles)):
             return None
-        flow, mu = _SharedFlow(self._tracker.kernels["sample"], self._flow), self._tracker.medium.mu
+        flow, mu = _SharedFlow(self._tracker.kernels, self._flow), self._tracker.mu
         file = piece_file(folder, self.rank)
         return file, write_snapshot(file, report(self.particles, flow, mu, time, names, further, self.ids))
 

@@ -12,6 +12,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
 from foamprb.cloud.state import Particles
+from foamprb.cloud.viscosity import medium_at, viscosity_at_nodes
 
 STEADY_CAPILLARY = 0.3
 """Approximate largest μ_f γ̇/μ_s at which a neo-Hookean sphere has a steady shape in uniaxial extension."""
@@ -64,7 +65,7 @@ def groups(cloud: Cloud, injector: int) -> Groups:
 
 def _ranges(cloud: Cloud, p: Particles) -> list[tuple[float, float]]:
     """Return the ranges of :class:`Groups` for some particles."""
-    medium = cloud.medium
+    medium = medium_at(cloud.medium, cloud.flow, p, cloud.time)
     gamma = shear_rate_at(cloud.flow, p, cloud.time)
     tau = relaxation_time(p.rho, p.R, medium.mu, p.eta)
     groups = (
@@ -91,12 +92,13 @@ def _extending(cloud: Cloud, rows: NDArray[np.intp]) -> float:
     every body has a steady shape.
     """
     gradient = cloud.flow.at_nodes()[2]
-    gradient = gradient[:: max(1, len(gradient) // _MOST_NODES)]
+    some = slice(None, None, max(1, len(gradient) // _MOST_NODES))
+    gradient, mu = gradient[some], np.asarray(viscosity_at_nodes(cloud.medium.mu, cloud.flow))
     if len(gradient) == 0 or len(rows) == 0:
         return 0.0
     rate = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
     softest = cloud.particles.mu[rows].min()
-    return float(np.mean(np.sqrt(3.0) * cloud.medium.mu * rate / softest > STEADY_CAPILLARY))
+    return float(np.mean(np.sqrt(3.0) * (mu[some] if mu.ndim else mu) * rate / softest > STEADY_CAPILLARY))
 
 
 def doubts(g: Groups, integrator: str, where: str) -> list[str]:

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
-from foamprb.cloud.measures import path_stokes_number, shape_stokes_number, shear_rate
+from foamprb.cloud.measures import path_stokes_number, shape_stokes_number
 from foamprb.flow.base import Caveat
 from foamprb.results.atomic import atomic_write
 from foamprb.results.folder import RECORD_FORMAT
@@ -56,22 +57,22 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         if g.n:
             warnings += doubts(g, models.integrator, f"injection model {injection.name}")
     for model in models.surroundings:
-        warnings += model.warnings(cloud.particles, flow, cloud.medium, cloud.dt)
+        warnings += model.warnings(cloud.particles, flow, cloud.medium_there, cloud.dt)
     if cloud.particles.size == 0:
         warnings.append("there is no particle: no injection model releases any.")
     arrays = cloud.make_ready()
     notes = [line for model in models.surroundings for line in model.notes(cloud.particles, arrays, flow)]
     number, path_number = None, None
     if settings.solution.integrationSchemes.shape == "auto":
-        number = shape_stokes_number(cloud.particles, flow, cloud.medium.mu, cloud.time)
-        path_number = path_stokes_number(cloud.particles, flow, cloud.medium, cloud.time)
+        medium = cloud.medium_there
+        number = shape_stokes_number(cloud.particles, flow, medium.mu, cloud.time)
+        path_number = path_stokes_number(cloud.particles, flow, medium, cloud.time)
     description: dict[str, Any] = _as_json({
         "format": RECORD_FORMAT,
         "versions": {"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
         "settings": _text_of(settings),
         "fluid": {
-            "rho": settings.fluid.rho, "nu": settings.fluid.nu, "mu": settings.fluid.mu,
-            "gravity": settings.gravity,
+            "rho": settings.fluid.rho, **_viscosity(settings, cloud), "gravity": settings.gravity,
         },
         "flow": _ranges(cloud),
         "models": {
@@ -101,6 +102,16 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
         "warnings": warnings,
     })  # fmt: skip
     return description
+
+
+def _viscosity(settings: Settings, cloud: Cloud) -> dict[str, Any]:
+    """Return the viscosities; of one that varies, its ranges over the nodes and its origin."""
+    fluid = settings.fluid
+    if fluid.varying is None:
+        return {"nu": fluid.nu, "mu": fluid.mu}
+    mu = fluid.varying.at_nodes(cloud.flow)
+    ends = np.array([mu.min(), mu.max()])
+    return {"nu": (ends / fluid.rho).tolist(), "mu": ends.tolist(), "viscosity": fluid.origin}
 
 
 def write_record(path: Path, description: Mapping[str, Any]) -> None:

@@ -29,6 +29,7 @@ from foamprb.cloud.patches import CYCLIC
 from foamprb.cloud.state import Particles, concatenate
 from foamprb.cloud.surroundings.rotating_frames import RotatingFrames
 from foamprb.cloud.tracker import Models, Tracker, available_threads
+from foamprb.cloud.viscosity import medium_at, viscosity_at_rate
 from foamprb.cloudfunctions.base import ObservedCloud
 from foamprb.cloudfunctions.registry import CloudFunctions
 from foamprb.dictionary.positions import read_positions
@@ -160,7 +161,7 @@ def prepare(
     settings = read_settings(case, dictionary, source.region, single, outside_libs, overrides)
     turbulent = any(type(model).needs_turbulence for model in settings.dispersion.values())
     relative = settings.solution.rotatingZones == "relative"
-    source = replace(source, turbulent=turbulent, relative=relative)
+    source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
     rotating = bool(rotations_of(case, source))
     compilation = _compile(settings, rotating) if precompile else None
     try:
@@ -205,7 +206,8 @@ def likely_integrator(settings: Settings) -> str:
         if injection.sizeDistribution is not None:
             rho, d = _most(injection.rho0), injection.sizeDistribution.limits[1]
             rate = injection.solid.referenceShearRate or 0.1 / settings.solution.deltaT
-            numbers.append(rate * float(relaxation_time(rho, 0.5 * d, settings.fluid.mu)))
+            mu = viscosity_at_rate(settings.fluid.mu, rate)
+            numbers.append(rate * float(relaxation_time(rho, 0.5 * d, mu)))
     return automatic(max(numbers), _material(settings))
 
 
@@ -333,7 +335,8 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     solid = injection.solid
     try:
         p, given = release(injection.model, flow, _random(injection.name), read_positions)
-        stiffness = given_shear_modulus(given, solid.poissonsRatio, medium.mu, solid.referenceShearRate)
+        mu = viscosity_at_rate(medium.mu, solid.referenceShearRate)
+        stiffness = given_shear_modulus(given, solid.poissonsRatio, mu, solid.referenceShearRate)
         if injection.sizeDistribution is None and "d" not in given:
             raise InputError("sizeDistribution is missing, and the file of positions has no column d.")
     except InputError as error:
@@ -364,13 +367,14 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
         what = "tension over radius" if liquid else "shear modulus"
         raise InputError(
             f"injection model {injection.name}: the {what} of {np.count_nonzero(wrong)} of {p.size} "
-            f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {medium.mu:g} Pa s."
+            f"particles is {p.mu[wrong][0]:g}, no positive number; the fluid has {mu:g} Pa s."
         )
     rate: Any = solid.referenceShearRate
     if rate is None:
-        rate = shear_rate_at(flow, p, start_of_injection(injection.model, flow))
-    p.Ca[:] = medium.mu * rate / p.mu
-    p.lame[:] = _lame(solid, p.mu, medium.mu * float(np.max(rate, initial=0.0)))
+        start = start_of_injection(injection.model, flow)
+        rate, mu = shear_rate_at(flow, p, start), medium_at(medium, flow, p, start).mu
+    p.Ca[:] = mu * rate / p.mu
+    p.lame[:] = _lame(solid, p.mu, float(np.max(mu * rate, initial=0.0)))
     return p
 
 

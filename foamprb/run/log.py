@@ -43,9 +43,13 @@ def log_description(job: Job) -> None:
     """Log the selections of a run, their numbers and warnings, from its description."""
     description = job.description
     fluid, flow, models = (description[key] for key in ("fluid", "flow", "models"))
-    log.info(
-        "Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid["nu"], fluid["mu"], fluid["rho"]
-    )
+    if "viscosity" in fluid:
+        log.info("Fluid: rho = %.4g kg/m3", fluid["rho"])
+        log.info("    viscosity: %s, %.4g to %.4g Pa s over the nodes", fluid["viscosity"], *fluid["mu"])
+    else:
+        log.info(
+            "Fluid: nu = %.4g m2/s, mu = %.4g Pa s, rho = %.4g kg/m3", fluid["nu"], fluid["mu"], fluid["rho"]
+        )
     if flow["U"] is not None:
         first = " (the first)" if description["time"]["transient"] else ""
         log.info("Flow%s", f" at time {flow['time']}{first}" if flow["time"] else "")
@@ -172,8 +176,8 @@ class RunLog:
         cloud = self._job.cloud
         if cloud.models.integrator != PAPER.name:
             return
-        p, mu = cloud.particles, cloud.medium.mu
-        beyond, sentence = instability(p, mu, cloud.dt, cloud.models.material)
+        p = cloud.particles
+        beyond, sentence = instability(p, cloud.medium_there.mu, cloud.dt, cloud.models.material)
         if beyond > self._unstable:
             self._unstable = beyond
             log.warning("%s", sentence)

@@ -246,7 +246,8 @@ class Results:
         """Return a function that writes and lists a snapshot while the cloud advances."""
         p, flow, time = snapshot.particles, snapshot.flow, snapshot.time
         # A transient flow may have gone on to other times by then.
-        seen = flow if flow.span == (-np.inf, np.inf) else flow_samples(p, flow, time)
+        mu, steady = self._job.cloud.medium.mu, flow.span == (-np.inf, np.inf)
+        seen = flow if steady else flow_samples(p, flow, time, mu)
         cloud = self._report(p, seen, time)
         return lambda: self._series.append(cloud)
 

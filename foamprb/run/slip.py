@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
-from foamprb.cloud.measures import carrier_velocity, shear_rate
+from foamprb.cloud.measures import carrier_velocity
 from foamprb.cloud.state import Status
+from foamprb.cloud.viscosity import medium_at
 
 __all__ = ["Slip", "SlipRecord", "drag_excess"]
 
@@ -34,7 +36,8 @@ def drag_excess(reynolds: float) -> float:
 
 
 def _slip(cloud: Cloud, rows: NDArray[np.int64]) -> Slip:
-    p, medium = cloud.particles.take(rows), cloud.medium
+    p = cloud.particles.take(rows)
+    medium = medium_at(cloud.medium, cloud.flow, p, cloud.time)
     u, l = cloud.flow.sample(p.x, p.host, cloud.time)
     speed = np.linalg.norm(p.v - carrier_velocity(p, u), axis=1)
     rate = np.asarray(shear_rate(tuple(l.reshape(-1, 9).T)))  # type: ignore[arg-type]

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.integrators.registry import SMALL_STOKES
-from foamprb.cloud.measures import shear_rate
 from foamprb.dictionary.constraints import Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.errors import InputError
@@ -24,6 +24,7 @@ from foamprb.flow.read.caveats import is_steady, turbulence_fields
 from foamprb.flow.read.decomposed import is_only_decomposed
 from foamprb.flow.read.flows import check_region, read_flow
 from foamprb.flow.read.fluid import (
+    CaseViscosity,
     apparent_viscosity,
     density_of_state,
     fluid_file,
@@ -346,16 +347,19 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
         return phases
     file = fluid_file(case, source.region)
     where = "" if file is None else f"constant/{file.relative_to(case / 'constant')}"
-    nu, mu, lines = None, None, []
+    nu: float | None = None
+    mu: float | None = None
+    lines: list[str] = []
     try:
         if file is not None:
-            nu, mu, _ = read_viscosity(file, case)
-            lines.append(f"// {'nu' if nu else 'mu':12s}{nu or mu:g}: from {where}")
+            time = None if source.file else "latestTime"
+            found = read_viscosity(file, case, None, source.region, time)
+            nu, mu, lines = _typical(found, rate, where)
     except InputError as error:
         assert file is not None
         try:
             T, origin = _temperature(case, source.region)
-            nu, mu, temperature = read_viscosity(file, case, T)
+            nu, mu, temperature = read_viscosity(file, case, T)[:3]
             if temperature is None:
                 raise error
             lines.append(f"TInf {T:g}; // {_said('constantProperties', 'TInf')}{origin}")
@@ -380,6 +384,20 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
             )
         lines.append(f"rhoInf {rho:g}; // kg/m3, density of the fluid; {origin}")
     return rho, nu if nu is not None else float(mu or 0.0) / rho, lines
+
+
+def _typical(found: CaseViscosity, rate: float, where: str) -> tuple[float | None, float | None, list[str]]:
+    """Return a viscosity, m²/s or else Pa s, and a comment: one that varies at a rate, 1/s, or its mean."""
+    nu, mu, at = found.nu, found.mu, "on the mean"
+    if found.law is not None:
+        nu, at = found.law(rate), f"at {rate:.3g} 1/s"
+    elif found.field is not None:
+        nu, mu = (found.field.mean, None) if found.field.kinematic else (None, found.field.mean)
+    name = f"// {'nu' if nu else 'mu':12s}"
+    comment = (
+        f"local, by {found.origin}; {nu or mu:.4g} {at}" if found.origin else f"{nu or mu:g}: from {where}"
+    )
+    return nu, mu, [name + comment]
 
 
 def _temperature(case: Path, region: str, *phases: str) -> tuple[float, str]:

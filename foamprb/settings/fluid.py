@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +11,7 @@ from typing import Annotated
 from foamprb.cloud.block import Medium
 from foamprb.cloud.injection.distribution import Distribution
 from foamprb.cloud.injection.shapes import Shape
+from foamprb.cloud.viscosity import RATE_LAWS, FieldViscosity, VaryingViscosity
 from foamprb.dictionary.constraints import Meaning, NoEffect, Positive, Vector3
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes, ReportedError
@@ -20,6 +22,7 @@ from foamprb.errors import InputError
 from foamprb.flow.read.fluid import (
     FILES,
     CaseViscosity,
+    ViscosityField,
     fluid_file,
     mean_density,
     read_density,
@@ -82,12 +85,18 @@ class Fluid:
     """Density rho, kg/m3, and kinematic viscosity nu, m2/s."""
 
     rho: float
-    nu: float
+    nu: float | None
+    varying: VaryingViscosity | None = None
+    """Model of a viscosity that varies; then ``nu`` is None."""
+    origin: str = ""
+    """What gives a viscosity that varies."""
+    field: ViscosityField | None = None
+    """Field that the flow must read for it."""
 
     @property
-    def mu(self) -> float:
-        """Dynamic viscosity, Pa s."""
-        return self.rho * self.nu
+    def mu(self) -> float | VaryingViscosity:
+        """Dynamic viscosity, Pa s, or the model of one that varies."""
+        return self.varying if self.nu is None and self.varying else self.rho * (self.nu or 0.0)
 
 
 def of_region(case: Path, region: str, name: str) -> Path:
@@ -102,8 +111,9 @@ def read_fluid(
     constant: Dictionary,
     properties: ConstantProperties | None,
     time: float | str = "latestTime",
+    transient: bool = False,
 ) -> Fluid:
-    """Read ρ_f and ν: from ``constantProperties``, the case's dictionary of the fluid, or the field ``rho``.
+    """Read ρ_f and ν: from ``constantProperties``, the case's dictionary of the fluid, or fields.
 
     Parameters
     ----------
@@ -112,7 +122,9 @@ def read_fluid(
     constant, properties
         The cloud's ``constantProperties``, and its entries, None if they are broken.
     time
-        Time of the field ``rho``.
+        Time of the fields.
+    transient
+        Whether the flow is read at all times.
 
     Raises
     ------
@@ -132,7 +144,8 @@ def read_fluid(
                 raise constant.missing(
                     "nu", f"Allowed: {Positive.text}, m2/s; or mu, Pa s; or nu in constant/{FILES[0]}."
                 )
-            viscosity = read_viscosity(file, case, properties.TInf if properties else None)
+            T = properties.TInf if properties else None
+            viscosity = read_viscosity(file, case, T, region, time, transient)
     with mistakes:
         if "rhoInf" not in constant.entries:
             rho = _density_of_case(case, region, constant, file, time)
@@ -143,7 +156,33 @@ def read_fluid(
         raise ReportedError("constantProperties is broken")
     if viscosity.temperature is not None:
         log.info("%s: the viscosity is %g Pa s, at %g K.", file, viscosity.mu, viscosity.temperature)
+    if varying := _varying(viscosity, rho):
+        return Fluid(rho, None, varying, viscosity.origin, viscosity.field)
+    _note_constant(constant, file, case, region)
     return Fluid(rho, viscosity.nu if viscosity.nu is not None else float(viscosity.mu or 0.0) / rho)
+
+
+def _varying(viscosity: CaseViscosity, rho: float) -> VaryingViscosity | None:
+    """Return the model of a viscosity that varies, None for a constant; ρ is the density, kg/m³."""
+    if viscosity.field is not None:
+        factor = rho if viscosity.field.kinematic else 1.0
+        return FieldViscosity(factor=factor, mean=factor * viscosity.field.mean)
+    if viscosity.law is not None:
+        return RATE_LAWS[viscosity.law.model].of_kinematic(viscosity.law.coefficients, rho)
+    return None
+
+
+def _note_constant(constant: Dictionary, file: Path | None, case: Path, region: str) -> None:
+    """Log that a viscosity of the cloud replaces one of the case that varies."""
+    given = {"nu", "mu"} & constant.entries.keys()
+    if not given or file is None:
+        return
+    with suppress(InputError):
+        if origin := read_viscosity(file, case, None, region).origin:
+            log.info(
+                "%s: constantProperties/%s is the viscosity at the particles, instead of %s.",
+                constant.source, *given, origin,
+            )  # fmt: skip
 
 
 def _density_of_case(
@@ -172,7 +211,7 @@ def read_medium(
     time: float | str = "latestTime",
     *,
     rho: float | None = None,
-    mu: float | None = None,
+    mu: float | VaryingViscosity | None = None,
     temperature: float | None = None,
 ) -> Medium:
     """Read the fluid's viscosity and density, and gravity, from any file where a solver keeps them.
@@ -190,7 +229,8 @@ def read_medium(
 
     Returns
     -------
-    The medium; without a file ``g``, gravity is zero.
+    The medium; without a file ``g``, gravity is zero. A viscosity by the shear rate is a model, see
+    :mod:`foamprb.cloud.viscosity`.
 
     Raises
     ------
@@ -207,8 +247,9 @@ def read_medium(
     if mu is None:
         if file is None:
             raise InputError(f"{case}: constant/{FILES[0]} does not exist; give mu, Pa s.")
-        viscosity = read_viscosity(file, case, temperature)
-        mu = float(viscosity.mu or 0.0) if viscosity.nu is None else viscosity.nu * rho
+        viscosity = read_viscosity(file, case, temperature, region)
+        constant = float(viscosity.mu or 0.0) if viscosity.nu is None else viscosity.nu * rho
+        mu = _varying(viscosity, rho) or constant
     there = (case / of_region(case, region, "g")).is_file()
     return Medium(mu, rho, read_gravity(case, region) if there else (0.0, 0.0, 0.0))
 

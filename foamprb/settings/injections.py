@@ -11,6 +11,7 @@ from foamprb.body.material import MATERIALS
 from foamprb.cloud.injection.distribution import Distribution, scaled
 from foamprb.cloud.injection.models import INJECTIONS, Injection
 from foamprb.cloud.injection.shapes import Shape, Sphere
+from foamprb.cloud.viscosity import viscosity_at_rate
 from foamprb.dictionary.constraints import (
     Bounds,
     Choice,
@@ -323,7 +324,8 @@ def _solid_entries(dictionary: Dictionary) -> dict[str, Any]:
 def _with_shear_modulus(solid: Solid, fluid: Fluid) -> Solid:
     """Return a solid with μ_s, Pa, from Ca = μ_f γ̇/μ_s or Young's modulus, if it gives one of these."""
     if solid.Ca is not None and solid.referenceShearRate is not None:
-        return replace(solid, shearModulus=scaled(solid.Ca, fluid.mu * solid.referenceShearRate, -1), Ca=None)
+        stress = viscosity_at_rate(fluid.mu, solid.referenceShearRate) * solid.referenceShearRate
+        return replace(solid, shearModulus=scaled(solid.Ca, stress, -1), Ca=None)
     if solid.youngsModulus is not None and solid.poissonsRatio is not None:
         modulus = scaled(solid.youngsModulus, 0.5 / (1.0 + solid.poissonsRatio))
         return replace(solid, shearModulus=modulus, youngsModulus=None)

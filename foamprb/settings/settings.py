@@ -166,7 +166,7 @@ def read_settings(
     region
         Region of the mesh: its files in ``constant/REGION`` go before the files in ``constant``.
     time
-        Time of the flow, at which the field ``rho`` is read.
+        Time of the flow, at which fields of the fluid are read.
     outside_libs
         Whether Python files of ``libs`` may lie outside the case.
     overrides
@@ -201,6 +201,7 @@ def read_settings(
     mistakes = Mistakes()
     with mistakes:
         read_entries(CloudProperties, root)
+    solution: Any = None
     with mistakes:
         solution = read_solution(_section(root, "solution"), case)
     # Particles are also checked if the fluid is unknown.
@@ -209,7 +210,7 @@ def read_settings(
         constant = _section(root, "constantProperties")
         with mistakes:
             properties = read_entries(ConstantProperties, constant)
-        fluid = read_fluid(case, region, constant, properties, time)
+        fluid = read_fluid(case, region, constant, properties, time, bool(solution and solution.transient))
     with mistakes:
         sub_models = _section(root, "subModels")
         with mistakes:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.cloud.measures import shear_rate
+from foamprb.body.viscosity import shear_rate
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow

@@ -112,17 +112,19 @@ def test_without_a_case_or_a_flow(tmp_path, case):
     assert not (case / "constant/softCloudProperties").exists()
 
 
-def test_a_fluid_of_another_model_gets_a_viscosity(case):
-    """At the mean shear rate, by the model that is selected, not by the one beside it."""
+def test_the_viscosity_of_another_model_is_local(case):
+    """By the model that is selected, not by the one beside it; its value is that at the mean shear rate."""
     (case / "constant/transportProperties").write_text(
         "transportModel CrossPowerLaw; CrossPowerLawCoeffs { nu0 nu0 [0 2 -1 0 0 0 0] 0.01; nuInf 10; m 0.4; "
         "n 3; } BirdCarreauCoeffs { nu0 1e-06; nuInf 1e-06; k 0; n 1; }"
     )
     rate = scales_of(read_flow(case)).shear
     text = write_template(case).read_text()
-    assert f"CrossPowerLaw at {rate:.3g} 1/s" in text
     nu = 10.0 - 9.99 / (1.0 + (0.4 * rate) ** 3)
-    assert read_settings(case).fluid.nu == pytest.approx(nu, rel=1e-3)
+    comment = f"local, by CrossPowerLaw of constant/transportProperties; {nu:.4g} at {rate:.3g} 1/s"
+    assert f"// nu          {comment}" in text
+    fluid = read_settings(case).fluid
+    assert fluid.mu.at_rate(rate) == pytest.approx(fluid.rho * nu)
 
 
 @pytest.mark.parametrize(
@@ -210,7 +212,7 @@ def test_a_fluid_that_depends_on_temperature_gets_one(case):
     assert read_settings(case).fluid.mu == pytest.approx(1.846e-5, rel=1e-3)
 
 
-def test_the_temperature_is_that_of_the_field(case):
+def test_the_viscosity_is_that_of_the_local_temperature(case):
     (case / "constant/transportProperties").unlink()
     (case / "constant/thermophysicalProperties").write_text(
         "thermoType { transport sutherland; } mixture { transport { As 1.458e-06; Ts 110.4; } }"
@@ -220,7 +222,11 @@ def test_the_temperature_is_that_of_the_field(case):
         header("volScalarField", "T") + "dimensions [0 0 0 1 0 0 0]; internalField uniform 977; "
         'boundaryField { ".*" { type zeroGradient; } }'
     )
-    assert re.search(r"TInf +977; +// K, .*mean of T", write_template(case).read_text())
+    mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
+    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on the mean"
+    assert comment in write_template(case).read_text()
+    fluid = read_settings(case).fluid
+    assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))
 
 
 def test_a_mixture_of_gases_is_like_air(case):

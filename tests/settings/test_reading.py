@@ -265,12 +265,11 @@ def test_all_mistakes_come_at_once(read: Reader, changes: list[tuple[str, str]],
 
 
 def test_mistakes_of_several_files_come_together(case: Path, read: Reader) -> None:
-    (case / "constant/transportProperties").write_text("transportModel CrossPowerLaw;\nnu air;")
+    (case / "constant/transportProperties").write_text("transportModel Newtonian;\nnu air;")
     with pytest.raises(InputError) as caught:
         read(("2e-05", "fast"))
     assert [line.split(":")[0].strip() for line in str(caught.value).split("\n")[1:]] == [
         "constant/softCloudProperties, line 5",
-        "constant/transportProperties, line 1",
         "constant/transportProperties, line 2",
     ]
 
@@ -382,7 +381,15 @@ def test_viscosity(case: Path, read: Reader, text: str) -> None:
         ("nu [0 2 -1] 1e-5;", "whose dimensions cannot be read"),
         ('nu #calc "1e-5";', "nu is '#calc \"1e-5\"', which is not evaluated: write the value itself."),
         ("transportModel Newtonian;", "transportProperties: nu is missing"),
-        ("transportModel CrossPowerLaw; nu 1e-5;", "transportModel is 'CrossPowerLaw'. Allowed: Newtonian."),
+        (
+            "transportModel CrossPowerlaw; nu 1e-5;",
+            "transportModel is 'CrossPowerlaw'. Allowed: Newtonian, constant, CrossPowerLaw, BirdCarreau, ",
+        ),
+        (
+            "transportModel powerLaw; k 1; nuMin 0; nuMax 1;",
+            "n is missing. Allowed: a number, a coefficient of powerLaw.",
+        ),
+        ("transportModel powerLaw; k one; n 1; nuMin 0; nuMax 1;", "k is 'one'. Allowed: a number."),
     ],
 )
 def test_viscosity_mistakes(case: Path, read: Reader, text: str, message: str) -> None:

@@ -23,6 +23,7 @@ from validation import (
     tension,
     tumbling,
     viscoelastic,
+    viscosity,
     walls,
 )
 from validation.case import Case
@@ -40,6 +41,7 @@ CASES: dict[str, Case] = {
     "jeffery": Case("beyond the paper; shapes at rest", jeffery.orbits),
     "tumbling": Case("beyond the paper; shapes at rest", tumbling.regimes),
     "viscoelastic": Case("beyond the paper; Kelvin–Voigt solids", viscoelastic.steady),
+    "carrier": Case("beyond the paper; carriers that thin", viscosity.carriers),
     "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
     "surfaceTension": Case("beyond the paper; surface tension", tension.drops),
     "drops": Case("beyond the paper; drops", drops.steady),

@@ -36,6 +36,7 @@ from foamprb.cloud.block import (
     store3,
     store9,
     store_fluid,
+    viscosity_at,
 )
 from foamprb.cloud.forces import acceleration
 from foamprb.cloud.integrators.base import Integrator, apply_surroundings, update_surroundings
@@ -69,7 +70,7 @@ def traction_stage(block: Any, medium: Medium) -> None:
         l_s = to_frame(Q, dot(A, inverse(F)))
         stress = traction(load3(block, at.stretch, i), load_integrals(block, i), l_f, l_s)
         own = viscous_stress(l_s, block[at.eta * LANES + i])
-        store9(block, at.stress, i, add(scale(medium.mu, stress), scale(-1.0, own)))
+        store9(block, at.stress, i, add(scale(viscosity_at(block, i, medium), stress), scale(-1.0, own)))
         store9(block, at.predictor, i, dot(Q, add(F, scale(block[at.dt * LANES + i], A))))
 
 
@@ -109,7 +110,7 @@ def barycentre_stage(block: Any, medium: Medium) -> None:
         k = drag(load3(block, at.stretch, i), load_integrals(block, i))
         R, rho = block[at.R * LANES + i], block[at.rho * LANES + i]
         # μ_f K_a/m with K_a in units of R
-        c = medium.mu / (4.0 / 3.0 * math.pi * R * R * rho)
+        c = viscosity_at(block, i, medium) / (4.0 / 3.0 * math.pi * R * R * rho)
         a, inertia = acceleration(block, i, medium, block[at.J * LANES + i])
         c = c / inertia
         rate = (c * k[0], c * k[1], c * k[2])

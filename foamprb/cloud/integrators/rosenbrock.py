@@ -69,6 +69,7 @@ from foamprb.cloud.block import (
     store3,
     store4,
     store9,
+    viscosity_at,
 )
 from foamprb.cloud.elastic import conservative_stress, solid_elasticity
 from foamprb.cloud.forces import acceleration
@@ -198,9 +199,9 @@ def first_inertial(block: Any, medium: Medium) -> None:
         # A F⁻¹ = A Fᵀ b⁻¹, with a diagonal b in the particle frame.
         L = over_b(_squares(stretches), dot(dot(Q, A), transpose(G)))
         b_e = finger_in_frame(stretches, G, load9(block, at.M, i))
-        l_t, tau = _shape_rate(block, i, medium.mu, L, b_e)
+        l_t, tau = _shape_rate(block, i, viscosity_at(block, i, medium), L, b_e)
         e = solid_elasticity(block, i, stretches, b_e)
-        n = inertial_stiffness(stretches, g, e, c, medium.mu, block[at.eta * LANES + i])
+        n = inertial_stiffness(stretches, g, e, c, viscosity_at(block, i, medium), block[at.eta * LANES + i])
         dl = add(l_end, scale(-1.0, l))
         change = fluid_change(n, to_frame(Q, dl))
         turning = turning_acceleration(stretches, n, c, L, l_t, to_frame(Q, felt), tau)
@@ -397,7 +398,7 @@ def _rates(block: Any, i: int, medium: Medium, Q0: Tensor, l_s: Tensor) -> Pair:
     G = dot(Q, load9(block, at.new_F, i))
     turn = dot(Q, transpose(Q0))
     b_e = finger_in_frame(load3(block, at.stretch, i), G, load9(block, at.M, i))
-    rate, _ = _shape_rate(block, i, medium.mu, to_frame(turn, L), b_e)
+    rate, _ = _shape_rate(block, i, viscosity_at(block, i, medium), to_frame(turn, L), b_e)
     return algebra_excess(load9(block, own.Omega, i), L), from_frame(turn, rate)
 
 
@@ -447,7 +448,7 @@ def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector
     """
     Q, stretches, u = load9(block, at.Q, i), load3(block, at.stretch, i), load3(block, at.u, i)
     a, inertia = acceleration(block, i, medium, stretches[0] * stretches[1] * stretches[2])
-    r = drag_rate(block, i, medium.mu, drag(stretches, load_integrals(block, i)))
+    r = drag_rate(block, i, viscosity_at(block, i, medium), drag(stretches, load_integrals(block, i)))
     f = 1.0 / inertia
     rate = (f * r[0], f * r[1], f * r[2])
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))

@@ -37,7 +37,18 @@ from foamprb.body.tensor import (
     transpose,
 )
 from foamprb.body.turning import commutator, turning_gradient
-from foamprb.cloud.block import Medium, at, choose, choose3, load3, load9, load_integrals, store3, store9
+from foamprb.cloud.block import (
+    Medium,
+    at,
+    choose,
+    choose3,
+    load3,
+    load9,
+    load_integrals,
+    store3,
+    store9,
+    viscosity_at,
+)
 from foamprb.cloud.elastic import (
     body_mobility,
     incompressible_elasticity,
@@ -128,11 +139,11 @@ def first_inertialess(block: Any, medium: Medium) -> None:
         l_f = to_frame(Q, felt)
         l_s = velocity_gradient(m, sigma, l_f)
         e = incompressible_elasticity(block, i, b_e)
-        n = relaxation(m, e, medium.mu)
+        n = relaxation(m, e, viscosity_at(block, i, medium))
         quarter, whole = responses(n, h)
         dl = add(l_end, scale(-1.0, l))
         change = _seen(m, to_frame(Q, dl))
-        turning = turning_gradient(stretches, m, e, medium.mu, l_s, l_f, sigma)
+        turning = turning_gradient(stretches, m, e, viscosity_at(block, i, medium), l_s, l_f, sigma)
         Omega = quarter_argument(n, quarter, h, l_s, change, turning)
         store9(block, at.new_F, i, dot(transpose(Q), dot(group_exponential(Omega), G)))
         store3(block, own.end_slip, i, _slip(block, i, medium, l_end, end_acceleration(block, i)))
@@ -269,7 +280,7 @@ def _response(block: Any, i: int, medium: Medium, stretches: Vector, b_e: Tensor
     """Return the mobility, and the elastic stress over μ_f, 1/s, in the particle frame."""
     m = body_mobility(block, i, medium, stretches)
     tau = incompressible_stress(block, i, stretches, b_e)
-    return m, scale(1.0 / medium.mu, tau)
+    return m, scale(1.0 / viscosity_at(block, i, medium), tau)
 
 
 def _gradient(block: Any, i: int, medium: Medium) -> Tensor:
@@ -313,7 +324,8 @@ def _bend(block: Any, i: int, medium: Medium, Q: Tensor) -> Tensor:
 
 def _slip(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
+    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
+    rate = drag_rate(block, i, viscosity_at(block, i, medium), k)
     steady, push, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     return balanced_slip(load9(block, at.Q, i), rate, steady, push, inertia, Du_Dt, l_f)
 

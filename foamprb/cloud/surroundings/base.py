@@ -57,6 +57,8 @@ class Surrounding:
     """``disturb(block, medium, share, coefficients)``: change the rows u and l of all lanes. The lanes are at
     x + share·(new_x − x), with the shape new_F; frames and integrals are its own."""
 
+    each_step: ClassVar[bool] = True
+    """Whether no step may be longer than a tracking step."""
     needs_turbulence: ClassVar[bool] = False
     """Whether it needs k and ε of the flow."""
     required_kernels: ClassVar[tuple[str, ...]] = ()
@@ -101,11 +103,14 @@ class Surrounding:
         return ()
 
     def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:  # noqa: ARG002
-        """Return warnings before a run with steps Δt (s), as sentences."""
+        """Return warnings before a run with steps Δt (s), as sentences.
+
+        The viscosity of the medium is that at each particle, (n,), if it varies.
+        """
         return ()
 
     def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
-        """Return a warning that Δt (s) is too long for the model; empty if it is not."""
+        """Return a warning that Δt (s) is too long for the model; empty if not. See :meth:`warnings`."""
         return ""
 
     def summary(self, p: Particles, dt: float) -> Sequence[str]:  # noqa: ARG002

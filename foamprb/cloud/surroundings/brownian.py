@@ -44,6 +44,7 @@ from foamprb.cloud.block import (
     load_integrals,
     store3,
     store9,
+    viscosity_at,
 )
 from foamprb.cloud.layout import LANES, Row, offsets
 from foamprb.cloud.state import Particles
@@ -114,12 +115,13 @@ def compute_force(block: Any, medium: Medium, share: float, coefficients: Any) -
     for i in range(LANES):
         duration = block[thermal.duration * LANES + i]
         fresh = duration > 0.0
-        size = np.sqrt(2.0 * kT * medium.mu / select(fresh, duration, 1.0))
+        mu_f = viscosity_at(block, i, medium)
+        size = np.sqrt(2.0 * kT * mu_f / select(fresh, duration, 1.0))
         Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
         K = hindered_resistance(resistances(block, i), hindrance_by_walls(block, i))
         f = vector_dot(random_force(K, size, load3(block, thermal.three, i)), Q)
         volume = volume_at_rest(block, i) * stretches[0] * stretches[1] * stretches[2]
-        r = shape_resistance(stretches, load_integrals(block, i), block[at.eta * LANES + i] / medium.mu)
+        r = shape_resistance(stretches, load_integrals(block, i), block[at.eta * LANES + i] / mu_f)
         T = from_frame(Q, random_stress(r, size / np.sqrt(volume), load9(block, thermal.nine, i)))
         store3(block, thermal.thermal_force, i, choose3(fresh, f, load3(block, thermal.thermal_force, i)))
         store9(block, thermal.thermal_stress, i, choose(fresh, T, load9(block, thermal.thermal_stress, i)))
@@ -132,13 +134,14 @@ def apply_force(block: Any, medium: Medium, share: float, coefficients: Any) -> 
     The velocity is u + K⁻¹·f_B/μ_f, with K without walls: the hindrance by walls is applied by ``wallLift``.
     The gradient is added whose traction on the body at rest is the stress.
     """
-    c = 1.0 / medium.mu
     for i in range(LANES):
+        c = 1.0 / viscosity_at(block, i, medium)
         Q, k = load9(block, at.Q, i), resistances(block, i)
         f = dot_vector(Q, load3(block, thermal.thermal_force, i))
         add3(block, at.u, i, vector_dot((c * f[0] / k[0], c * f[1] / k[1], c * f[2] / k[2]), Q))
     if coefficients[2] > 0.0:
         for i in range(LANES):
+            c = 1.0 / viscosity_at(block, i, medium)
             Q, stretches = load9(block, at.Q, i), load3(block, at.stretch, i)
             T = to_frame(Q, load9(block, thermal.thermal_stress, i))
             l = response(shape_resistance(stretches, load_integrals(block, i), 1.0), scale(c, T))

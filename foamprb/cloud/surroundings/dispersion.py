@@ -183,7 +183,8 @@ class Dispersion(Surrounding):
         if len(table) == 0 or p.size == 0:
             return ()
         k, epsilon = np.maximum(table[:, 0], 0.0), np.maximum(table[:, 1], 0.0)
-        nu = medium.mu / medium.rho
+        mu = float(np.median(medium.mu))
+        nu = mu / medium.rho
         worst, usual = epsilon.max(), np.median(epsilon)
         found = []
         if worst > 0.0:
@@ -191,7 +192,7 @@ class Dispersion(Surrounding):
             found.append(
                 "eddies move particles but do not deform them. The shear rate of the smallest, "
                 f"sqrt(epsilon/nu), is {kolmogorov_rate(usual, nu):.3g} (median) to {rate:.3g} 1/s, a "
-                f"capillary number of up to {medium.mu * rate / p.mu.min():.3g}; their smallest size is "
+                f"capillary number of up to {mu * rate / p.mu.min():.3g}; their smallest size is "
                 f"{length:.3g} m, {length / (2.0 * p.R.max()):.3g} diameters."
             )
         time = np.median(eddy_time(k, epsilon))

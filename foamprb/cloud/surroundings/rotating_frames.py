@@ -19,7 +19,16 @@ import numpy as np
 from foamprb.body.drag import oberbeck as drag
 from foamprb.body.slip import balanced_slip
 from foamprb.body.tensor import Tensor, Vector, dot_vector, minus, plus, vector_product
-from foamprb.cloud.block import Medium, Scratch, at, load3, load9, load_integrals, store3
+from foamprb.cloud.block import (
+    Medium,
+    Scratch,
+    at,
+    load3,
+    load9,
+    load_integrals,
+    store3,
+    viscosity_at,
+)
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate, during
 from foamprb.cloud.integrators.base import no_disturbance
@@ -78,7 +87,8 @@ def end_acceleration_in_frame(block: Any, i: int) -> Vector:
 
 def slip_in_frame(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vector) -> Vector:
     """Return the velocity relative to the fluid of the shape in the block, m/s."""
-    rate = drag_rate(block, i, medium.mu, drag(load3(block, at.stretch, i), load_integrals(block, i)))
+    k = drag(load3(block, at.stretch, i), load_integrals(block, i))
+    rate = drag_rate(block, i, viscosity_at(block, i, medium), k)
     steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     w = load3(block, frames.spin, i)
     l = (

@@ -62,6 +62,7 @@ from foamprb.cloud.block import (
     load_integrals,
     store3,
     store9,
+    viscosity_at,
 )
 from foamprb.cloud.elastic import body_mobility, incompressible_stress, own_viscosity
 from foamprb.cloud.forces import forces_on
@@ -175,7 +176,8 @@ def lift(block: Any, medium: Medium, share: float, coefficients: Any) -> None:
         select_wall(block, wall, share, least_gap)
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-            v = stresslet_velocity(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+            S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
+            v = stresslet_velocity(S, shape_of(block, i), n, d, mu_f)
             add3(block, near.wall_lift, i, scale_vector(block[near.present * LANES + i], v))
         if hindered > 0.0:
             for i in range(LANES):
@@ -208,7 +210,8 @@ def strain_by_load(
         select_wall(block, wall, share, least_gap)
         for i in range(LANES):
             n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-            E = force_gradient(load3(block, near.load, i), shape_of(block, i), n, d, medium.mu)
+            f, mu_f = load3(block, near.load, i), viscosity_at(block, i, medium)
+            E = force_gradient(f, shape_of(block, i), n, d, mu_f)
             add9(block, near.load_gradient, i, scale(strain * block[near.present * LANES + i], E))
     for i in range(LANES):
         E = load9(block, near.load_gradient, i)
@@ -255,7 +258,8 @@ def add_reflection(
     select_wall(block, wall, share, least_gap)
     for i in range(LANES):
         n, d = load3(block, near.one_normal, i), block[near.one_distance * LANES + i]
-        E = stresslet_gradient(load9(block, near.stresslet, i), shape_of(block, i), n, d, medium.mu)
+        S, mu_f = load9(block, near.stresslet, i), viscosity_at(block, i, medium)
+        E = stresslet_gradient(S, shape_of(block, i), n, d, mu_f)
         add9(block, near.reflected, i, scale(factor * block[near.present * LANES + i], E))
 
 
@@ -302,7 +306,7 @@ def stresslet(block: Any, i: int, medium: Medium, l_f: Tensor, l_s: Tensor) -> T
     relative = add(to_frame(Q, l_f), scale(-1.0, l_s))
     s, _ = disturbance(stretches, g, dev(sym(relative)), skew(relative))
     volume = volume_at_rest(block, i) * stretches[0] * stretches[1] * stretches[2]
-    return from_frame(Q, scale(volume * medium.mu, dev(sym(s))))
+    return from_frame(Q, scale(volume * viscosity_at(block, i, medium), dev(sym(s))))
 
 
 def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tensor:  # noqa: ARG001
@@ -319,7 +323,7 @@ def balanced_gradient(block: Any, i: int, medium: Medium, share: float) -> Tenso
     b_e = finger_in_frame(stretches, dot(Q, load9(block, at.new_F, i)), load9(block, at.M, i))
     tau = incompressible_stress(block, i, stretches, b_e)
     l = add(load9(block, at.l, i), load9(block, near.load_gradient, i))
-    return velocity_gradient(m, scale(1.0 / medium.mu, tau), to_frame(Q, l))
+    return velocity_gradient(m, scale(1.0 / viscosity_at(block, i, medium), tau), to_frame(Q, l))
 
 
 def response_to_gradient(block: Any, i: int, medium: Medium, E: Tensor) -> Tensor:
@@ -372,10 +376,10 @@ def drag_on_fluid(block: Any, i: int, medium: Medium, share: float) -> Vector:
     v = load3(block, at.new_v, i) if share > 0.0 else load3(block, at.v, i)
     slip = dot_vector(Q, minus(minus(v, load3(block, at.u, i)), load3(block, near.wall_lift, i)))
     K = hindered_resistance(k, load9(block, near.hindrance, i))
-    d = vector_dot(dot_vector(scale(medium.mu, K), slip), Q)
+    d = vector_dot(dot_vector(scale(viscosity_at(block, i, medium), K), slip), Q)
     f = balanced_load(block, i, medium, share)
     m = volume_at_rest(block, i) * block[at.rho * LANES + i]
-    x = block[at.dt * LANES + i] * medium.mu * trace(K) / (6.0 * m)
+    x = block[at.dt * LANES + i] * viscosity_at(block, i, medium) * trace(K) / (6.0 * m)
     y = x * x * x * x
     return between(d, f, y / (1.0 + y))
 
@@ -427,7 +431,7 @@ def velocity_loss(block: Any, i: int, medium: Medium) -> Vector:
     Q, k = load9(block, at.Q, i), resistances(block, i)
     f = dot_vector(Q, load3(block, near.load, i))
     v = dot_vector(inverse(hindered_resistance(k, load9(block, near.hindrance, i))), f)
-    c = 1.0 / medium.mu
+    c = 1.0 / viscosity_at(block, i, medium)
     w = (c * (v[0] - f[0] / k[0]), c * (v[1] - f[1] / k[1]), c * (v[2] - f[2] / k[2]))
     return vector_dot(w, Q)
 

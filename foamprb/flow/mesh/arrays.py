@@ -75,6 +75,8 @@ class MeshArrays(NamedTuple):
     2 × triangle, + 1 if an edge of it may be the nearest wall."""
     turbulence: Floats
     """(n_nodes, 8): k, ε, ∇k and ∇(k²/3ε); no rows if they were not read."""
+    viscosity: Floats
+    """(n_nodes, 4): a field of the viscosity and its gradient; no rows if it was not read."""
     correction: NDArray[np.float32]
     """(n_tets, 8), 1/s, of the velocity between the nodes (:mod:`foamprb.flow.fluxes`): the additional flux
     through the side opposite each vertex over the volume and the number of the side's nodes that lie on no
@@ -82,7 +84,8 @@ class MeshArrays(NamedTuple):
 
 
 _FLOATS = {
-    "nodes": 16, "turbulence": 8, "motions": 12, "tree_boxes": 6, "wall_boxes": 6, "triangle_normals": 3,
+    "nodes": 16, "turbulence": 8, "viscosity": 4, "motions": 12, "tree_boxes": 6, "wall_boxes": 6,
+    "triangle_normals": 3,
 }  # fmt: skip
 _TABLES = {"tets": 4, "neighbours": 4, "triangles": 3, "across": 2, "tree_cells": 1, "wall_leaves": 1}
 

@@ -134,5 +134,10 @@ def _refuse_of_case(source: FlowSource) -> None:
             f"{source.file}: only the velocity is read from a mesh file, but the dispersionModel needs k and "
             "epsilon or omega. Allowed: dispersionModel none, or the case itself."
         )
+    if source.viscosity is not None:
+        raise InputError(
+            f"{source.file}: only the velocity is read from a mesh file, but the viscosity is a field of the "
+            "case. Allowed: nu or mu in constantProperties, or the case itself."
+        )
     if source.region:
         raise InputError(f"{source.file}: a mesh file has no regions, but the region is {source.region}.")

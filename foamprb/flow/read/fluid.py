@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from foamprb.dictionary.constraints import Positive
+import numpy as np
+
+from foamprb.body.viscosity import bird_carreau, casson, cross_power_law, herschel_bulkley, power_law
+from foamprb.dictionary.constraints import Choice, Positive
+from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
 from foamprb.dictionary.files import existing
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.mistakes import Mistakes
@@ -20,22 +25,60 @@ from foamprb.flow.read.case import available_times, find_dictionary, find_file, 
 from foamprb.flow.read.field import DENSITY_FIELD, Kind, read_field
 from foamprb.flow.read.times import pick_time
 
+_NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
+_MU = Kind("volScalarField", "scalar", (DYNAMIC_VISCOSITY,), "a dynamic viscosity")
 _PRESSURE_FIELD = Kind("volScalarField", "scalar", ((1, -1, -2, 0, 0, 0, 0),), "a pressure")
 _TEMPERATURE_FIELD = Kind("volScalarField", "scalar", ((0, 0, 0, 1, 0, 0, 0),), "a temperature")
 _GAS_CONSTANT = 8314.46
 """J/(kmol K)."""
 _MIXTURE_FILE = "thermophysicalProperties"
+_CONSTANT = ("Newtonian", "constant")
+_GENERALISED, _WITHOUT_K = "generalisedNewtonian", "generalizedNewtonian"
+"""Models of ``laminar``; in one of them powerLaw has ν₀ in the place of k."""
 FILES = ("transportProperties", "physicalProperties", _MIXTURE_FILE)
 """Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
 
 
+class RateLaw(NamedTuple):
+    """Viscosity by the shear rate."""
+
+    model: str
+    """OpenFOAM's name, a key of :data:`LAWS`."""
+    coefficients: Mapping[str, float]
+    """By OpenFOAM's names, of the kinematic viscosity."""
+
+    def __call__(self, rate: float) -> float:
+        """Return the kinematic viscosity, m²/s, at a shear rate, 1/s."""
+        return float(LAWS[self.model][1](rate, *self.coefficients.values()))
+
+
+class ViscosityField(NamedTuple):
+    """Field of a time directory that is a viscosity or gives it."""
+
+    name: str
+    kind: Kind
+    mean: float
+    """Mean viscosity over the cells, m²/s if ``kinematic``, else Pa s."""
+    law: Callable[[Any], Any] | None = None
+    """Viscosity, Pa s, by the field's values; None for the values themselves."""
+
+    @property
+    def kinematic(self) -> bool:
+        """Whether it is a kinematic viscosity."""
+        return self.kind is _NU
+
+
 class CaseViscosity(NamedTuple):
-    """Viscosity: kinematic, m²/s, or dynamic, Pa s; the other is None."""
+    """Viscosity: kinematic, m²/s, or dynamic, Pa s, or one that varies; the others are None."""
 
     nu: float | None
     mu: float | None
     temperature: float | None = None
-    """Temperature, K, if the viscosity depends on it."""
+    """Temperature, K, if the viscosity is that at one."""
+    law: RateLaw | None = None
+    field: ViscosityField | None = None
+    origin: str = ""
+    """What gives a viscosity that varies, for the log."""
 
 
 def fluid_file(case: Path, region: str) -> Path | None:
@@ -43,81 +86,199 @@ def fluid_file(case: Path, region: str) -> Path | None:
     return find_file(case, region, *FILES)
 
 
-def read_viscosity(file: Path, case: Path, temperature: float | None = None) -> CaseViscosity:
-    """Read the viscosity of a Newtonian fluid.
+def read_viscosity(
+    file: Path,
+    case: Path,
+    temperature: float | None = None,
+    region: str = "",
+    time: float | str | None = None,
+    transient: bool = False,
+) -> CaseViscosity:
+    """Read the viscosity of a fluid.
 
     Parameters
     ----------
     file
         Dictionary of the fluid; see :func:`fluid_file`.
-    case
-        The case, for the messages.
+    case, region
+        The case, and a region of its mesh.
     temperature
         Temperature of the fluid, K, if the user states it.
+    time
+        Time of a viscosity that is a field; None if it may not be one.
+    transient
+        Whether all times are read, so that a field must be there at all of them.
 
     Raises
     ------
     InputError
-        The viscosity is missing or of another kind; or it depends on a temperature that is not stated.
+        The viscosity is missing or of another kind; or it depends on a temperature that is not known.
     """
     root = read_dictionary(file, case)
+    here = _Fields(case, region, time, transient)
+    generalised = _generalised(case, region)
     if "thermoType" in root.entries or "mixture" in root.entries:
-        return _of_mixture(root, temperature)
-    mistakes = Mistakes()
-    with mistakes:
-        for key, model in (("transportModel", "Newtonian"), ("viscosityModel", "constant")):
-            if key in root.entries:
-                read_entry(root, key, Literal[model])
-    with mistakes:
-        coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
-        if "nu" not in coefficients.entries:
-            raise coefficients.missing(
-                "nu", f"Allowed: {Positive.text}, m2/s; or nu or mu in constantProperties of the cloud."
+        if generalised is not None:
+            raise generalised.mistake(
+                "selects a viscosity by the shear rate, which is not read for a compressible fluid. Add nu, "
+                "m2/s, or mu, Pa s, to constantProperties of the cloud."
             )
-        nu = read_entry(coefficients, "nu", Annotated[Viscosity, Positive])
+        return _of_mixture(root, temperature, here)
+    key = "viscosityModel" if generalised or "transportModel" not in root.entries else "transportModel"
+    model = word_of(generalised or root, key, "constant")
+    if model in _CONSTANT:
+        return CaseViscosity(_nu_of(root), None)
+    field = here.viscosity(_NU, "nu", f"{_WITHOUT_K}:nu", f"{_GENERALISED}:nu")
+    if field is not None:
+        return CaseViscosity(None, None, field=field, origin=f"{model}, the field {field.name}")
+    if generalised is not None:
+        law = _generalised_law(generalised, _nu_of(root))
+        return CaseViscosity(None, None, law=law, origin=f"{model} of {generalised.source}")
+    if model not in LAWS:
+        allowed = ", ".join((*_CONSTANT, *LAWS))
+        raise root.entries[key].mistake(
+            f"is '{model}'. Allowed: {allowed}; or a field nu at the time; or nu, m2/s, or mu, Pa s, in "
+            "constantProperties of the cloud."
+        )
+    return CaseViscosity(None, None, law=_law_of(root, model, {}), origin=f"{model} of {root.source}")
+
+
+def _nu_of(root: Dictionary) -> float:
+    """Return the kinematic viscosity of a Newtonian fluid."""
+    coefficients = root.entries.get("NewtonianCoeffs", root).dictionary()
+    if "nu" not in coefficients.entries:
+        raise coefficients.missing(
+            "nu", f"Allowed: {Positive.text}, m2/s; or nu or mu in constantProperties of the cloud."
+        )
+    return float(read_entry(coefficients, "nu", Annotated[Viscosity, Positive]))
+
+
+def _law_of(dictionary: Dictionary, model: str, given: Mapping[str, float]) -> RateLaw:
+    """Return the law of a model, with coefficients from ``…Coeffs`` or beside it, if they are not given."""
+    own = dictionary.entries.get(f"{model}Coeffs", dictionary).dictionary()
+    names, _, defaults = LAWS[model]
+    found, mistakes = dict[str, float](), Mistakes()
+    for name in names:
+        with mistakes:
+            if name in given:
+                found[name] = given[name]
+            elif name in own.entries:
+                number = _number(own, name)
+                if number is None or not math.isfinite(number):
+                    raise own.entries[name].mistake(f"is {own.entries[name]}. Allowed: a number.")
+                found[name] = number
+            elif name in defaults:
+                found[name] = defaults[name]
+            else:
+                raise own.missing(name, f"Allowed: a number, a coefficient of {model}.")
     mistakes.raise_any()
-    return CaseViscosity(float(nu), None)
+    return RateLaw(model, found)
 
 
-def _of_mixture(root: Dictionary, temperature: float | None) -> CaseViscosity:
+def _generalised(case: Path, region: str) -> Dictionary | None:
+    """Return the ``laminar`` dictionary of a generalised Newtonian fluid, of newer versions of OpenFOAM."""
+    root = find_dictionary(case, region, "momentumTransport", "turbulenceProperties")
+    laminar = root.entries.get("laminar") if root is not None else None
+    if not isinstance(laminar, Dictionary) or root is None or word_of(root, "simulationType") != "laminar":
+        return None
+    model = word_of(laminar, "model") or word_of(laminar, "laminarModel")
+    return laminar if model in (_GENERALISED, _WITHOUT_K) else None
+
+
+def _generalised_law(laminar: Dictionary, nu0: float) -> RateLaw:
+    """Return the law of a ``laminar`` dictionary, of which ν₀ is that of the fluid's dictionary."""
+    model: str = read_entry(laminar, "viscosityModel", Annotated[str, Choice(tuple(LAWS))])
+    own = laminar.entries.get(f"{model}Coeffs", laminar).dictionary()
+    given = {"nu0": nu0}
+    if stress := _number(own, "tauStar"):
+        given["m" if model == "CrossPowerLaw" else "k"] = nu0 / stress
+    # In some versions ν₀ takes the place of k.
+    if model == "powerLaw" and ("k" not in own.entries or word_of(laminar, "model") == _WITHOUT_K):
+        given["k"] = nu0
+    return _law_of(laminar, model, {name: given[name] for name in LAWS[model][0] if name in given})
+
+
+class _Fields(NamedTuple):
+    """Fields of a case at the times of a run."""
+
+    case: Path
+    region: str
+    time: float | str | None
+    transient: bool
+
+    def viscosity(self, kind: Kind, *names: str, law: Any = None) -> ViscosityField | None:
+        """Return the first of some fields that is there; None if there is none."""
+        if self.time is None or not self.case.is_dir():
+            return None
+        found = available_times(self.case)
+        if not found:
+            return None
+        chosen = found if self.transient else (found[pick_time(self.case, found, self.time)],)
+        for name in names:
+            paths = [self.case / time / self.region / name for time in chosen]
+            if all(existing(path) is not None for path in paths):
+                values = read_field(paths[-1], kind, self.case).cells
+                return ViscosityField(name, kind, float((values if law is None else law(values)).mean()), law)
+        return None
+
+
+def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | None = None) -> CaseViscosity:
     """Return the viscosity of a ``pureMixture``, constant or by Sutherland's law or a polynomial."""
     law = _transport(root)
     transport = _at(root, "mixture/transport")
     if law in ("const", "constTransport"):
         return CaseViscosity(None, float(read_entry(transport, "mu", Annotated[DynamicViscosity, Positive])))
     if law not in _LAWS:
+        field = here.viscosity(_MU, "mu", "thermo:mu") if here else None
+        if field is not None:
+            return CaseViscosity(None, None, field=field, origin=f"{law}, the field {field.name}")
         raise root.mistake(
             f"thermoType: the viscosity of transport {law or '(none)'} is not read. Add nu, m2/s, or mu, "
             "Pa s, to constantProperties of the cloud."
         )
+    by_temperature = _LAWS[law](transport)
     if temperature is None:
+        field = here.viscosity(_TEMPERATURE_FIELD, "T", law=by_temperature) if here else None
+        if field is not None:
+            return CaseViscosity(None, None, field=field, origin=f"{law} at the local T")
         raise root.mistake(
             f"thermoType: with transport {law} the viscosity depends on the temperature. Add TInf, K, to "
             "constantProperties of the cloud; or nu, m2/s, or mu, Pa s."
         )
-    mu = _LAWS[law](transport, temperature)
+    mu = float(by_temperature(temperature))
     if not 0.0 < mu < math.inf:
         raise transport.mistake(f"gives a viscosity of {mu:g} Pa s at {temperature:g} K.")
     return CaseViscosity(None, mu, temperature)
 
 
-def _sutherland(transport: Dictionary, T: float) -> float:
-    """Return μ = A_s √T/(1 + T_s/T)."""
+def _sutherland(transport: Dictionary) -> Callable[[Any], Any]:
+    """Return μ(T) = A_s √T/(1 + T_s/T)."""
     As, Ts = (float(read_entry(transport, key, Annotated[float, Positive])) for key in ("As", "Ts"))
-    return As * math.sqrt(T) / (1.0 + Ts / T)
+    return partial(_sutherlands_law, As, Ts)
 
 
-def _polynomial(transport: Dictionary, T: float) -> float:
-    """Return μ = Σ c_k T^k."""
+def _sutherlands_law(As: float, Ts: float, T: Any) -> Any:
+    return As * np.sqrt(T) / (1.0 + Ts / T)
+
+
+def _polynomial(transport: Dictionary) -> Callable[[Any], Any]:
+    """Return μ(T) = Σ c_k T^k."""
     entries = [entry for key, entry in transport.entries.items() if key.startswith("muCoeffs<")]
     numbers = re.findall(r"[^\s()]+", entries[0].text) if entries and isinstance(entries[0], Stream) else []
     try:
-        return sum(float(c) * T**k for k, c in enumerate(numbers)) if numbers else math.nan
+        return partial(_sum_of_powers, tuple(float(c) for c in numbers) or (math.nan,))
     except ValueError:
         raise entries[0].mistake(f"is {entries[0]}. Allowed: a list of numbers.") from None
 
 
-_LAWS: dict[str, Any] = {"sutherland": _sutherland, "polynomial": _polynomial}
+def _sum_of_powers(coefficients: tuple[float, ...], T: Any) -> Any:
+    return sum(c * T**k for k, c in enumerate(coefficients))
+
+
+_LAWS: dict[str, Callable[[Dictionary], Callable[[Any], Any]]] = {
+    "sutherland": _sutherland,
+    "polynomial": _polynomial,
+}
 
 
 def _transport(root: Dictionary) -> str:
@@ -240,20 +401,22 @@ def apparent_viscosity(fluid: Dictionary, rate: float, T: float) -> tuple[str, f
         Shear rate, 1/s, and temperature, K.
     """
     model = word_of(fluid, "transportModel") or word_of(fluid, "viscosityModel")
-    coefficients = fluid.entries.get(f"{model}Coeffs", fluid)
-    law = model.removeprefix("Arrhenius")
-    if not isinstance(coefficients, Dictionary) or law not in _APPARENT:
+    name = model.removeprefix("Arrhenius")
+    own = fluid.entries.get(f"{model}Coeffs", fluid)
+    if not isinstance(own, Dictionary):
         return None
-    names, formula = _APPARENT[law]
-    values = [_number(coefficients, name) for name in names]
     try:
-        nu = formula(max(rate, 1e-9), *values) if None not in values else math.nan
-        if law != model:
-            alpha, reference = (_number(coefficients, name) for name in ("alpha", "Talpha"))
-            nu *= math.nan if alpha is None or reference is None else math.exp(-alpha * (T - reference))
-    except (ArithmeticError, ValueError):
+        nu = _number(own, "nu") if name in _CONSTANT else _law_of(own, name, {})(rate)
+    except (InputError, KeyError):
         return None
-    return (model, float(nu)) if 0.0 < nu < math.inf else None
+    if name != model:
+        alpha, reference = (_number(own, key) for key in ("alpha", "Talpha"))
+        nu = (
+            None
+            if nu is None or alpha is None or reference is None
+            else nu * math.exp(-alpha * (T - reference))
+        )
+    return (model, float(nu)) if nu is not None and 0.0 < nu < math.inf else None
 
 
 def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
@@ -307,31 +470,12 @@ def _number(dictionary: Dictionary, key: str) -> float | None:
         return None
 
 
-def _limited(nu: float, least: float, most: float) -> float:
-    return max(least, min(most, nu))
-
-
-_APPARENT: dict[str, tuple[tuple[str, ...], Callable[..., float]]] = {
-    "Newtonian": (("nu",), lambda _r, nu: nu),
-    "CrossPowerLaw": (
-        ("nu0", "nuInf", "m", "n"),
-        lambda r, nu0, inf, m, n: (nu0 - inf) / (1.0 + (m * r) ** n) + inf,
-    ),
-    "BirdCarreau": (
-        ("nu0", "nuInf", "k", "n"),
-        lambda r, nu0, inf, k, n: inf + (nu0 - inf) * (1.0 + (k * r) ** 2) ** (0.5 * (n - 1.0)),
-    ),
-    "powerLaw": (
-        ("k", "n", "nuMin", "nuMax"),
-        lambda r, k, n, least, most: _limited(k * r ** (n - 1.0), least, most),
-    ),
-    "HerschelBulkley": (
-        ("nu0", "tau0", "k", "n"),
-        lambda r, nu0, tau0, k, n: min(nu0, (tau0 + k * r**n) / r),
-    ),
-    "Casson": (
-        ("m", "tau0", "nuMin", "nuMax"),
-        lambda r, m, tau0, least, most: _limited((math.sqrt(tau0 / r) + math.sqrt(m)) ** 2, least, most),
-    ),
+_NO_LIMIT = {"nuMin": 0.0, "nuMax": math.inf}
+LAWS: dict[str, tuple[tuple[str, ...], Callable[..., Any], Mapping[str, float]]] = {
+    "CrossPowerLaw": (("nu0", "nuInf", "m", "n"), cross_power_law, {}),
+    "BirdCarreau": (("nu0", "nuInf", "k", "n", "a"), bird_carreau, {"a": 2.0}),
+    "powerLaw": (("k", "n", "nuMin", "nuMax"), power_law, {}),
+    "HerschelBulkley": (("nu0", "tau0", "k", "n"), herschel_bulkley, {}),
+    "Casson": (("m", "tau0", "nuMin", "nuMax"), casson, {}),
 }
-"""OpenFOAM's models: their coefficients, and the viscosity at a shear rate."""
+"""OpenFOAM's models: names of their coefficients, formula, and values of optional coefficients."""

@@ -45,6 +45,7 @@ from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_
 from foamprb.flow.read.polymesh import read_poly
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import read_turbulence
+from foamprb.flow.read.viscosity import read_viscosity_field
 from foamprb.flow.reconstruct import Reconstruction
 from foamprb.flow.rotating import RotatingFlow, RotatingZone
 from foamprb.flow.series import series_of
@@ -229,9 +230,12 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     ]
     u, l = at_nodes[:2]
     zones, turbulence = partial(case.zones, name), at_nodes[2] if source.turbulent else None
+    viscosity = at_nodes[-2] if source.viscosity else None
     if rotating:
-        return RotatingFlow(rotating, whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
-    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1])
+        return RotatingFlow(
+            rotating, whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity
+        )
+    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity)
 
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
@@ -256,8 +260,9 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     zones = partial(case.zones, names[0])
     notes += flux
     return series_of(
-        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True
-    )
+        case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
+        viscous=source.viscosity is not None,
+    )  # fmt: skip
 
 
 def _at_nodes(
@@ -269,16 +274,19 @@ def _at_nodes(
     cells: Floats,
     boundary: Floats,
 ) -> tuple[Any, ...]:
-    """Return u and l at the nodes, the turbulence if the source requests it, and the correction of u."""
+    """Return u, l at the nodes, turbulence and viscosity as the source requests, and the correction of u."""
     reconstruct, conserve = operators
     read, given = partial(case.field, time), None
     if source.gradient:
         given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
     u, l = reconstruct(cells, boundary, given)
     correction = conserve(u, l, keeps_volume(read))
-    if not source.turbulent:
-        return u, l, correction
-    return u, l, read_turbulence(read, case.folder(time), whole, reconstruct), correction
+    more: list[Floats] = []
+    if source.turbulent:
+        more.append(read_turbulence(read, case.folder(time), whole, reconstruct))
+    if source.viscosity:
+        more.append(read_viscosity_field(read, source.viscosity, whole, reconstruct))
+    return u, l, *more, correction
 
 
 def _caveats(case: Case, time: str, **options: bool) -> list[Caveat]:

@@ -6,6 +6,8 @@ import shlex
 from dataclasses import dataclass
 from pathlib import Path
 
+from foamprb.flow.read.fluid import ViscosityField
+
 
 @dataclass(frozen=True)
 class Division:
@@ -37,6 +39,8 @@ class FlowSource:
     """Read also k and ε, or k and ω."""
     relative: bool = False
     """Describe rotating zones in the frames of their rotors."""
+    viscosity: ViscosityField | None = None
+    """Read also a field of the viscosity."""
     reader: str = ""
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
 

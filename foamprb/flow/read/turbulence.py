@@ -17,7 +17,7 @@ from foamprb.flow.read.checks import at_cells
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["read_turbulence"]
+__all__ = ["read_turbulence", "values_of"]
 
 _K = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
@@ -55,12 +55,12 @@ def read_turbulence(
         k_field = read("k", _K)
     except MissingFieldError as missing:
         raise InputError(f"{folder}/k: no such field. {_WANTED}") from missing
-    k, at_patches = _values(k_field, whole)
+    k, at_patches = values_of(k_field, whole)
     try:
-        epsilon, _ = _values(read("epsilon", _EPSILON), whole)
+        epsilon, _ = values_of(read("epsilon", _EPSILON), whole)
     except MissingFieldError:
         try:
-            omega, _ = _values(read("omega", _OMEGA), whole)
+            omega, _ = values_of(read("omega", _OMEGA), whole)
         except MissingFieldError as missing:
             raise InputError(f"{folder}/epsilon: no such field, and no omega. {_WANTED}") from missing
         epsilon = dissipation(k, omega)
@@ -82,7 +82,7 @@ def _diffusivity(k: Floats, epsilon: Floats) -> Floats:
     return diffusivity
 
 
-def _values(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
+def values_of(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
     """Return values at cells (n_cells,) and boundary faces (n_boundary,), there of the cell if not given."""
     mesh = whole.mesh
     cells = at_cells(field, mesh)[:, 0]

@@ -351,12 +351,13 @@ def _record(given: _Given) -> PageSection:
         text = "<p>The run has no run.json, or one of another version of foamprb.</p>"
         return PageSection("run", "Record", text)
     fluid, models, time, mesh = (record[key] for key in ("fluid", "models", "time", "mesh"))
+    nu = _range(fluid["nu"]) if isinstance(fluid["nu"], list) else f"{fluid['nu']:g}"
     g = " ".join(f"{c:g}" for c in fluid["gravity"])
     facts = [
         ("versions", ", ".join(f"{name} {number}" for name, number in record["versions"].items())),
         ("mesh", ", ".join(f"{n} {part}" for part, n in mesh.items()) or "none"),
         ("flow", "changes in time" if time["transient"] else "steady"),
-        ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {fluid['nu']:g} m²/s, g = ({g}) m/s²"),
+        ("fluid", f"ρ = {fluid['rho']:g} kg/m³, ν = {nu} m²/s, g = ({g}) m/s²"),
         ("time", f"{time['start']:g} to {time['end']:g} s, {time['steps']} steps of {time['deltaT']:g} s"),
         ("solid", models["solid"]),
         ("traction, drag", f"{models['traction']}, {models['drag']}"),

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import re
 
+import numpy as np
 import pytest
 from foam_writer import header
 from transient_case import SETTINGS
 
+from foamprb.body.viscosity import bird_carreau
 from foamprb.errors import InputError
 from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
 from foamprb.settings.settings import read_settings
@@ -219,3 +221,93 @@ def test_wrong_units_are_refused(text, tmp_path):
     (tmp_path / "nu").write_text(f"viscosityModel constant;\nnu {text};\n")
     with pytest.raises(InputError, match="nu is '"):
         read_viscosity(tmp_path / "nu", tmp_path)
+
+
+BLOOD = "transportModel BirdCarreau; BirdCarreauCoeffs { nu0 5.28e-5; nuInf 3.25e-6; k 3.313; n 0.3568; }"
+
+
+def test_a_law_of_the_shear_rate(tmp_path):
+    found = viscosity(tmp_path, BLOOD, name="transportProperties")
+    assert (found.nu, found.mu, found.origin) == (None, None, "BirdCarreau of constant/transportProperties")
+    assert found.law.coefficients == {"nu0": 5.28e-5, "nuInf": 3.25e-6, "k": 3.313, "n": 0.3568, "a": 2.0}
+    assert found.law(10.0) == pytest.approx(bird_carreau(10.0, *found.law.coefficients.values()))
+
+
+@pytest.mark.parametrize(
+    ("laminar", "expected"),
+    [
+        ("model generalisedNewtonian; viscosityModel BirdCarreau; nuInf 1e-6; k 2; n 0.5;",
+         {"nu0": 1e-5, "nuInf": 1e-6, "k": 2.0, "n": 0.5, "a": 2.0}),
+        ("model generalisedNewtonian; viscosityModel BirdCarreau; nuInf 1e-6; tauStar 1e-4; n 0.5; a 1;",
+         {"nu0": 1e-5, "nuInf": 1e-6, "k": 0.1, "n": 0.5, "a": 1.0}),
+        ("model generalisedNewtonian; viscosityModel CrossPowerLaw; "
+         "CrossPowerLawCoeffs { nuInf 1e-6; tauStar 1e-4; n 1; }",
+         {"nu0": 1e-5, "nuInf": 1e-6, "m": 0.1, "n": 1.0}),
+        ("model generalisedNewtonian; viscosityModel powerLaw; k 3e-5; n 0.5; nuMin 0; nuMax 1;",
+         {"k": 3e-5, "n": 0.5, "nuMin": 0.0, "nuMax": 1.0}),
+        ("laminarModel generalizedNewtonian; viscosityModel powerLaw; n 0.5; nuMin 0; nuMax 1;",
+         {"k": 1e-5, "n": 0.5, "nuMin": 0.0, "nuMax": 1.0}),
+        ("model generalizedNewtonian; viscosityModel powerLaw; k 3; n 0.5; nuMin 0; nuMax 1;",
+         {"k": 1e-5, "n": 0.5, "nuMin": 0.0, "nuMax": 1.0}),
+        ("model generalisedNewtonian; viscosityModel HerschelBulkley; tau0 1e-6; k 1e-6; n 0.5;",
+         {"nu0": 1e-5, "tau0": 1e-6, "k": 1e-6, "n": 0.5}),
+    ],
+)  # fmt: skip
+def test_generalised_newtonian_fluids_of_newer_versions(laminar, expected, tmp_path):
+    """ν₀ is that of the fluid's dictionary; generalizedNewtonian's powerLaw has it in the place of k."""
+    write(tmp_path, "constant/momentumTransport", f"simulationType laminar; laminar {{ {laminar} }}")
+    found = viscosity(tmp_path, "viscosityModel constant; nu 1e-5;", name="physicalProperties")
+    assert found.law.coefficients == pytest.approx(expected)
+    assert list(found.law.coefficients) == list(expected)
+
+
+NU = header("volScalarField", "nu") + (
+    "dimensions [0 2 -1 0 0 0 0]; internalField nonuniform List<scalar> 4(1e-6 2e-6 3e-6 4e-6); "
+    "boundaryField { }"
+)
+
+
+def test_a_written_field_goes_before_the_law(tmp_path):
+    """For a transient flow it must be there at all times."""
+    path = write(tmp_path, "constant/transportProperties", BLOOD)
+    write(tmp_path, "1/U", "")
+    write(tmp_path, "2/nu", NU)
+    found = read_viscosity(path, tmp_path, time="latestTime")
+    assert (found.field.name, found.field.kinematic) == ("nu", True)
+    assert found.field.mean == pytest.approx(2.5e-6)
+    for options in ({"time": 1}, {"time": "latestTime", "transient": True}, {}):
+        assert read_viscosity(path, tmp_path, **options).field is None
+
+
+def test_a_model_that_is_not_known_needs_the_field(tmp_path):
+    path = write(tmp_path, "constant/transportProperties", "transportModel strainRateFunction;")
+    with pytest.raises(InputError, match=r"is 'strainRateFunction'\. Allowed: .*or a field nu at the time"):
+        read_viscosity(path, tmp_path, time="latestTime")
+    write(tmp_path, "2/nu", NU)
+    found = read_viscosity(path, tmp_path, time="latestTime")
+    assert found.origin == "strainRateFunction, the field nu"
+
+
+def test_sutherlands_law_at_the_local_temperature(tmp_path):
+    path = write(tmp_path, "constant/thermophysicalProperties", SUTHERLAND)
+    temperature = header("volScalarField", "T") + (
+        "dimensions [0 0 0 1 0 0 0]; internalField nonuniform List<scalar> 2(293.15 373.15); "
+        "boundaryField { }"
+    )
+    write(tmp_path, "2/T", temperature)
+    found = read_viscosity(path, tmp_path, time="latestTime")
+    assert found.field.law(np.array([293.15, 373.15])) == pytest.approx([18.2e-6, 21.8e-6], rel=0.01)
+    assert found.field.mean == pytest.approx(0.5 * (18.146e-6 + 21.802e-6), rel=1e-3)
+    # A stated temperature is that of the whole fluid.
+    assert read_viscosity(path, tmp_path, 293.15, time="latestTime").mu == pytest.approx(18.146e-6, rel=1e-4)
+
+
+def test_the_viscosity_of_the_cloud_goes_before_that_of_the_case(case, caplog, monkeypatch):
+    monkeypatch.setattr("foamprb.settings.fluid.log.propagate", True)
+    caplog.set_level("INFO")
+    write(case, "constant/transportProperties", BLOOD)
+    law = read_settings(case).fluid.mu
+    assert law.at_rate(100.0) == pytest.approx(1000.0 * 4.4384e-6, rel=1e-3)
+    change(case, "rho0 1000;", "rho0 1000; nu 3e-6;")
+    assert read_settings(case).fluid.mu == pytest.approx(3e-3)
+    assert "nu is the viscosity at the particles, instead of BirdCarreau of constant/transp" in caplog.text

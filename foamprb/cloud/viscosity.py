@@ -1,0 +1,340 @@
+"""VaryingViscosity of a fluid in which it varies, at the barycentres of particles.
+
+``Medium.mu`` is a number, or one of the models below: a law of the shear rate, or a field of the flow. In a
+loop a model is the first of the surroundings. It stores μ_f in rows of its own, from which
+:func:`foamprb.cloud.block.viscosity_at` then reads it. Elsewhere :func:`viscosity_of` evaluates it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import astuple, dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from foamprb.body.tensor import Scalar, inner, minus, select
+from foamprb.body.viscosity import (
+    bird_carreau,
+    casson,
+    cross_power_law,
+    herschel_bulkley,
+    power_law,
+    shear_rate,
+)
+from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.integrators.base import no_disturbance, no_update
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.state import Particles
+from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.compile.link import traced
+from foamprb.flow.analytic import viscosity_unknown as viscosity
+from foamprb.flow.base import Flow, Patch
+
+__all__ = [
+    "RATE_LAWS",
+    "BirdCarreau",
+    "Casson",
+    "CrossPowerLaw",
+    "FieldViscosity",
+    "HerschelBulkley",
+    "PowerLaw",
+    "RateViscosity",
+    "VaryingViscosity",
+    "medium_at",
+    "model_of",
+    "viscosity_at_nodes",
+    "viscosity_at_rate",
+    "viscosity_of",
+]
+
+Floats: TypeAlias = NDArray[np.float64]
+
+
+class ViscosityRows(NamedTuple):
+    """Viscosity of the fluid at a particle."""
+
+    mu_f: Annotated[int, Row(1, "Pa s", "where the shape is evaluated", 1.0)]
+
+
+class FieldRows(NamedTuple):
+    """The same, and the field at the start of a step."""
+
+    mu_f: Annotated[int, Row(1, "Pa s", "where the shape is evaluated", 1.0)]
+    mu_there: Annotated[int, Row(1, "Pa s", "field where the step starts, in the middle of its time", 1.0)]
+    mu_slope: Annotated[int, Row(3, "Pa s/m", "its gradient")]
+
+
+fluid: Any = offsets(FieldRows)
+"""Offsets of the rows; those of both declarations begin alike."""
+
+
+def felt_viscosity(block: Any, i: int, _medium: Medium) -> Scalar:
+    """Return μ_f at the barycentre of lane i, Pa s."""
+    return block[fluid.mu_f * LANES + i]
+
+
+def law(_rate: Scalar) -> Scalar:
+    """Stand-in of the law of a fluid."""
+    raise NotImplementedError
+
+
+@traced
+def evaluate_law(block: Any, _medium: Medium, _share: float, coefficients: Any) -> None:
+    """Compute μ_f of all lanes from the velocity gradient of the flow."""
+    for i in range(LANES):
+        rate = shear_rate(load9(block, at.l, i))
+        block[fluid.mu_f * LANES + i] = law(rate, *coefficients)
+
+
+def sample_field(
+    flow: Any, s: Scratch, i: int, _step: int, rest: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Store the field and its gradient at the position of lane i."""
+    block = s.block
+    # Half-way in time, so that the error of a constant value is of second order.
+    t = block[at.t * LANES + i] + (0.5 * block[at.dt * LANES + i] if rest > 0.0 else 0.0)
+    mu, slope = viscosity(flow, s.host[i], load3(block, at.x, i), t)
+    c = coefficients[0]
+    block[fluid.mu_there * LANES + i] = c * mu
+    store3(block, fluid.mu_slope, i, (c * slope[0], c * slope[1], c * slope[2]))
+
+
+@traced
+def evaluate_field(block: Any, _medium: Medium, share: float, _coefficients: Any) -> None:
+    """Compute μ_f of all lanes on their way, from the field where their steps start."""
+    for i in range(LANES):
+        mu = block[fluid.mu_there * LANES + i]
+        # At the start of a step new_x is not known.
+        way = inner(minus(load3(block, at.new_x, i), load3(block, at.x, i)), load3(block, fluid.mu_slope, i))
+        there = mu + select(share > 0.0, share * way, 0.0)
+        block[fluid.mu_f * LANES + i] = np.maximum(0.5 * mu, np.minimum(2.0 * mu, there))
+
+
+@dataclass(frozen=True, kw_only=True)
+class VaryingViscosity(Surrounding):
+    """A viscosity that varies in the flow."""
+
+    rows_name: ClassVar = "fluid"
+    disturb: ClassVar = staticmethod(no_disturbance)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:  # noqa: ARG002
+        """Return the functions that read its rows."""
+        return {"viscosity_at": felt_viscosity}
+
+    def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:
+        """Return μ_f, (n,), Pa s, at points in their hosts and the shear rates there, at time t, s."""
+        raise NotImplementedError
+
+    def at_rate(self, rate: float) -> float:
+        """Return μ_f, Pa s, at a shear rate, 1/s; a field returns its mean."""
+        raise NotImplementedError
+
+    def at_nodes(self, flow: Flow) -> Floats:
+        """Return μ_f at the nodes of a flow, Pa s; no values if it has no nodes."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, kw_only=True)
+class RateViscosity(VaryingViscosity):
+    """A law of the shear rate; its fields are the arguments of the law."""
+
+    law: ClassVar[Callable[..., Any]]
+
+    by_density: ClassVar[tuple[str, ...]]
+    """Coefficients that are the kinematic ones times the density."""
+
+    rows: ClassVar = ViscosityRows
+    update: ClassVar = staticmethod(no_update)
+    prepare: ClassVar = staticmethod(evaluate_law)
+    each_step: ClassVar = False
+
+    @classmethod
+    def of_kinematic(cls, coefficients: Mapping[str, float], rho: float) -> Self:
+        """Return the law by OpenFOAM's coefficients, of the kinematic viscosity, and the density, kg/m³."""
+        named = {name.replace("nu", "mu"): value for name, value in coefficients.items()}
+        return cls(**{name: rho * v if name in cls.by_density else v for name, v in named.items()})
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """Return the coefficients of the law."""
+        return tuple(map(float, astuple(self)))
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any] | int]:
+        """Return also the law."""
+        return {**super().bindings(inertia), "law": type(self).law}
+
+    def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
+        """See :meth:`VaryingViscosity.of`."""
+        return np.asarray(type(self).law(rate, *self.coefficients(())))
+
+    def at_rate(self, rate: float) -> float:
+        """See :meth:`VaryingViscosity.at_rate`."""
+        return float(type(self).law(rate, *self.coefficients(())))
+
+    def at_nodes(self, flow: Flow) -> Floats:
+        """See :meth:`VaryingViscosity.at_nodes`."""
+        l = flow.at_nodes()[2]
+        return self.of(flow, l, np.empty(0, dtype=np.int32), np.asarray(shear_rate(tuple(l.T))), 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PowerLaw(RateViscosity):
+    """k γ̇ⁿ⁻¹ between two limits, OpenFOAM's ``powerLaw``: k in Pa sⁿ, limits in Pa s."""
+
+    k: float
+    n: float
+    muMin: float = 0.0
+    muMax: float = math.inf
+
+    law: ClassVar = staticmethod(power_law)
+    by_density: ClassVar = ("k", "muMin", "muMax")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CrossPowerLaw(RateViscosity):
+    """μ∞ + (μ₀ − μ∞)/(1 + (m γ̇)ⁿ), OpenFOAM's ``CrossPowerLaw``: μ in Pa s, m in s."""
+
+    mu0: float
+    muInf: float
+    m: float
+    n: float
+
+    law: ClassVar = staticmethod(cross_power_law)
+    by_density: ClassVar = ("mu0", "muInf")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BirdCarreau(RateViscosity):
+    """μ∞ + (μ₀ − μ∞)(1 + (k γ̇)ᵃ)^((n − 1)/a), OpenFOAM's ``BirdCarreau``: μ in Pa s, k in s."""
+
+    mu0: float
+    muInf: float
+    k: float
+    n: float
+    a: float = 2.0
+
+    law: ClassVar = staticmethod(bird_carreau)
+    by_density: ClassVar = ("mu0", "muInf")
+
+
+@dataclass(frozen=True, kw_only=True)
+class HerschelBulkley(RateViscosity):
+    """(τ₀ + k γ̇ⁿ)/γ̇, at most μ₀, OpenFOAM's ``HerschelBulkley``: μ₀ in Pa s, τ₀ in Pa, k in Pa sⁿ."""
+
+    mu0: float
+    tau0: float
+    k: float
+    n: float
+
+    law: ClassVar = staticmethod(herschel_bulkley)
+    by_density: ClassVar = ("mu0", "tau0", "k")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Casson(RateViscosity):
+    """(√(τ₀/γ̇) + √m)² between two limits, OpenFOAM's ``Casson``: m and limits in Pa s, τ₀ in Pa."""
+
+    m: float
+    tau0: float
+    muMin: float = 0.0
+    muMax: float = math.inf
+
+    law: ClassVar = staticmethod(casson)
+    by_density: ClassVar = ("m", "tau0", "muMin", "muMax")
+
+
+RATE_LAWS: dict[str, type[RateViscosity]] = {
+    "BirdCarreau": BirdCarreau,
+    "Casson": Casson,
+    "CrossPowerLaw": CrossPowerLaw,
+    "HerschelBulkley": HerschelBulkley,
+    "powerLaw": PowerLaw,
+}
+"""By OpenFOAM's names."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldViscosity(VaryingViscosity):
+    """A field that the flow has read, times a factor: the density if the field is kinematic."""
+
+    factor: float = 1.0
+    mean: float
+    """Mean over the cells, Pa s."""
+
+    rows: ClassVar = FieldRows
+    update: ClassVar = staticmethod(sample_field)
+    prepare: ClassVar = staticmethod(evaluate_field)
+    required_kernels: ClassVar = ("viscosity",)
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """Return the factor."""
+        return (float(self.factor),)
+
+    def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
+        """See :meth:`VaryingViscosity.of`."""
+        return np.asarray(self.factor * flow.viscosity(x, hosts, t))
+
+    def at_rate(self, rate: float) -> float:  # noqa: ARG002
+        """See :meth:`VaryingViscosity.at_rate`."""
+        return self.mean
+
+    def at_nodes(self, flow: Any) -> Floats:
+        """See :meth:`VaryingViscosity.at_nodes`."""
+        return np.asarray(self.factor * flow.viscosity_at_nodes())
+
+
+def model_of(mu: float | VaryingViscosity) -> tuple[VaryingViscosity, ...]:
+    """Return the model of a viscosity, none for a constant."""
+    return (mu,) if isinstance(mu, VaryingViscosity) else ()
+
+
+def viscosity_of(
+    mu: float | VaryingViscosity, flow: Any, x: Floats, hosts: NDArray[np.int32], l_f: Floats, t: float
+) -> float | Floats:
+    """Return μ_f, Pa s, at points in their hosts, NaN where l_f is; a constant as it is.
+
+    Parameters
+    ----------
+    mu
+        VaryingViscosity, Pa s, or a model of it.
+    flow, x, hosts, t
+        The flow, points (n, 3), m, their hosts, and the time, s.
+    l_f
+        ∂u_i/∂x_j there, (n, 9), 1/s.
+    """
+    if not isinstance(mu, VaryingViscosity):
+        return mu
+    rate = np.asarray(shear_rate(tuple(l_f.T)))
+    known, found = np.isfinite(rate), np.full(len(x), np.nan)
+    found[known] = mu.of(flow, x[known], hosts[known], rate[known], t)
+    return found
+
+
+def medium_at(medium: Medium, flow: Flow, p: Particles, t: float) -> Medium:
+    """Return the medium with the viscosity at particles at time t, s: (n,), or the number if constant.
+
+    Where the flow is unknown, it is the median.
+    """
+    if not isinstance(medium.mu, VaryingViscosity):
+        return medium
+    known = np.flatnonzero((p.host >= 0) & np.isfinite(p.x).all(axis=1))
+    mu = np.full(p.size, medium.mu.at_rate(1.0))
+    if len(known):
+        x, hosts = p.x[known], p.host[known]
+        l = flow.sample(x, hosts, t)[1].reshape(-1, 9)
+        found = viscosity_of(medium.mu, flow, x, hosts, l, t)
+        mu[:] = np.median(found)
+        mu[known] = found
+    return medium._replace(mu=mu)
+
+
+def viscosity_at_rate(mu: float | VaryingViscosity, rate: float | None) -> float:
+    """Return μ_f at a shear rate, 1/s, Pa s; a constant as it is."""
+    return mu.at_rate(1.0 if rate is None else rate) if isinstance(mu, VaryingViscosity) else mu
+
+
+def viscosity_at_nodes(mu: float | VaryingViscosity, flow: Flow) -> float | Floats:
+    """Return μ_f at the nodes of a flow, Pa s; a constant as it is."""
+    return mu.at_nodes(flow) if isinstance(mu, VaryingViscosity) else mu
