@@ -1,14 +1,21 @@
-"""Damage to red blood cells, by power laws of stress and exposure time."""
+"""Damage to red blood cells on each path: how the cells deform, and what they release."""
 
 from __future__ import annotations
 
+import logging
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.morphology import Rates, morphology_step
+from foamprb.cloud.measures import MEASURES
+from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import (
     STATUS_NAMES,
@@ -22,9 +29,20 @@ from foamprb.cloudfunctions.base import (
 )
 from foamprb.dictionary.constraints import Choice, Meaning, Positive
 from foamprb.errors import InputError
+from foamprb.flow.rotating import RotatingFlow
 from foamprb.results.tables import write_table
 
-__all__ = ["POWER_LAWS", "Haemolysis", "PowerLaw", "effective_shear_rate", "index_of_haemolysis"]
+__all__ = [
+    "POWER_LAWS",
+    "Haemolysis",
+    "PowerLaw",
+    "effective_shear_rate",
+    "index_of_haemolysis",
+    "pore_area",
+    "relaxed",
+]
+
+log = logging.getLogger("foamprb")
 
 Floats = NDArray[np.float64]
 
@@ -35,16 +53,33 @@ class PowerLaw(NamedTuple):
     A: float
     alpha: float
     beta: float
+    least: float = 0.0
+    """Smallest stress of the experiments, Pa."""
+    most: float = math.inf
+    """Largest stress of the experiments, Pa."""
+    longest: float = math.inf
+    """Longest exposure of the experiments, s."""
 
 
 POWER_LAWS: dict[str, PowerLaw] = {
-    "Giersiepen": PowerLaw(3.62e-5, 2.416, 0.785),
-    "Song": PowerLaw(1.8e-6, 1.991, 0.765),
-    "Zhang": PowerLaw(1.228e-5, 1.9918, 0.6606),
-    "Ding": PowerLaw(3.458e-6, 2.0639, 0.2777),
+    "Giersiepen": PowerLaw(3.62e-5, 2.416, 0.785, 0.0, 255.0, 0.7),
+    "Song": PowerLaw(1.8e-6, 1.991, 0.765, 0.0, 700.0, 0.7),
+    "Zhang": PowerLaw(1.228e-5, 1.9918, 0.6606, 50.0, 320.0, 1.5),
+    "Ding": PowerLaw(3.458e-6, 2.0639, 0.2777, 25.0, 320.0, 1.5),
+    "DingPorcine": PowerLaw(6.701e-4, 1.0981, 0.2778, 25.0, 320.0, 1.5),
+    "DingBovine": PowerLaw(9.772e-5, 1.4445, 0.2076, 25.0, 320.0, 1.5),
 }
-"""Published constants: of Giersiepen et al. (1990), Song et al. (2003), Zhang et al. (2011), and Ding et al.
-(2015), for human blood."""
+"""Published constants: of Giersiepen et al. (1990), for human blood; Song et al. (2003), porcine; Zhang et
+al. (2011), ovine; and Ding et al. (2015), human, porcine and bovine."""
+
+PORE_RATE, PORE_EXPONENT = 2.187e-6, 0.9289
+"""h and k of dIH/dt = h (μ G_f)^k A_p(G), IH as a share, μ G_f in Pa: human blood (Dirkes & Behr 2026)."""
+_PORES = (-13.41, 37.31, -48.91, 32.39, 0.63, -0.16)
+"""Coefficients of A_p, a polynomial of G/42 000, the highest power first."""
+FIRST_PORES, MOST_PORES = 3750.0, 42_000.0
+"""Shear rates, 1/s: below the first there are no pores, beyond the second no further ones."""
+_LONGEST = 0.1
+"""Longest step of a cell's state times the rate at which it changes."""
 
 
 def index_of_haemolysis(law: PowerLaw, dose: Floats) -> Floats:
@@ -78,23 +113,34 @@ def effective_shear_rate(D: Floats, f1: float, f2: float) -> Floats:
     return np.asarray(2.0 * f1 * D / ((1.0 - D * D) * f2))
 
 
+def pore_area(G: Floats) -> Floats:
+    """Return A_p(G), the area of the membrane's pores at the effective shear rate G, 1/s."""
+    area = np.polyval(_PORES, np.minimum(G, MOST_PORES) / MOST_PORES)
+    return np.where(G < FIRST_PORES, 0.0, area)
+
+
+def relaxed(G: Floats, rate0: Floats, rate1: Floats, h: Floats, f1: float) -> Floats:
+    """Return the G of dG/dt = f₁ (G_f − G) after a time h, s, with G_f linear from ``rate0`` to ``rate1``."""
+    lag = (rate1 - rate0) / np.maximum(f1 * h, 1e-300)
+    return rate1 - lag + (G - rate0 + lag) * np.exp(-f1 * h)
+
+
 @dataclass(frozen=True)
 class Haemolysis(SampledFunction):
-    """Damage to red blood cells on each path, A (∫τ^{α/β} dt)^β: ``haemolysis.csv``; means in ``means.csv``.
+    """Damage to red blood cells on each path: ``haemolysis.csv``; means in ``means.csv``.
 
-    τ is the scalar stress of the fluid at the particle, μ_f γ̇, or that of the shear in which Arora's droplet
-    has the deformation of the particle. The integral is a trapezoidal sum over the samples. Values above
-    100 % are written as 100.
+    The stress is τ = μ G, with the shear rate G of the fluid or an effective one of a cell that remembers the
+    flow. The damage is A (∫τ^{α/β} dt)^β, or that of pores. Values above 100 % are written as 100.
     """
 
     constants: Annotated[
         str,
-        Choice((*POWER_LAWS, "own")),
-        Meaning("of the power law; `own` with A, alpha and beta"),
+        Choice((*POWER_LAWS, "pores", "own")),
+        Meaning("of the power law; `pores` of the membrane; `own` with A, alpha and beta"),
     ]
     stress: Annotated[
-        Literal["fluid", "deformation"],
-        Meaning("`fluid`: μ_f γ̇; `deformation`: by Taylor's D of the particle"),
+        Literal["fluid", "KelvinVoigt", "morphology"],
+        Meaning("`fluid`: μ γ̇; else of a [cell](models/haemolysis.md) that remembers the flow"),
     ] = "fluid"
     A: Annotated[
         float | None, Positive, Meaning("factor of `own` constants", "% Pa^−α s^−β", "with `own` required")
@@ -105,10 +151,13 @@ class Haemolysis(SampledFunction):
     beta: Annotated[float | None, Positive, Meaning("exponent of the time", "1", "with `own` required")] = (
         None
     )
-    f1: Annotated[
-        float, Positive, Meaning("rate of recovery of Arora's droplet, for `deformation`", "1/s")
-    ] = 5.0
-    f2: Annotated[float, Positive, Meaning("its coefficient of deformation", "1")] = 4.2298e-4
+    f1: Annotated[float, Positive, Meaning("rate at which a cell recovers", "1/s")] = 5.0
+    f2: Annotated[
+        float, Positive, Meaning("effect of strain and of vorticity on its shape, for `morphology`", "1")
+    ] = 4.2298e-4
+    mu: Annotated[
+        float | None, Positive, Meaning("viscosity of whole blood, for τ", "Pa s", "that of the fluid")
+    ] = None
     sampleInterval: SampleInterval = 1
 
     def __post_init__(self) -> None:
@@ -117,37 +166,130 @@ class Haemolysis(SampledFunction):
             raise InputError("has constants own, which need A, alpha and beta")
         if self.constants != "own" and given:
             raise InputError(f"has the constants of {self.constants} and {given[0]}; constants own takes it")
+        if self.constants == "pores" and self.stress == "fluid":
+            raise InputError("has constants pores, which need stress KelvinVoigt or morphology, not fluid")
 
     @property
     def law(self) -> PowerLaw:
-        """The constants."""
+        """The constants; for pores those of a share that is integrated as it is, and their range."""
         if self.constants == "own":
             return PowerLaw(float(self.A or 0.0), float(self.alpha or 0.0), float(self.beta or 0.0))
+        if self.constants == "pores":
+            return POWER_LAWS["Ding"]._replace(A=100.0, alpha=1.0, beta=1.0)
         return POWER_LAWS[self.constants]
 
+    def _stress(self, cloud: ObservedCloud, G: Floats) -> Floats:
+        """Return τ, Pa, at a shear rate, 1/s."""
+        return np.asarray((cloud.cloud.medium.mu if self.mu is None else self.mu) * G)
+
+    def _rate(self, cloud: ObservedCloud, G: Floats, fluid: Floats) -> Floats:
+        """Return the rate of the dose at the effective shear rate and that of the fluid, 1/s."""
+        if self.constants == "pores":
+            return PORE_RATE * self._stress(cloud, fluid) ** PORE_EXPONENT * pore_area(G)
+        return np.asarray(self._stress(cloud, G) ** (self.law.alpha / self.law.beta))
+
+    def begin(self, cloud: ObservedCloud) -> Memory:
+        """Return the first sample, and cells at rest; raise InputError for a turning frame."""
+        if self.stress == "morphology" and isinstance(cloud.cloud.flow, RotatingFlow):
+            raise InputError("stress morphology does not turn with rotating zones: use KelvinVoigt")
+        return super().begin(cloud)
+
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return τ^{α/β}."""
+        """Return the rate of the dose by the fluid's stress, or the fluid's shear rate and gradient."""
         if self.stress == "fluid":
             (gamma,) = cloud.measure(rows, "shearRate")
-        else:
-            gamma = effective_shear_rate(cloud.measure(rows, "taylorDeformation")[0], self.f1, self.f2)
-        return {"rate": (cloud.cloud.medium.mu * gamma) ** (self.law.alpha / self.law.beta)}
+            return {"rate": self._rate(cloud, gamma, gamma)}
+        if self.stress == "KelvinVoigt":
+            (gamma,) = cloud.measure(rows, "shearRate")
+            return {"fluid": gamma}
+        parts = [(MEASURES["shearRate"].value(c), np.stack(c.l_f, axis=1)) for c in cloud.contexts(rows)]
+        gamma, gradient = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        return {"fluid": gamma, "l": gradient}
 
     def initial(self, cloud: ObservedCloud) -> Memory:
-        """Return integrals of zero and an empty table."""
-        return {"dose": np.zeros(cloud.particles.size), "history": np.empty((0, 4))}
+        """Return integrals of zero, cells at rest and an empty table."""
+        n = cloud.particles.size
+        own = {"dose": np.zeros(n), "history": np.empty((0, 4)), "peak": np.zeros(n), "warned": np.zeros(1)}
+        if self.stress == "KelvinVoigt":
+            own["cell"] = np.zeros((n, 1))
+        if self.stress == "morphology":
+            own["cell"] = np.tile(np.eye(3).ravel(), (n, 1))
+        return own
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
-        """Add the time since the last sample to the integrals."""
-        h, before = now["t"] - memory["t"][rows], memory["rate"][rows]
+    def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
+        """Return whether there are coupled patches, at which the shape of a cell turns."""
+        coupled = any(interaction.code == CYCLIC for interaction in interactions.values())
+        return self.stress == "morphology" and coupled
+
+    def record_rebounds(self, memory: Memory, cloud: ObservedCloud, rows: NDArray[np.float64]) -> None:
+        """Turn shapes, and the gradients of the last sample, with the particles at coupled patches."""
+        if self.stress != "morphology":
+            return
+        for before, after in cloud.passages(rows):
+            turn = after.F.reshape(-1, 3, 3) @ np.linalg.inv(before.F.reshape(-1, 3, 3))
+            for name in ("cell", "l"):
+                T = memory[name][after.number].reshape(-1, 3, 3)
+                memory[name][after.number] = (turn @ T @ turn.transpose(0, 2, 1)).reshape(-1, 9)
+
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
+        """Advance the cells to the present sample, and add to the integrals."""
+        h = now["t"] - memory["t"][rows]
         # The flow is unknown at a particle that the mesh has lost.
-        now["rate"] = np.where(np.isfinite(now["rate"]), now["rate"], before)
-        memory["dose"][rows] += 0.5 * h * (before + now["rate"])
+        for name in ("rate", "fluid", "l"):
+            if name in now:
+                now[name] = np.where(np.isfinite(now[name]), now[name], memory[name][rows])
+        if self.stress == "fluid":
+            rate = now["rate"]
+            memory["dose"][rows] += 0.5 * h * (memory["rate"][rows] + rate)
+            memory["peak"][rows] = np.maximum(memory["peak"][rows], rate ** (self.law.beta / self.law.alpha))
+            return
+        self._advance(memory, cloud, rows, now, h)
+
+    def _advance(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory, h: Floats) -> None:
+        """Advance cells with a memory by h, s, in sub-steps of two halves each: Simpson's rule."""
+        before: Memory = {name: memory[name][rows] for name in now if name != "t"}
+        fastest = self.f1 + self.f2 * np.maximum(before["fluid"], now["fluid"])
+        steps = np.maximum(np.ceil(h * fastest / _LONGEST), 1.0)
+        cell = memory["cell"][rows]
+        G, dose, peak = self._effective(cell), np.zeros(len(rows)), memory["peak"][rows]
+        some = np.arange(len(rows))
+        for k in range(int(steps.max(initial=0.0))):
+            some = some[k < steps[some]]
+            n, length = steps[some], h[some] / steps[some]
+            ends: list[Memory] = [
+                {name: _between(before[name][some], now[name][some], (k + share) / n) for name in before}
+                for share in (0.0, 0.5, 1.0)
+            ]
+            rates = [self._rate(cloud, G[some], ends[0]["fluid"])]
+            for first, last in pairwise(ends):
+                cell[some] = self._step(cell[some], first, last, 0.5 * length)
+                G[some] = self._effective(cell[some])
+                rates.append(self._rate(cloud, G[some], last["fluid"]))
+            dose[some] += length / 6.0 * (rates[0] + 4.0 * rates[1] + rates[2])
+            peak[some] = np.maximum(peak[some], self._stress(cloud, G[some]))
+        memory["dose"][rows] += dose
+        memory["peak"][rows], memory["cell"][rows] = peak, cell
+
+    def _step(self, cell: Floats, first: Memory, last: Memory, h: Floats) -> Floats:
+        """Return the state of cells after a time h, s, from the fluid at its start and its end."""
+        if self.stress == "KelvinVoigt":
+            return relaxed(cell[:, 0], first["fluid"], last["fluid"], h, self.f1)[:, None]
+        S, l0, l1 = (tuple(T.T) for T in (cell, first["l"], last["l"]))
+        rates = Rates(self.f1, self.f2, self.f2)
+        return np.stack(morphology_step(S, l0, l1, h, rates), axis=1)
+
+    def _effective(self, cell: Floats) -> Floats:
+        """Return the effective shear rate of cells, 1/s."""
+        if self.stress == "KelvinVoigt":
+            return np.array(cell[:, 0])
+        axes = np.sqrt(np.linalg.eigvalsh(cell.reshape(-1, 3, 3)))
+        return effective_shear_rate((axes[:, 2] - axes[:, 0]) / (axes[:, 2] + axes[:, 0]), self.f1, self.f2)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the damage of all particles that were released, and the means by injection model."""
         p = cloud.particles
         rows = np.flatnonzero(p.status != Status.PENDING)
+        self._warn(memory, cloud, rows, folder.name)
         # The laws exceed 100 % beyond the stresses of their fits.
         index = np.minimum(index_of_haemolysis(self.law, memory["dose"]), 100.0)
         write_table(
@@ -166,3 +308,23 @@ class Haemolysis(SampledFunction):
             {"time": time, "injector": names_of(cloud.injectors, injector),
              "parcels": n.astype(np.int64), "haemolysis": mean},
         )  # fmt: skip
+
+    def _warn(self, memory: Memory, cloud: ObservedCloud, rows: Rows, name: str) -> None:
+        """Warn, once in a run, of stresses and times beyond the experiments of the constants."""
+        times, peak = (memory["t"] - cloud.particles.t0)[rows], memory["peak"][rows]
+        beyond = (peak > self.law.most) | (times > self.law.longest)
+        if not beyond.any() or memory["warned"][0]:
+            return
+        memory["warned"] = np.ones(1)
+        log.warning(
+            "cloudFunctions/%s: %d of %d particles are beyond the range of the constants %s, stresses from "
+            "%g to %g Pa and times up to %g s: their largest stress is %.3g Pa, the longest time %.3g s.",
+            name, np.count_nonzero(beyond), len(rows), self.constants, self.law.least, self.law.most,
+            self.law.longest, peak.max(), times.max(),
+        )  # fmt: skip
+
+
+def _between(a: Floats, b: Floats, share: Floats) -> Floats:
+    """Return a + share (b − a), row by row."""
+    s = share if a.ndim == 1 else share[:, None]
+    return np.asarray(a + s * (b - a))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from validation import (
+    blood,
     brownian,
     cost,
     device,
@@ -45,6 +46,7 @@ CASES: dict[str, Case] = {
     "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
     "surfaceTension": Case("beyond the paper; surface tension", tension.drops),
     "drops": Case("beyond the paper; drops", drops.steady),
+    "haemolysis": Case("beyond the paper; red blood cells", blood.cells),
     "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
     "faxen": Case("beyond the paper; curved flows", faxen.lag),
     "wallLift": Case("beyond the paper; walls", walls.lift),

@@ -1,0 +1,100 @@
+"""Haemolysis of cells with a memory (beyond the paper)."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, Literal, cast
+
+import numpy as np
+from scipy.integrate import quad
+
+from foamprb.cloudfunctions.base import Memory
+from foamprb.cloudfunctions.haemolysis import Haemolysis, effective_shear_rate, index_of_haemolysis
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row
+from validation.references.morphology import shapes, taylor
+
+MU, F1, F2 = 3.5e-3, 5.0, 4.2298e-4
+SHEAR = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+Cell = Literal["fluid", "KelvinVoigt", "morphology"]
+
+
+def _released(constants: str, stress: Cell, rate: float, time: float, samples: int) -> Floats:
+    """Return the per cent released in simple shear until each sample."""
+    function = Haemolysis(constants=constants, stress=stress, mu=MU)
+    cloud = cast("Any", SimpleNamespace(particles=SimpleNamespace(size=1)))
+    l = rate * SHEAR.reshape(1, 9)
+    fluid: Memory = {"fluid": np.array([rate])} | ({"l": l} if stress == "morphology" else {})
+    memory = function.initial(cloud) | {"t": np.zeros(1)} | fluid
+    found = []
+    for _ in range(samples):
+        now = {"t": memory["t"] + time / samples, **fluid}
+        function.add(memory, cloud, np.zeros(1, dtype=np.int64), now)
+        memory |= now
+        found.append(float(index_of_haemolysis(function.law, memory["dose"])[0]))
+    return np.array(found)
+
+
+def _expected(stress: Cell, rate: float, times: Floats) -> Floats:
+    """Return Giersiepen's per cent at times of a constant shear, from G by the equation of the cell."""
+    A, alpha, beta = 3.62e-5, 2.416, 0.785
+    fine = np.linspace(0.0, times[-1], 20_001)[1:]
+    if stress == "KelvinVoigt":
+        G = rate * -np.expm1(-F1 * fine)
+    else:
+        G = effective_shear_rate(taylor(shapes(rate * SHEAR, (F1, F2, F2), fine)), F1, F2)
+    power = (MU * G) ** (alpha / beta)
+    dose = np.cumsum(0.5 * (power + np.concatenate([[0.0], power[:-1]]))) * fine[0]
+    return np.asarray(A * np.interp(times, fine, dose) ** beta)
+
+
+def cells(quick: bool) -> Outcome:
+    """Haemolysis with a memory."""
+    rows, curves = [], []
+    n = 50
+    for colour, stress in enumerate(cast("tuple[Cell, ...]", ("KelvinVoigt", "morphology"))):
+        for rate, time in ((5000.0, 0.05), (20_500.0, 0.005)) if quick else (
+            (5000.0, 0.05), (20_500.0, 0.005), (5000.0, 1.0), (42_000.0, 0.5),
+        ):  # fmt: skip
+            times = np.linspace(0.0, time, n + 1)[1:]
+            ours, expected = _released("Giersiepen", stress, rate, time, n), _expected(stress, rate, times)
+            name = f"{stress}: {rate:g} 1/s for {time:g} s, %"
+            rows.append(Row(name, ours[-1], expected[-1], "equation of the cell", 1e-3, True))
+            if time == 0.05:
+                curves.append(Curve(times, ours, f"foamprb, {stress}", colour=colour))
+                curves.append(Curve(times, expected, "solve_ivp" if colour == 0 else "", "reference", colour))
+    fluid = 3.62e-5 * (MU * 5000.0) ** 2.416 * times_of(n) ** 0.785
+    curves.append(Curve(times_of(n), fluid, "stress of the fluid", "guide"))
+    for rate, time in ((5000.0, 1.0), (10_000.0, 0.1), (20_000.0, 0.05), (40_000.0, 0.05)):
+        expected_share = _pores(rate, time)
+        found = _released("pores", "KelvinVoigt", rate, time, 2000)[-1]
+        name = f"pores: {rate:g} 1/s for {time:g} s, %"
+        rows.append(Row(name, found, 100.0 * expected_share, "quadrature of A_p", 3e-3, True))
+    figure = Figure(
+        "haemolysis",
+        "Release in simple shear of 5000 1/s by the constants of Giersiepen.",
+        [Panel("t [s]", "haemolysis [%]", curves, "log")],
+    )
+    return Outcome(rows, [figure], [_REMARK])
+
+
+def times_of(n: int) -> Floats:
+    """Return n times up to 0.05 s."""
+    return np.linspace(0.0, 0.05, n + 1)[1:]
+
+
+def _pores(rate: float, time: float) -> float:
+    """Return the share that pores release in a constant shear, with G = γ̇ (1 − exp(−f₁ t))."""
+
+    def area(t: float) -> float:
+        return float(
+            np.polyval([-13.41, 37.31, -48.91, 32.39, 0.63, -0.16], -rate * np.expm1(-F1 * t) / 42e3)
+        )
+
+    begin = -np.log1p(-3750.0 / rate) / F1
+    return float(2.187e-6 * (MU * rate) ** 0.9289 * quad(area, begin, time, epsrel=1e-10)[0])
+
+
+_REMARK = (
+    "In the first 0.05 s the damage of a cell with a memory is a hundredth of that by the fluid's stress. "
+    "The references are solutions of the cells' equations; there is no comparison with measurements of blood."
+)
