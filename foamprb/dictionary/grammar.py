@@ -268,14 +268,14 @@ class _Parser:
         return entry
 
     def stream(self, key: _Token) -> list[_Token]:
-        """Read tokens up to the semicolon."""
+        """Read tokens up to the semicolon; dictionaries may stand in lists, ``((air in water) { … })``."""
         tokens: list[_Token] = []
         expected: list[str] = []
         computed = self.peek().text.startswith("#")
         while (token := self.take()).text != ";" or expected[-1:] == ["}"]:
             if expected and token.text == expected[-1]:
                 expected.pop()
-            elif token.text in _CLOSING and (token.text != "{" or computed):
+            elif token.text in _CLOSING and (token.text != "{" or computed or expected):
                 expected.append(_CLOSING[token.text])
             elif (token.text in _MARKS and token.text != ";") or token.text == "":
                 raise self.mistake(key, f"has no closing {expected[-1] if expected else ';'}.")

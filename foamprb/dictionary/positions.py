@@ -94,7 +94,8 @@ def _list(path: Path, text: bytes, start: int, opening: re.Match[bytes]) -> Floa
         end = begun
     if text[end : end + 1] != b")":
         raise _mistake(path, text, end, "Expected: (x y z), three numbers, or the list's closing )")
-    if text[end + 1 :].strip():
+    # The line that ends OpenFOAM's files is not always a comment.
+    if re.search(rb"[\w()]", text[end + 1 :]):
         first = len(text) - len(text[end + 1 :].lstrip())
         raise _mistake(path, text, first, "Expected: nothing after the list")
     numbers = np.array(text[opening.end() : end].translate(_PARENTHESES).split(), dtype=np.float64)

@@ -49,6 +49,12 @@ def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, t
         ("a { b 1; } a 2;", {"a": "2"}),
         ("a; b { };", {"a": "", "b": {}}),
         ("a b c ( d e );", {"a": "b c ( d e )"}),
+        # As in twoPhaseEulerFoam's phaseProperties.
+        ("a ( (x and y) 0.07 );", {"a": "( ( x and y ) 0.07 )"}),
+        (
+            "a ( (x in y) { b c; } (y in x) { b d; } ); e 1;",
+            {"a": "( ( x in y ) { b c ; } ( y in x ) { b d ; } )", "e": "1"},
+        ),
         ('"a.*" "b;}";', {'"a.*"': '"b;}"'}),
         ("a 1; b $a; c ${a}; d ($a 0 $a);", {"a": "1", "b": "1", "c": "1", "d": "( 1 0 1 )"}),
         ("a 1; b { c $a; a 2; d $a; }", {"a": "1", "b": {"c": "1", "a": "2", "d": "2"}}),

@@ -40,6 +40,13 @@ def test_written_positions_are_read_back(
     np.testing.assert_array_equal(positions, np.array(rows, dtype=float).reshape(-1, 3))
 
 
+def test_a_line_that_only_resembles_a_comment_may_follow_the_list(tmp_path: Path) -> None:
+    """As in OpenFOAM's MPPICFoam/column."""
+    path = tmp_path / "positions"
+    path.write_text("(\n(-0.1 0 0.2)\n)\n\n/ ****************** //\n")
+    assert read_positions(path).x.tolist() == [[-0.1, 0.0, 0.2]]
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
