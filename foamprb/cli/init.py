@@ -18,6 +18,9 @@ PURPOSE = "write an initial constant/softCloudProperties for this case"
 def declare(parser: argparse.ArgumentParser) -> None:
     """Add the options of the command."""
     add_flow(parser)
+    parser.add_argument(
+        "--output", type=Path, metavar="FILE", help="the settings [constant/softCloudProperties]"
+    )
 
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
@@ -25,9 +28,10 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
     from foamprb.run.template import write_template
 
     source = source_of(arguments)
-    file = write_template(arguments.case, source)
+    file = write_template(arguments.case, source, arguments.output)
     case = "" if arguments.case == Path() else f" -case {shlex.quote(str(arguments.case))}"
     region = f" -region {source.region}" if source.region else ""
-    run = f"foamprb run{case}{source.options}"
+    chosen = f" -dict {shlex.quote(str(file.resolve()))}" if arguments.output else ""
+    run = f"foamprb run{case}{source.options}{chosen}"
     print(f"{file} is written. Look through it, then: {run} -dry-run, {run}, foamprb view{case}{region}.")
     return 0

@@ -88,8 +88,15 @@ class FlowScales:
     """Patch through which most fluid enters; empty without inflow."""
 
 
-def write_template(case: Path, source: FlowSource | None = None) -> Path:
-    """Write ``constant/softCloudProperties`` for a case, or for the region of the source.
+def write_template(case: Path, source: FlowSource | None = None, output: Path | None = None) -> Path:
+    """Write settings for a case, or for the region of the source.
+
+    Parameters
+    ----------
+    case, source
+        The case, and the source of its flow.
+    output
+        The file; by default ``constant/softCloudProperties`` in the case.
 
     Returns
     -------
@@ -98,26 +105,29 @@ def write_template(case: Path, source: FlowSource | None = None) -> Path:
     Raises
     ------
     InputError
-        If the file exists, which is not changed, or the case has no mesh or no flow.
+        If the file exists, which is not changed, or cannot be written, or the case has no mesh or no flow.
     """
     source = source or FlowSource()
     if not case.is_dir():
         raise InputError(f"{case}: no such folder.")
     check_region(case, source)
-    file = case / "constant" / source.region / NAME
-    present = case / of_region(case, source.region, NAME)
+    file = output or case / "constant" / source.region / NAME
+    present = output or case / of_region(case, source.region, NAME)
     if file.exists() or present.exists():
         raise InputError(
             f"{file if file.exists() else present} exists and is not changed. Check it with "
             f"foamprb run -dry-run{source.options}, or rename it to get a new one."
         )
     text = template(case, read_flow(case, "latestTime", source), source)
-    file.parent.mkdir(parents=True, exist_ok=True)
     try:
+        file.parent.mkdir(parents=True, exist_ok=True)
         with file.open("x", encoding="utf-8") as out:
             out.write(text)
     except FileExistsError:
         raise InputError(f"{file} exists and is not changed.") from None
+    except OSError as error:
+        how = "" if output else " The option -output FILE writes the settings elsewhere, for run -dict FILE."
+        raise InputError(f"{file}: {error.strerror}.{how}") from error
     return file
 
 
@@ -263,7 +273,7 @@ def _inlet(flow: MeshFlow, speed: float, volume: float) -> tuple[str, float]:
     """Return the patch through which most fluid enters, and the inflow through all patches, m³/s."""
     rates = {}
     for patch in flow.patches:
-        if not needs_entry(patch) or patch.type in WALLS:
+        if not needs_entry(patch) or patch.type in WALLS or patch.type.startswith("cyclic"):
             continue
         try:
             faces = flow.patch_faces(patch.name, 0.0)
@@ -606,8 +616,10 @@ def _patches(patches: Sequence[Patch], wall: str = "stick") -> list[str]:
     lines, walls = [], [patch for patch in patches if patch.type in WALLS]
     named = [patch for patch in patches if needs_entry(patch) and patch not in walls]
     for patch in named:
-        why = "" if patch.type == "patch" else f" // {patch.type}"
-        lines.append(f"{_word(patch.name):20s}{{ type escape; }}{why}")
+        start, why = "", "" if patch.type == "patch" else f" // {patch.type}"
+        if patch.type.startswith("cyclic"):
+            start, why = "// ", f" // particles cannot pass a {patch.type}"
+        lines.append(f"{start}{_word(patch.name):20s}{{ type escape; }}{why}")
     if len(walls) > 6:
         lines.append(f"{'wall':20s}{{ type {wall}; }} // all {len(walls)} walls; {choice}")
     else:

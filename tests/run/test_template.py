@@ -40,6 +40,22 @@ def test_template_is_accepted_without_warnings(case, capsys):
     assert "particles                1000" in said
 
 
+def test_settings_of_a_case_that_cannot_be_written(case, tmp_path, capsys, monkeypatch):
+    file = tmp_path / "mine" / "settings"
+    with monkeypatch.context() as patch:
+        patch.setattr(
+            Path, "open", lambda *_, **__: (_ for _ in ()).throw(OSError(30, "Read-only file system"))
+        )
+        patch.setattr("foamprb.run.template.template", lambda *_: "")
+        patch.setattr("foamprb.run.template.read_flow", lambda *_: None)
+        with pytest.raises(InputError, match=r"Read-only file system\. The option -output FILE writes"):
+            write_template(case)
+    assert main(["init", "-case", str(case), "-output", str(file)]) == 0
+    assert f"foamprb run -case {case} -dict {file} -dry-run" in capsys.readouterr().out
+    assert not (case / "constant/softCloudProperties").exists()
+    assert main(["run", "-dry-run", "-case", str(case), "-dict", str(file)]) == 0
+
+
 def test_template_quotes_the_case(case):
     text = write_template(case).read_text()
     assert re.search(r"^ +patch +inlet; +// largest inflow$", text, re.MULTILINE)
@@ -293,6 +309,20 @@ def test_the_diameter_keeps_the_reynolds_number_small():
 def test_round_numbers():
     assert [_nice(x, up=True) for x in (1.0, 1.1, 2.5, 6e-7)] == [1.0, 2.0, 5.0, 1e-6]
     assert [_nice(x, up=False) for x in (1.0, 1.9, 9.9, 6e-7)] == [1.0, 1.0, 5.0, 5e-7]
+
+
+def test_a_coupled_patch_that_particles_cannot_pass_is_left_to_the_user(tmp_path, capsys):
+    """OpenFOAM writes cyclicAMI for the field on a cyclicPeriodicAMI patch."""
+    write_case(tmp_path, perturbation=0.0)
+    file = tmp_path / "constant/polyMesh/boundary"
+    file.write_text(re.sub(r"(lid // a patch\s*\{ type )\w+", r"\1cyclicPeriodicAMI", file.read_text()))
+    file = tmp_path / "1e1/U"
+    file.write_text(file.read_text().replace("lid { type fixedValue;", "lid { type cyclicAMI;"))
+    assert main(["init", "-case", str(tmp_path)]) == 0
+    text = (tmp_path / "constant/softCloudProperties").read_text()
+    assert re.search(r"// lid +\{ type escape; \} // particles cannot pass a cyclicPeriodicAMI", text)
+    assert main(["run", "-dry-run", "-case", str(tmp_path)]) == 1
+    assert "cannot pass through 'lid', a patch of type cyclicPeriodicAMI" in capsys.readouterr().err
 
 
 def test_patches_with_odd_names_and_many_walls_are_matched(case):

@@ -88,6 +88,9 @@ def _check_type(field: FoamField, patch: PatchInfo, entry: PatchField | None) ->
         raise InputError(
             f"{field.path}: no entry of boundaryField for patch {patch.name}. {suggestion(patch.name, names)}"
         )
+    # OpenFOAM writes cyclicAMI on patches of types that are derived from it.
+    if patch.type in _AMI and entry.type == "cyclicAMI":
+        return
     if patch.type in CONSTRAINTS and patch.type not in (entry.type, entry.words.get("patchType")):
         raise InputError(
             f"{field.path}: patch {patch.name} is of type {patch.type}, so the field must be of this type; "
@@ -231,6 +234,8 @@ RULES: dict[str, tuple[bool, Rule]] = {
     "zeroGradient": (True, _of_cells),
 }
 """By type of condition: True if OpenFOAM computes the values even if there is a ``value``; and the rule."""
+
+_AMI = frozenset({"cyclicPeriodicAMI", "cyclicRepeatAMI"})
 
 CONDITIONS = frozenset(
     """
