@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 
 import pytest
@@ -22,6 +23,15 @@ def documented() -> list[str]:
 
 def test_docstring_and_stub_name_the_same():
     assert sorted(foamprb.__all__) == sorted(documented()) == sorted(dir(foamprb))
+
+
+def test_modules_list_their_own_names():
+    """Completion of ``foamprb.analytic.`` offered Any, Callable, np and others."""
+    modules = [value for name in foamprb.__all__ if inspect.ismodule(value := getattr(foamprb, name))]
+    assert modules == [foamprb.analytic]
+    for module in modules:
+        assert dir(module) == sorted(module.__all__)
+        assert [name for name in dir(module) if getattr(module, name).__module__ != module.__name__] == []
 
 
 def test_public_names_have_docstrings_and_belong_to_the_package():

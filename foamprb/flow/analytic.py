@@ -22,7 +22,26 @@ from foamprb.flow import channels
 from foamprb.flow.base import NO_PLANES, Floats, Ints, Patch, PatchFaces, Planes, Tetrahedra, Turbulence
 from foamprb.flow.sampling import sample_with
 
+__all__ = [
+    "AnalyticFlow",
+    "FunctionFlow",
+    "extension",
+    "function",
+    "linear",
+    "pipe",
+    "rotation",
+    "shear",
+    "shear_over_wall",
+    "slit",
+    "womersley",
+]
+
 _ZERO: Vector = (0.0, 0.0, 0.0)
+
+
+def __dir__() -> list[str]:
+    """Return the public names alone."""
+    return __all__
 
 
 class LinearArrays(NamedTuple):
