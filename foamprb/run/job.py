@@ -53,6 +53,8 @@ log = logging.getLogger("foamprb")
 
 TIME_TOLERANCE = 1e-9
 """Relative error of a time that has been written and read."""
+_WIDTH = 0.1
+"""Width of a flow that has not been read, m."""
 
 
 @dataclass(frozen=True)
@@ -201,13 +203,15 @@ def likely_integrator(settings: Settings) -> str:
 
     The shear rate is the reference; without it, a tenth of 1/Δt, a usual choice of Δt.
     """
-    numbers = [0.0]
+    numbers, fluid, g = [0.0], settings.fluid, float(np.linalg.norm(settings.gravity))
     for injection in settings.injections:
         if injection.sizeDistribution is not None:
             rho, d = _most(injection.rho0), injection.sizeDistribution.limits[1]
             rate = injection.solid.referenceShearRate or 0.1 / settings.solution.deltaT
-            mu = viscosity_at_rate(settings.fluid.mu, rate)
+            mu = viscosity_at_rate(fluid.mu, rate)
             numbers.append(rate * float(relaxation_time(rho, 0.5 * d, mu)))
+            tau = rho * d**2 / (18.0 * mu)
+            numbers.append(tau**2 * abs(1.0 - fluid.rho / rho) * g / _WIDTH)
     return automatic(max(numbers), _material(settings))
 
 

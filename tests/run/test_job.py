@@ -301,6 +301,17 @@ def test_choice_of_auto_is_estimated_before_the_flow_is_read(rho, nu, expected, 
     assert prepare(case).cloud.models.integrator == expected
 
 
+@pytest.mark.parametrize(("rho", "nu", "expected"), [(1.2, 1.5e-5, "rosenbrock"), (1000.0, 1e-6, "stokes")])
+def test_fast_settling_is_estimated_too(rho, nu, expected, case):
+    """Balls of a third of a millimetre, hardly sheared: the way in which they stop is 5 m in air."""
+    edit(case, r"shape\s+paper;", "shape auto;")
+    edit(case, r"rhoInf\s+\S+;", f"rhoInf {rho};")
+    edit(case, r"nu\s+.*;", f"nu {nu};", "constant/transportProperties")
+    edit(case, r"referenceShearRate\s+\S+;", "referenceShearRate 1e-3;")
+    edit(case, r"value\s+\S+;", "value 3e-4;")
+    assert likely_integrator(read_settings(case)) == expected
+
+
 def test_a_cloud_function_that_cannot_work_stops_a_dry_run(case, capsys):
     edit(
         case, r"cloudFunctions\s*\{\}", "cloudFunctions { hits { type patchPostProcessing; patches (wal); } }"
