@@ -178,15 +178,11 @@ class Haemolysis(SampledFunction):
             return POWER_LAWS["Ding"]._replace(A=100.0, alpha=1.0, beta=1.0)
         return POWER_LAWS[self.constants]
 
-    def _stress(self, cloud: ObservedCloud, G: Floats) -> Floats:
-        """Return τ, Pa, at a shear rate, 1/s."""
-        return np.asarray((cloud.cloud.medium.mu if self.mu is None else self.mu) * G)
-
-    def _rate(self, cloud: ObservedCloud, G: Floats, fluid: Floats) -> Floats:
-        """Return the rate of the dose at the effective shear rate and that of the fluid, 1/s."""
+    def _rate(self, G: Floats, fluid: Memory) -> Floats:
+        """Return the rate of the dose at the effective shear rate, 1/s, in the fluid."""
         if self.constants == "pores":
-            return PORE_RATE * self._stress(cloud, fluid) ** PORE_EXPONENT * pore_area(G)
-        return np.asarray(self._stress(cloud, G) ** (self.law.alpha / self.law.beta))
+            return PORE_RATE * (fluid["mu"] * fluid["fluid"]) ** PORE_EXPONENT * pore_area(G)
+        return np.asarray((fluid["mu"] * G) ** (self.law.alpha / self.law.beta))
 
     def begin(self, cloud: ObservedCloud) -> Memory:
         """Return the first sample, and cells at rest; raise InputError for a turning frame."""
@@ -195,16 +191,15 @@ class Haemolysis(SampledFunction):
         return super().begin(cloud)
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
-        """Return the rate of the dose by the fluid's stress, or the fluid's shear rate and gradient."""
+        """Return the rate of the dose by the fluid's stress, or what a cell feels of the fluid."""
+        parts = [
+            (MEASURES["shearRate"].value(c), c.mu, np.stack(c.l_f, axis=1)) for c in cloud.contexts(rows)
+        ]
+        gamma, mu, gradient = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        found: Memory = {"fluid": gamma, "mu": mu if self.mu is None else np.full(len(rows), self.mu)}
         if self.stress == "fluid":
-            (gamma,) = cloud.measure(rows, "shearRate")
-            return {"rate": self._rate(cloud, gamma, gamma)}
-        if self.stress == "KelvinVoigt":
-            (gamma,) = cloud.measure(rows, "shearRate")
-            return {"fluid": gamma}
-        parts = [(MEASURES["shearRate"].value(c), np.stack(c.l_f, axis=1)) for c in cloud.contexts(rows)]
-        gamma, gradient = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-        return {"fluid": gamma, "l": gradient}
+            return {"rate": self._rate(gamma, found)}
+        return {**found, "l": gradient} if self.stress == "morphology" else found
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return integrals of zero, cells at rest and an empty table."""
@@ -231,21 +226,20 @@ class Haemolysis(SampledFunction):
                 T = memory[name][after.number].reshape(-1, 3, 3)
                 memory[name][after.number] = (turn @ T @ turn.transpose(0, 2, 1)).reshape(-1, 9)
 
-    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
+    def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:  # noqa: ARG002
         """Advance the cells to the present sample, and add to the integrals."""
         h = now["t"] - memory["t"][rows]
         # The flow is unknown at a particle that the mesh has lost.
-        for name in ("rate", "fluid", "l"):
-            if name in now:
-                now[name] = np.where(np.isfinite(now[name]), now[name], memory[name][rows])
+        for name in now:
+            now[name] = np.where(np.isfinite(now[name]), now[name], memory[name][rows])
         if self.stress == "fluid":
             rate = now["rate"]
             memory["dose"][rows] += 0.5 * h * (memory["rate"][rows] + rate)
             memory["peak"][rows] = np.maximum(memory["peak"][rows], rate ** (self.law.beta / self.law.alpha))
             return
-        self._advance(memory, cloud, rows, now, h)
+        self._advance(memory, rows, now, h)
 
-    def _advance(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory, h: Floats) -> None:
+    def _advance(self, memory: Memory, rows: Rows, now: Memory, h: Floats) -> None:
         """Advance cells with a memory by h, s, in sub-steps of two halves each: Simpson's rule."""
         before: Memory = {name: memory[name][rows] for name in now if name != "t"}
         fastest = self.f1 + self.f2 * np.maximum(before["fluid"], now["fluid"])
@@ -260,13 +254,13 @@ class Haemolysis(SampledFunction):
                 {name: _between(before[name][some], now[name][some], (k + share) / n) for name in before}
                 for share in (0.0, 0.5, 1.0)
             ]
-            rates = [self._rate(cloud, G[some], ends[0]["fluid"])]
+            rates = [self._rate(G[some], ends[0])]
             for first, last in pairwise(ends):
                 cell[some] = self._step(cell[some], first, last, 0.5 * length)
                 G[some] = self._effective(cell[some])
-                rates.append(self._rate(cloud, G[some], last["fluid"]))
+                rates.append(self._rate(G[some], last))
             dose[some] += length / 6.0 * (rates[0] + 4.0 * rates[1] + rates[2])
-            peak[some] = np.maximum(peak[some], self._stress(cloud, G[some]))
+            peak[some] = np.maximum(peak[some], ends[-1]["mu"] * G[some])
         memory["dose"][rows] += dose
         memory["peak"][rows], memory["cell"][rows] = peak, cell
 

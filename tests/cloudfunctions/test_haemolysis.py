@@ -14,6 +14,7 @@ from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.patches import Cyclic, Stick
 from foamprb.cloud.state import Status, spheres
 from foamprb.cloud.tracker import Models
+from foamprb.cloud.viscosity import PowerLaw as PowerLawFluid
 from foamprb.cloudfunctions.haemolysis import (
     POWER_LAWS,
     Haemolysis,
@@ -162,15 +163,15 @@ F1, F2 = Haemolysis(constants="Song").f1, Haemolysis(constants="Song").f2
 def exposed(function, periods, samples=50):
     """Per cent released by a cell at rest that goes through periods (γ̇, duration) of simple shear."""
     cloud = observed(pipe_cloud(n=1))
-    memory = {**function.initial(cloud), "t": np.zeros(1), "fluid": np.zeros(1), "l": np.zeros((1, 9))}
+    memory = {**function.initial(cloud), "t": np.zeros(1)}
     for rate, duration in periods:
         l = np.zeros((1, 9))
         l[0, 1] = rate
-        memory |= {"fluid": np.array([rate]), "l": l.copy()}
+        fluid = {"fluid": np.array([rate]), "mu": np.array([function.mu])}
+        fluid |= {"l": l} if function.stress == "morphology" else {}
+        memory |= fluid
         for _ in range(samples):
-            now = {"t": memory["t"] + duration / samples, "fluid": np.array([rate]), "l": l.copy()}
-            if function.stress == "KelvinVoigt":
-                del now["l"]
+            now = {"t": memory["t"] + duration / samples, **fluid}
             function.add(memory, cloud, np.zeros(1, dtype=np.int64), now)
             memory |= now
     return float(index_of_haemolysis(function.law, memory["dose"])[0])
@@ -238,6 +239,17 @@ def test_a_cell_turns_with_the_particle_at_a_coupled_patch():
     l = np.arange(9.0).reshape(3, 3)
     np.testing.assert_allclose(memory["l"][1].reshape(3, 3), turn @ l @ turn.T, atol=1e-12)
     np.testing.assert_array_equal(memory["cell"][0], S.ravel())
+
+
+def test_the_viscosity_is_that_at_the_particle_or_of_whole_blood():
+    cloud = pipe_cloud(n=4, medium=WATER)
+    cloud.medium = cloud.medium._replace(mu=PowerLawFluid(k=0.5, n=0.6))
+    rows = np.arange(4)
+    (gamma,) = observed(cloud).measure(rows, "shearRate")
+    found = Haemolysis(constants="Song", stress="KelvinVoigt").observe(observed(cloud), rows)
+    np.testing.assert_allclose(found["mu"], 0.5 * gamma**-0.4, rtol=1e-12)
+    found = Haemolysis(constants="Song", stress="KelvinVoigt", mu=BLOOD).observe(observed(cloud), rows)
+    np.testing.assert_array_equal(found["mu"], BLOOD)
 
 
 def test_stresses_beyond_the_experiments_are_reported_once(tmp_path, caplog):

@@ -23,7 +23,8 @@ def _released(constants: str, stress: Cell, rate: float, time: float, samples: i
     function = Haemolysis(constants=constants, stress=stress, mu=MU)
     cloud = cast("Any", SimpleNamespace(particles=SimpleNamespace(size=1)))
     l = rate * SHEAR.reshape(1, 9)
-    fluid: Memory = {"fluid": np.array([rate])} | ({"l": l} if stress == "morphology" else {})
+    fluid: Memory = {"fluid": np.array([rate]), "mu": np.array([MU])}
+    fluid |= {"l": l} if stress == "morphology" else {}
     memory = function.initial(cloud) | {"t": np.zeros(1)} | fluid
     found = []
     for _ in range(samples):
