@@ -275,6 +275,15 @@ def test_a_stiffness_beyond_all_numbers_is_one_message(case, capsys):
     assert re.search(r"the shear modulus of \d+ of \d+ particles is inf, no positive number", text)
 
 
+def test_overrides_take_the_place_of_entries(case):
+    changes = {"solution/endTime": 0.02, "solution/deltaT": 1e-5}
+    job = prepare(case, overrides=changes)
+    assert job.steps == 2000
+    assert job.description["settings"]["overrides"] == {
+        name: f"{value:g};" for name, value in changes.items()
+    }
+
+
 def test_a_dry_run_compiles_nothing(case, capsys, monkeypatch):
     monkeypatch.setattr(
         "foamprb.run.compilation.subprocess.Popen", lambda *_, **__: pytest.fail("it compiles")

@@ -77,7 +77,10 @@ def test_a_folder_that_cannot_be_written_has_a_way_out(case, capsys, monkeypatch
 
     monkeypatch.setattr(results_of_run, "only_writer", refuse)
     assert main(["run", "-case", str(case)]) == 1
-    assert "The option -output DIR writes the results into another folder." in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "The option -output DIR writes the results into another folder." in said
+    # Nothing is there that could be continued.
+    assert "-resume" not in said
 
 
 def test_a_file_is_listed_before_it_is_written(case, monkeypatch):

@@ -119,6 +119,10 @@ RULES = {
         "type fixedGradient; gradient uniform (1 2 3); value uniform (9 9 9);",
         lambda lid: lid.u + [1.0, 2.0, 3.0] * lid.depth,
     ),
+    "fixedGradient without a value": (
+        "type fixedGradient; gradient uniform (1 2 3);",
+        lambda lid: lid.u + [1.0, 2.0, 3.0] * lid.depth,
+    ),
     "uniformFixedGradient": (
         "type uniformFixedGradient; uniformGradient constant (1 2 3);",
         lambda lid: lid.u + [1.0, 2.0, 3.0] * lid.depth,
