@@ -61,6 +61,8 @@ class Material(NamedTuple):
     """Whether a pressure may replace λ, as in the integrator without inertia."""
     liquid: bool = False
     """Whether it is a drop, whose shape follows :mod:`foamprb.body.morphology`; μ is then σ/R."""
+    membrane: bool = False
+    """Whether it is a capsule, whose μ is that of :func:`modulus_of_capsule`."""
 
 
 def neo_hooke_energy(I1: Scalar, _I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:
@@ -142,6 +144,7 @@ MATERIALS: dict[str, Material] = {
     ),
     "gent": Material(gent_energy, gent_derivatives, Parameter("stretchLimit", 0.0, inf)),
     "drop": Material(drop_energy, drop_derivatives, liquid=True),
+    "capsule": Material(neo_hooke_energy, neo_hooke_derivatives, dilation=neo_hooke_dilation, membrane=True),
 }
 """Solids by their names in the settings."""
 
@@ -294,3 +297,19 @@ def piola(material: Material, F: Tensor, mu: Scalar, lame: Scalar, k: Scalar = 0
 def lame_parameter(mu: Scalar, poissons_ratio: Scalar) -> Scalar:
     """Return λ_s = 2 μ ν/(1 − 2ν), Pa, of a solid with shear modulus μ and Poisson's ratio ν < ½."""
     return 2.0 * mu * poissons_ratio / (1.0 - 2.0 * poissons_ratio)
+
+
+def modulus_of_capsule(G_s: Scalar, nu_s: Scalar, R: Scalar) -> Scalar:
+    """Return the shear modulus of the solid sphere whose small steady deformation is that of a capsule, Pa.
+
+    (1 + ν_s)/(2 + ν_s) G_s/R: in simple shear D = 5/4 (2 + ν_s)/(1 + ν_s) μ_f γ̇ R/G_s, for any viscosity of
+    the liquid inside (Barthès-Biesel 1980).
+
+    Parameters
+    ----------
+    G_s, nu_s
+        Surface shear modulus, N/m, and surface Poisson's ratio of the membrane.
+    R
+        Radius, m.
+    """
+    return (1.0 + nu_s) / (2.0 + nu_s) * G_s / R

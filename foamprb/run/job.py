@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from foamprb.body.compressibility import lame_from_bulk_modulus, sufficient_bulk_modulus
 from foamprb.body.imex import relaxation_time
-from foamprb.body.material import MATERIALS, lame_parameter
+from foamprb.body.material import MATERIALS, lame_parameter, modulus_of_capsule
 from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.injection.distribution import Distribution, draw
@@ -356,13 +356,16 @@ def _inject(index: int, injection: InjectionSettings, flow: Flow, medium: Medium
     p.eta[:] = values(given.get("viscosity"), solid.viscosity, "viscosity")
     p.gamma[:] = values(given.get("surfaceTension"), solid.surfaceTension, "surfaceTension")
     p.k[:] = injection.parameter
-    liquid = MATERIALS[solid.type].liquid
+    liquid, membrane = MATERIALS[solid.type].liquid, MATERIALS[solid.type].membrane
+    if stiffness is not None and (liquid or membrane):
+        raise InputError(
+            f"injection model {injection.name}: the file of positions gives a stiffness, which the solid "
+            f"{solid.type} does not have."
+        )
+    if membrane:
+        G_s = values(None, solid.surfaceShearModulus or 0.0, "stiffness")
+        p.mu[:] = modulus_of_capsule(G_s, solid.surfacePoissonsRatio, p.R)
     if liquid:
-        if stiffness is not None:
-            raise InputError(
-                f"injection model {injection.name}: the file of positions gives a stiffness, which the solid "
-                f"{solid.type} does not have."
-            )
         p.mu[:], p.gamma[:], p.drop[:] = p.gamma / p.R, 0.0, 1
     injection.shape.form(p, _random(injection.name, "shape"))
     p.injector[:] = index

@@ -99,6 +99,16 @@ class Solid:
             "0, with `drop` required, > 0",
         ),
     ] = 0.0
+    surfaceShearModulus: Annotated[
+        float | Distribution | None,
+        Positive,
+        Meaning("of the membrane of a [`capsule`](models/capsules.md)", "N/m", "with `capsule` required"),
+    ] = None
+    surfacePoissonsRatio: Annotated[
+        float | None,
+        Bounds(-1.0, 1.0, True, False, "a number > -1 and <= 1"),
+        Meaning("of that membrane; 1 where it keeps its area", "1", "with `capsule` required"),
+    ] = None
 
 
 STIFFNESS = ("shearModulus", "youngsModulus", "Ca")
@@ -107,6 +117,8 @@ COMPRESSIBILITY = ("poissonsRatio", "bulkModulus")
 """Entries of a solid of which at most one is given."""
 LIQUID = ("surfaceTension", "viscosity")
 """Entries of a drop, in place of both."""
+MEMBRANE = ("surfaceShearModulus", "surfacePoissonsRatio")
+"""Entries of a capsule, in place of a stiffness."""
 
 
 def parameters() -> dict[str, Any]:
@@ -277,21 +289,23 @@ def _solid(places: Sequence[Dictionary], constant: Dictionary, fluid: Fluid) -> 
     where = places[-1].entries["solid"].dictionary()
     hints = parameters() | get_type_hints(Solid, include_extras=True)
     stiffness = combined.keys() & set(STIFFNESS)
-    liquid = "type" in combined and MATERIALS[combined["type"]].liquid
-    if not stiffness and not liquid:
+    material = MATERIALS[combined["type"]] if "type" in combined else None
+    liquid, membrane = material is not None and material.liquid, material is not None and material.membrane
+    if not (stiffness or liquid or membrane):
         mistakes.add(where.mistake(f"gives no stiffness. Allowed: one of {', '.join(STIFFNESS)}."))
     required = {"Ca": "referenceShearRate", "youngsModulus": "poissonsRatio"}
     needed = ["type", *(required[key] for key in stiffness if key in required)]
-    if liquid:
-        needed = ["type", *LIQUID]
-    parameter = MATERIALS[combined["type"]].parameter if "type" in combined else None
+    if liquid or membrane:
+        needed = ["type", *(LIQUID if liquid else MEMBRANE)]
+    parameter = material.parameter if material else None
     if parameter:
         needed.append(parameter.entry)
     for key in needed:
         if key not in combined:
             mistakes.add(where.missing(key, allowed(hints[key])))
-    others = {*parameters(), *((*STIFFNESS, *COMPRESSIBILITY) if liquid else ())}
-    for name in sorted(others) if "type" in combined else ():
+    others = {*parameters(), *MEMBRANE, *(STIFFNESS if liquid or membrane else ())}
+    others |= set(COMPRESSIBILITY if liquid else ())
+    for name in sorted(others) if material else ():
         if name in combined and name not in needed:
             mistakes.add(where.mistake(f"gives {name}, which the solid {combined['type']} does not have."))
     mistakes.raise_any()

@@ -11,6 +11,7 @@ from foamprb.body.material import (
     add_material,
     invariants,
     lame_parameter,
+    modulus_of_capsule,
     piola,
     stored_energy,
 )
@@ -144,3 +145,13 @@ def test_a_solid_whose_derivatives_are_not_those_of_its_energy_is_refused(wrong)
     with pytest.raises(ValueError, match=rf"at .*3\.3, 3\.2, 1\.02.* derivative {wrong} of its energy"):
         add_material("given", coupled_energy, coupled_derivatives, parameter=parameter)
     assert "given" not in MATERIALS
+
+
+@pytest.mark.parametrize(
+    ("nu_s", "modulus", "D"), [(0.5, 0.6, 25 / 12), (1 / 3, 4 / 7, 2.1875), (0.9, 0.65517, 1.9079)]
+)
+def test_a_capsule_of_small_deformation_is_that_of_barthes_biesel(nu_s, modulus, D):
+    """μ R/G_s, and D over μ_f γ̇ R/G_s = 5/4 (2 + ν_s)/(1 + ν_s), with D = 5/4 Ca of the solid sphere."""
+    found = modulus_of_capsule(3e-3, nu_s, 5e-6)
+    assert found * 5e-6 / 3e-3 == pytest.approx(modulus, rel=1e-5)
+    assert 1.25 * 3e-3 / 5e-6 / found == pytest.approx(D, rel=1e-4)

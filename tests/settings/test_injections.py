@@ -227,6 +227,21 @@ def test_a_drop_has_a_tension_and_a_viscosity_in_place_of_a_stiffness(read: Read
         read(drop("surfaceTension 0.002; viscosity 0.01; shearModulus 100;"))
 
 
+def test_a_capsule_has_a_membrane_in_place_of_a_stiffness(read: Reader) -> None:
+    def capsule(entries: str) -> tuple[str, str]:
+        return "type neoHooke; poissonsRatio 0.4; shearModulus 1000;", f"type capsule; {entries}"
+
+    both = "surfaceShearModulus 1e-3; surfacePoissonsRatio 0.5;"
+    solid = read(capsule(both)).injections[0].solid
+    assert (solid.surfaceShearModulus, solid.surfacePoissonsRatio) == (1e-3, 0.5)
+    with pytest.raises(InputError, match="solid/surfacePoissonsRatio is missing"):
+        read(capsule("surfaceShearModulus 1e-3;"))
+    with pytest.raises(InputError, match="gives shearModulus, which the solid capsule does not have"):
+        read(capsule(f"{both} shearModulus 100;"))
+    with pytest.raises(InputError, match="which the solid neoHooke does not have"):
+        read(("type neoHooke;", f"type neoHooke; {both}"))
+
+
 PARAMETER_MISTAKES = [
     ("type gent;", "stretchLimit is missing"),
     ("type gent; stretchLimit -1;", "a number > 0"),

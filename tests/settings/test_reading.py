@@ -138,7 +138,7 @@ MISTAKES = [
     (
         "type neoHooke;",
         "",
-        "constantProperties/solid/type is missing. Allowed: drop, gent, mooneyRivlin, neoHooke",
+        "constantProperties/solid/type is missing. Allowed: capsule, drop, gent, mooneyRivlin, neoHooke",
     ),
     ("shearModulus 1000;", "", "constantProperties/solid gives no stiffness. Allowed: one of shearModulus, "),
     ("1000; }", "1000; Ca 1; }", "constantProperties/solid gives shearModulus and Ca. Allowed: one of"),
