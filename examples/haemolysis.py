@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import sys
 import tempfile
 from pathlib import Path
@@ -38,19 +37,21 @@ with tempfile.TemporaryDirectory() as folder:
         functions.sample()
         if step % 5 == 0:
             functions.write(Path(folder))
-    tables = {stress: list(csv.DictReader((Path(folder) / stress / "means.csv").open())) for stress in models}
+    damage = {
+        stress: np.genfromtxt(
+            Path(folder) / stress / "means.csv", delimiter=",", names=True, dtype=None, encoding=None
+        )
+        for stress in models
+    }
 
-damage = {
-    s: np.array([[float(row[n]) for n in ("time", "haemolysis")] for row in t]) for s, t in tables.items()
-}
-end = {stress: found[-1, 1] for stress, found in damage.items()}
+end = {stress: found["haemolysis"][-1] for stress, found in damage.items()}
 print({stress: float(f"{value:.3g}") for stress, value in end.items()}, "per cent")
 assert 10.0 < end["fluid"] / end["KelvinVoigt"] < 1000.0
 assert abs(end["morphology"] / end["KelvinVoigt"] - 1.0) < 0.1
 
 figure, axes = plt.subplots(figsize=(6.4, 3.2), layout="constrained")
 for (stress, found), style in zip(damage.items(), ("-", "-", "--"), strict=True):
-    axes.semilogy(found[:, 0], found[:, 1], style, label=stress)
+    axes.semilogy(found["time"], found["haemolysis"], style, label=stress)
 axes.set(xlabel="time [s]", ylabel="haemolysis [%]", ylim=(1e-7, None))
 axes.legend(frameon=False, title="stress")
 figure.savefig(sys.argv[1] if len(sys.argv) > 1 else "haemolysis.png", dpi=120)
