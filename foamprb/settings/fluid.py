@@ -54,7 +54,7 @@ class ConstantProperties:
     TInf: Annotated[
         float | None,
         Positive,
-        Meaning("temperature of the fluid", "K", "required where the viscosity depends on it"),
+        Meaning("temperature of the fluid", "K", "the local one, where the viscosity depends on it"),
     ] = None
     solid: Annotated[
         Dictionary | None,

@@ -33,7 +33,7 @@ MOST_STEPS = 2**53
 
 StartFrom: TypeAlias = Literal["startTime", "latestTime"]
 
-_CONSTANT_FLUID = NoEffect("density and viscosity of the fluid are constants")
+_CONSTANT_FLUID = NoEffect("density and viscosity of the fluid are not interpolated by these schemes")
 _NO_SOURCES = NoEffect("the particles do not act on the flow")
 _NOT_COUPLED = Only(False, "the particles do not act on the flow")
 _ABOVE_ONE = Bounds(1.0, math.inf, True, True, "a number > 1")

@@ -185,7 +185,7 @@ def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
     if _spread(values):
         yield Caveat(
             f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
-            "to particles it is constant, rhoInf, and so is the viscosity."
+            "to particles it is constant, rhoInf."
         )
 
 
