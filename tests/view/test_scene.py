@@ -201,6 +201,13 @@ class TestCamera:
         found = make_scene(Request(tmp_path), run, range(2)).directions
         assert {name: vector.tolist() for name, vector in found.items()} == ({"flow": shown} if shown else {})
 
+    def test_without_a_sound_record_the_flow_has_no_direction(self, tmp_path, caplog):
+        write_run(tmp_path, motion(4, 2), mesh=False)
+        run = open_run(tmp_path)
+        run.results.record.write_text("{")
+        assert make_scene(Request(tmp_path), run, range(2)).directions == {}
+        assert "The direction of the flow is not shown" in caplog.text
+
     def test_gravity_of_the_case_points_down(self, tmp_path):
         write_run(tmp_path, motion(4, 2), mesh=False)
         (tmp_path / "constant").mkdir()
