@@ -4,10 +4,11 @@ A velocity u that is interpolated between the nodes makes volume in some tetrahe
 that particles gather, above all at walls. The correction c is a field of Brezzi, Douglas and Marini's first
 order (Numer. Math. 47, 217, 1985): linear in each tetrahedron, with a normal component that is continuous
 across the triangles between them. Its fluxes give each tetrahedron its share of what the cell makes, which is
-nothing in an incompressible flow. On a triangle c is distributed over the free nodes, those that lie on no
-wall, so that walls keep their velocity at every point. A face between cells whose nodes all lie on walls
-carries a uniform flux. A second part, with no component normal to the triangles, makes the divergence the
-same everywhere in a tetrahedron: ¼ Σ d_k λ_k (x_k − x), with the divergence d_k of u at vertex k.
+nothing in an incompressible flow; where the density varies, cells make and lose no mass. On a triangle c is
+distributed over the free nodes, those that lie on no wall, so that walls keep their velocity at every point.
+A face between cells whose nodes all lie on walls carries a uniform flux. A second part, with no component
+normal to the triangles, makes the divergence the same everywhere in a tetrahedron: ¼ Σ d_k λ_k (x_k − x),
+with the divergence d_k of u at vertex k.
 
 The fluxes through the faces of the cells are the smallest change of the interpolated ones that conserves
 volume; those through the triangles in a cell likewise. OpenFOAM's ``phi`` is not used: it is the velocity at
@@ -17,6 +18,7 @@ the middle of a face times the area, which exceeds the integral by the curvature
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +27,7 @@ from scipy.sparse.linalg import LinearOperator, cg, splu
 
 from foamprb.body.tensor import Vector, inner, minus, vector_product
 from foamprb.compile.link import link
-from foamprb.flow.base import WALLS, Floats, Ints
+from foamprb.flow.base import WALLS, Caveat, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
@@ -60,6 +62,21 @@ def _types(mesh: Mesh, types: Collection[str]) -> Mask:
     return np.repeat(chosen, np.diff(mesh.patch_start))
 
 
+class Mass(NamedTuple):
+    """Density of the fluid in any unit, as only its ratios matter, and its rate of change per second.
+
+    Of the cells (n_cells,) and at the boundary faces (n_boundary,), or one value for all.
+    """
+
+    cells: Floats
+    boundary: Floats
+    growth: Floats
+
+
+CONSTANT = Mass(np.ones(1), np.ones(1), np.zeros(1))
+"""Density of an incompressible flow, whose cells keep volume."""
+
+
 class Conservation:
     """Operator from u and ∇u at the nodes of a mesh to the correction that keeps volume."""
 
@@ -68,18 +85,21 @@ class Conservation:
         self._closed = _types(mesh, _CLOSED)
         # The flux through an open face may change.
         self._open = ~_types(mesh, _CLOSED | WALLS)
+        self.unbalanced = 0.0
+        """Flux that cells still make or lose after the last call, over that through their faces (rms)."""
         for coupling in mesh.couplings:
             self._open[coupling.faces] = False
 
-    def __call__(self, u: Floats, l: Floats, balance: bool = True) -> NDArray[np.float32]:
+    def __call__(self, u: Floats, l: Floats, mass: Mass | None = CONSTANT) -> NDArray[np.float32]:
         """Return the correction (n_tets, 8), 1/s; see :class:`~foamprb.flow.mesh.arrays.MeshArrays`.
 
         Parameters
         ----------
         u, l
             Velocity (n_nodes, 3), m/s, and its gradient (n_nodes, 3, 3), l_ij = ∂u_i/∂x_j, 1/s.
-        balance
-            Whether cells make no volume; not in a compressible flow.
+        mass
+            Density of the fluid. None if it varies but is not known: cells then keep the volume that the
+            interpolation makes.
         """
         mesh = self._mesh
         fields = self._nodes, u, l, self._free
@@ -95,8 +115,8 @@ class Conservation:
         for coupling in mesh.couplings:
             # What leaves through a coupled patch enters through its partner.
             outer[coupling.faces] = 0.5 * (interpolated[coupling.faces] - interpolated[coupling.partners])
-        if balance:
-            _Balance(mesh, self._nodes, u, self._open, fluxes)(fluxes)
+        if mass is not None:
+            self.unbalanced = _Balance(mesh, self._nodes, u, self._open, fluxes)(fluxes, mass)
         correction = np.empty((len(mesh.tets), 8), dtype=np.float32)
         most = int(np.diff(mesh.cell_start).max(initial=0))
         arrays = (
@@ -111,9 +131,21 @@ class Conservation:
         share(mesh.n_cells, cells)
         return correction
 
+    def caveats(self) -> list[Caveat]:
+        """Return a warning if the last correction leaves cells that make or lose fluid."""
+        if self.unbalanced <= 10.0 * _BALANCED:
+            return []
+        return [
+            Caveat(
+                f"cells make or lose {self.unbalanced:.1e} of what flows through their faces (root mean "
+                f"squares): {_MOST_ITERATIONS} iterations found no fluxes that keep it. Tracers may gather "
+                "or stick where fluid is lost. Has the mesh cells without volume? (checkMesh tells)"
+            )
+        ]
+
 
 class _Balance:
-    """Least change of the fluxes through the faces of the cells that makes their sum over each cell zero.
+    """Least change of the fluxes through the faces of the cells that keeps the mass of each cell.
 
     The change is the smallest in the sum of squares over a weight, which is a conductance: the area of a face
     in the direction of the line between the centres, over its length. A face that this line meets at a small
@@ -163,18 +195,30 @@ class _Balance:
         lift = sparse.diags_array(1e-9 * np.bincount(self._block, diagonal))
         self._solve = splu((coarse + lift).tocsc()).solve
 
-    def __call__(self, fluxes: Floats) -> None:
-        """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume."""
+    def __call__(self, fluxes: Floats, mass: Mass) -> float:
+        """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
+
+        Returns
+        -------
+        What cells still make or lose, over the fluxes through faces; root mean squares.
+        """
         mesh, weight, n = self._mesh, self._weight, self._mesh.n_internal
         owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
-        rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells)
+        inside = np.broadcast_to(mass.cells, (cells,))
+        outside = np.broadcast_to(mass.boundary, (len(owner) - n,))
+        density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
+        fluxes *= density
+        stored = mesh.volumes * mass.growth
+        rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
         if self._closed:
             rest -= mesh.volumes * (rest.sum() / mesh.volumes.sum())
-        enough = _BALANCED * float(np.sqrt(np.mean(fluxes**2) * cells))
+        size = float(np.sqrt(np.mean(fluxes**2) * cells))
         rough = LinearOperator(self._matrix.shape, self._precondition, dtype=np.float64)
-        y, _ = cg(self._matrix, rest, rtol=0.0, atol=enough, maxiter=_MOST_ITERATIONS, M=rough)
+        y, _ = cg(self._matrix, rest, rtol=0.0, atol=_BALANCED * size, maxiter=_MOST_ITERATIONS, M=rough)
         fluxes += weight * y[owner]
         fluxes[:n] -= weight[:n] * y[neighbour]
+        fluxes /= density
+        return float(np.linalg.norm(rest - self._matrix @ y)) / max(size, 1e-300)
 
     def _precondition(self, rest: Floats) -> Floats:
         """Return Jacobi's approximation plus the exact solution with a constant in each block."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
+from foamprb.dictionary.dimensions import MASS_FLUX
 from foamprb.dictionary.files import existing, read_bytes
 from foamprb.dictionary.grammar import read_dictionary
 from foamprb.dictionary.tree import Dictionary, Stream
@@ -16,9 +16,9 @@ from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
 from foamprb.flow.read.boundary import CaseMesh, PatchInfo
 from foamprb.flow.read.case import active_zones, find_dictionary, word_of
-from foamprb.flow.read.field import DENSITY_FIELD, FoamField, Kind
+from foamprb.flow.read.density import FLUX_FIELD, densities, varies
+from foamprb.flow.read.field import FoamField, Kind
 
-_FLUX = Kind("surfaceScalarField", "scalar", (VOLUME_FLUX, MASS_FLUX), "a flux")
 _STATIC = "staticFvMesh"
 _ZERO = re.compile(rb"internalField\s+uniform\s+0(?:\.0*)?\s*;")
 _VARIES = re.compile(rb"internalField\s+nonuniform")
@@ -108,7 +108,7 @@ def caveat_of_flux(
     """
     mesh = whole.mesh
     phi = _flux(read, whole.patches) if velocity == "U" else None
-    if phi is None and _spread(_density(read)):
+    if phi is None and varies(densities(read)):
         # Without phi the flux of mass is unknown.
         return []
     source, unit = (phi[1], phi[2]) if phi else ("U on the patches", "m3/s")
@@ -181,8 +181,8 @@ def is_not_zero(path: Path) -> bool:
 
 
 def _compressible(read: Callable[[str, Kind], FoamField]) -> Iterator[Caveat]:
-    values = _density(read)
-    if _spread(values):
+    values = densities(read)
+    if varies(values):
         yield Caveat(
             f"the fluid's density is from {values.min():.4g} to {values.max():.4g} kg/m3 (there is rho), but "
             "to particles it is constant, rhoInf."
@@ -228,22 +228,12 @@ def _zones(
     return None if root is None else ", ".join(zone.key for zone in active_zones(root) if meant(zone))
 
 
-def keeps_volume(read: Callable[[str, Kind], FoamField]) -> bool:
-    """Return False in a compressible flow: the density varies, and ``phi``, if there is one, is of mass."""
-    if not _spread(_density(read)):
-        return True
-    try:
-        return read("phi", _FLUX).dimensions != MASS_FLUX
-    except InputError:
-        return False
-
-
 def _flux(
     read: Callable[[str, Kind], FoamField], patches: Sequence[PatchInfo]
 ) -> tuple[Floats, str, str] | None:
     """Return the flux out of the boundary faces (n,), its name and its unit; None if ``phi`` is missing."""
     try:
-        phi = read("phi", _FLUX)
+        phi = read("phi", FLUX_FIELD)
     except InputError:
         return None
     values = []
@@ -257,16 +247,3 @@ def _flux(
         values.append(np.broadcast_to(found, (patch.faces, 1))[:, 0])
     unit = "kg/s" if phi.dimensions == MASS_FLUX else "m3/s"
     return np.concatenate([np.empty(0), *values]), "phi", unit
-
-
-def _density(read: Callable[[str, Kind], FoamField]) -> Floats:
-    """Return the density at the cells, kg/m³, or no values."""
-    try:
-        return read("rho", DENSITY_FIELD).cells
-    except InputError:
-        return np.empty((0, 1))
-
-
-def _spread(values: Floats) -> bool:
-    """Return True if the values differ by more than round-off."""
-    return bool(np.ptp(values) > 1e-6 * np.abs(values).max(initial=0.0)) if len(values) else False

@@ -7,9 +7,10 @@ import re
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.body.viscosity import bird_carreau, casson, cross_power_law, herschel_bulkley, power_law
 from foamprb.dictionary.constraints import Choice, Positive
@@ -22,13 +23,11 @@ from foamprb.dictionary.tree import Dictionary, DictionaryList, Stream
 from foamprb.dictionary.values import Density, DynamicViscosity, Viscosity
 from foamprb.errors import InputError
 from foamprb.flow.read.case import available_times, find_dictionary, find_file, word_of
-from foamprb.flow.read.field import DENSITY_FIELD, Kind, read_field
+from foamprb.flow.read.field import DENSITY_FIELD, PRESSURE_FIELD, TEMPERATURE_FIELD, Kind, read_field
 from foamprb.flow.read.times import pick_time
 
 _NU = Kind("volScalarField", "scalar", (KINEMATIC_VISCOSITY,), "a kinematic viscosity")
 _MU = Kind("volScalarField", "scalar", (DYNAMIC_VISCOSITY,), "a dynamic viscosity")
-_PRESSURE_FIELD = Kind("volScalarField", "scalar", ((1, -1, -2, 0, 0, 0, 0),), "a pressure")
-_TEMPERATURE_FIELD = Kind("volScalarField", "scalar", ((0, 0, 0, 1, 0, 0, 0),), "a temperature")
 _GAS_CONSTANT = 8314.46
 """J/(kmol K)."""
 _MIXTURE_FILE = "thermophysicalProperties"
@@ -37,6 +36,9 @@ _GENERALISED, _WITHOUT_K = "generalisedNewtonian", "generalizedNewtonian"
 """Models of ``laminar``; in one of them powerLaw has ν₀ in the place of k."""
 FILES = ("transportProperties", "physicalProperties", _MIXTURE_FILE)
 """Dictionaries of the fluid, in ``constant`` or a region's part of it; the first that is there counts."""
+
+
+Values = TypeVar("Values", float, NDArray[np.float64])
 
 
 class RateLaw(NamedTuple):
@@ -238,7 +240,7 @@ def _of_mixture(root: Dictionary, temperature: float | None, here: _Fields | Non
         )
     by_temperature = _LAWS[law](transport)
     if temperature is None:
-        field = here.viscosity(_TEMPERATURE_FIELD, "T", law=by_temperature) if here else None
+        field = here.viscosity(TEMPERATURE_FIELD, "T", law=by_temperature) if here else None
         if field is not None:
             return CaseViscosity(None, None, field=field, origin=f"{law} at the local T")
         raise root.mistake(
@@ -332,12 +334,12 @@ def mean_temperature(
     case: Path, region: str, time: float | str, field: str = "T"
 ) -> tuple[float, str] | None:
     """Return the mean of ``T`` over the cells, K, and the time's name; see :func:`mean_density`."""
-    return _mean(case, region, time, field, _TEMPERATURE_FIELD)
+    return _mean(case, region, time, field, TEMPERATURE_FIELD)
 
 
 def mean_pressure(case: Path, region: str, time: float | str) -> tuple[float, str] | None:
     """Return the mean of ``p`` over the cells, Pa, and the time's name; see :func:`mean_density`."""
-    return _mean(case, region, time, "p", _PRESSURE_FIELD)
+    return _mean(case, region, time, "p", PRESSURE_FIELD)
 
 
 def is_gas(root: Dictionary) -> bool:
@@ -348,7 +350,7 @@ def is_gas(root: Dictionary) -> bool:
     return word_of(kind, "equationOfState").endswith("Gas") or word_of(kind, "transport") == "sutherland"
 
 
-def density_of_state(root: Dictionary, p: float, T: float) -> float | None:
+def density_of_state(root: Dictionary, p: Values, T: Values) -> Values | float | None:
     """Return the density by the ``equationOfState`` of a ``pureMixture``, kg/m³; None if it is not known.
 
     Parameters

@@ -75,7 +75,7 @@ def read_mesh_file(
     grid, mesh, surfaces, note = open_file(path, velocity, time, division)
     field = _NodalVelocity(path, mesh, grid, surfaces, velocity, gradient)
     u, l, correction = field(grid, surfaces)
-    return MeshFlow(mesh, u, l, [note, *field.notes], correction=correction)
+    return MeshFlow(mesh, u, l, [note, *field.notes, *field.conserve.caveats()], correction=correction)
 
 
 def read_mesh_series(
@@ -162,7 +162,7 @@ class _NodalVelocity:
         self._path, self._mesh, self._velocity, self._gradient = path, mesh, velocity, gradient
         self.notes: list[str] = []
         self._reconstruct: Reconstruction | None = None
-        self._conserve = Conservation(mesh)
+        self.conserve = Conservation(mesh)
         if velocity in grid.cell_data:
             given = [velocity in surface.cell_data for _, surface in surfaces]
             self._valued: list[int] = np.flatnonzero(given).tolist()
@@ -200,7 +200,7 @@ class _NodalVelocity:
         name, path, mesh = self._velocity, self._path, self._mesh
         if self._reconstruct is None:
             u, l = from_points(mesh, _array(grid.point_data, name, 3, path, "at point"))
-            return u, l, self._conserve(u, l)
+            return u, l, self.conserve(u, l)
         cells = _array(grid.cell_data, name, 3, path, "at cell")
         boundary = np.zeros((len(mesh.boundary_centres), 3))
         for index in self._valued:
@@ -212,7 +212,7 @@ class _NodalVelocity:
             given = _array(grid.cell_data, self._gradient, 9, path, "at cell")
             slopes = given.reshape(-1, 3, 3).transpose(0, 2, 1)
         u, l = self._reconstruct(cells, boundary, slopes)
-        return u, l, self._conserve(u, l)
+        return u, l, self.conserve(u, l)
 
 
 def _array(data: Any, name: str, components: int, path: Path, where: str) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -32,7 +32,7 @@ from foamprb.flow.read.case import (
     select_time,
     select_times,
 )
-from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, keeps_volume, refuse_absolute
+from foamprb.flow.read.caveats import caveat_of_flux, caveats_of_case, refuse_absolute
 from foamprb.flow.read.checks import (
     at_cells,
     notes_of_types,
@@ -40,6 +40,7 @@ from foamprb.flow.read.checks import (
     require_patch_shapes,
     require_volumes,
 )
+from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
@@ -216,13 +217,13 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
         rotating = rotating_zones(rotations, case.zones(name), whole.mesh.n_cells)
         boundary = with_rotating_walls(boundary, whole.mesh, rotations, rotating)
     operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
-    at_nodes = _at_nodes(case, name, source, whole, operators, cells, boundary)
+    at_nodes = _at_nodes(case, (name,), 0, source, whole, operators, cells, boundary)
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms([case.folder(name) / source.velocity])
     if float(name) == 0.0:
         notes.append(f"The flow is that of time {name}, which is usually the initial guess and no solution.")
     notes += _caveats(case, name, turbulent=source.turbulent, relative=bool(rotations))
-    notes += flux
+    notes += [*flux, *operators[1].caveats()]
     notes += [
         f"The zone {zone.name} of {len(zone.cells)} cells rotates with {np.linalg.norm(zone.omega):g} rad/s: "
         "particles in it move relative to the rotor, with its walls at rest."
@@ -252,7 +253,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
     def read(name: str) -> tuple[Any, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        return _at_nodes(case, name, source, whole, operators, *values)
+        return _at_nodes(case, names, names.index(name), source, whole, operators, *values)
 
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
@@ -267,7 +268,8 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
 
 def _at_nodes(
     case: Case,
-    time: str,
+    times: Sequence[str],
+    index: int,
     source: FlowSource,
     whole: CaseMesh,
     operators: tuple[Reconstruction, Conservation],
@@ -276,11 +278,12 @@ def _at_nodes(
 ) -> tuple[Any, ...]:
     """Return u, l at the nodes, turbulence and viscosity as the source requests, and the correction of u."""
     reconstruct, conserve = operators
-    read, given = partial(case.field, time), None
+    reads, time, given = [partial(case.field, name) for name in times], times[index], None
+    read = reads[index]
     if source.gradient:
         given = gradients(read(source.gradient, GRADIENT_FIELD), whole.mesh)
     u, l = reconstruct(cells, boundary, given)
-    correction = conserve(u, l, keeps_volume(read))
+    correction = conserve(u, l, mass_of(case.root, case.region, whole, times, reads, index))
     more: list[Floats] = []
     if source.turbulent:
         more.append(read_turbulence(read, case.folder(time), whole, reconstruct))

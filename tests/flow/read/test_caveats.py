@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import re
 import shutil
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from foam_writer import decompose, header, write_case
 
-from foamprb.dictionary.dimensions import MASS_FLUX, VOLUME_FLUX
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat
-from foamprb.flow.read.caveats import keeps_volume
 from foamprb.flow.read.decomposed import DecomposedCase
 from foamprb.flow.read.openfoam import read_case, read_series, steady_flow
 from foamprb.flow.read.source import FlowSource
@@ -250,28 +247,3 @@ def test_a_field_of_zeros_is_none(case, text):
     assert bool(caveats(case)) == (text == "1e-9")
     put(case / "1e1/nut", NUT.replace("1e-5", "0"), "volScalarField")
     assert caveats(case) == []
-
-
-@pytest.mark.parametrize(
-    ("rho", "phi", "keeps"),
-    [
-        (None, None, True),
-        ([[1.2], [1.2]], MASS_FLUX, True),
-        ([[1.2], [1.3]], MASS_FLUX, False),
-        ([[1.2], [1.3]], None, False),
-        # Two phases, of which each keeps its density.
-        ([[1.2], [1000.0]], VOLUME_FLUX, True),
-    ],
-)
-def test_a_flow_keeps_its_volume_unless_its_density_varies_with_a_flux_of_mass(rho, phi, keeps):
-    fields = {
-        "rho": rho and SimpleNamespace(cells=np.array(rho)),
-        "phi": phi and SimpleNamespace(dimensions=phi),
-    }
-
-    def read(name, kind):
-        if not fields[name]:
-            raise InputError(f"no {name}")
-        return fields[name]
-
-    assert keeps_volume(read) is keeps
