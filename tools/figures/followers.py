@@ -45,6 +45,12 @@ def seed(flow: MeshFlow, number: int, inlet: bool) -> NDArray[np.float64]:
     return places + 1e-6 * np.sqrt(areas[chosen])[:, None] * normals[chosen]
 
 
+def interactions(flow: MeshFlow) -> list[Interaction]:
+    """Let tracers stick to walls and leave through open patches."""
+    chosen: dict[str, Interaction] = {WALL: Stick(), OPEN: Escape()}
+    return [chosen.get(patch.type, Mirror()) for patch in flow.patches]
+
+
 def follow(flow: MeshFlow, turnovers: float) -> tuple[int, int, float]:
     """Return how many tracers stuck and are still on their way, and χ² over the number of cells (closed)."""
     closed = all(patch.type != OPEN for patch in flow.patches)
@@ -54,14 +60,10 @@ def follow(flow: MeshFlow, turnovers: float) -> tuple[int, int, float]:
     cell = float(np.cbrt(np.median(flow.mesh.volumes)))
     dt = 0.2 * cell / float(np.linalg.norm(u, axis=1).max())
     steps = int((turnovers if closed else 20.0) * size / speed / dt)
-    interactions: list[Interaction] = [
-        Stick() if patch.type == WALL else Escape() if patch.type == OPEN else Mirror()
-        for patch in flow.patches
-    ]
     number = 20 * flow.mesh.n_cells if closed else NUMBER
     x = seed(flow, min(number, 20_000), not closed)
     bodies = spheres(x, d=DIAMETER, rho=1.0, mu=1.0)
-    cloud = Cloud(bodies, flow, Medium(1e-5, 1.0, (0.0, 0.0, 0.0)), interactions, dt)
+    cloud = Cloud(bodies, flow, Medium(1e-5, 1.0, (0.0, 0.0, 0.0)), interactions(flow), dt)
     cloud.advance(steps)
     p = cloud.particles
     active = p.status == Status.ACTIVE
