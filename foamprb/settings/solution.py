@@ -43,7 +43,7 @@ _OF_CONTROL = "that of `system/controlDict`"
 
 @dataclass(frozen=True, kw_only=True)
 class InterpolationSchemes:
-    """``solution/interpolationSchemes``; OpenFOAM's ``cellPoint`` is linear in the same tetrahedra."""
+    """``solution/interpolationSchemes``; either word is the interpolation of docs/flow.md."""
 
     U: Annotated[Literal["linear", "cellPoint"], Meaning("the only one; OpenFOAM calls it `cellPoint`")] = (
         "linear"
