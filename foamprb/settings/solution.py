@@ -45,9 +45,10 @@ _OF_CONTROL = "that of `system/controlDict`"
 class InterpolationSchemes:
     """``solution/interpolationSchemes``; either word is the interpolation of docs/flow.md."""
 
-    U: Annotated[Literal["linear", "cellPoint"], Meaning("the only one; OpenFOAM calls it `cellPoint`")] = (
-        "linear"
-    )
+    U: Annotated[
+        Literal["linear", "cellPoint"],
+        Meaning("either is [the only one](flow.md), which is quadratic between the nodes"),
+    ] = "linear"
     rho: Annotated[None, _CONSTANT_FLUID] = None
     mu: Annotated[None, _CONSTANT_FLUID] = None
 
