@@ -91,10 +91,12 @@ def larger(cloud: PointCloud, factor: float) -> PointCloud:
 
 def test_copies_of_one_sphere_look_as_the_bodies_do(tmp_path: Path) -> None:
     """Many bodies are drawn by the graphics card from their semi-axes and orientation."""
-    series = Series(ResultsFolder(tmp_path / "run/postProcessing/softCloud", "softCloud"))
+    folder = tmp_path / "run/postProcessing/softCloud"
+    folder.mkdir(parents=True)
+    series = Series(ResultsFolder(folder, "softCloud"))
     for cloud in clouds(motion(6, 3)):
         series.append(with_orientation(larger(cloud, 6.0)))
-    state = tmp_path / "run/postProcessing/softCloud/softCloud.py"
+    state = folder / "softCloud.py"
     bodies = []
     for many in (20000, 0):
         run = open_run(tmp_path / "run")
