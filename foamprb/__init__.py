@@ -45,6 +45,7 @@ Particles in a flow:
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
     FaxenCorrection     the mean over the body of a flow that is curved
+    SaffmanMeiLift      lift by inertia of the fluid on a sphere that slips in shear
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
     StochasticDispersion  eddies of a turbulent flow, of random velocity

@@ -44,6 +44,7 @@ from .cloud.surroundings.dispersion import (
     StochasticDispersion as StochasticDispersion,
 )
 from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
+from .cloud.surroundings.saffman_mei import SaffmanMeiLift as SaffmanMeiLift
 from .cloud.surroundings.wall_lift import WallLift as WallLift
 from .cloud.tracker import Models as Models
 from .cloud.viscosity import (
@@ -113,6 +114,7 @@ __all__ = [
     "PressureGradient",
     "Rebound",
     "RunStopped",
+    "SaffmanMeiLift",
     "SeriesFlow",
     "Status",
     "Stick",

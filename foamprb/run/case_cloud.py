@@ -15,6 +15,7 @@ from foamprb.cloud.forces import FORCES
 from foamprb.cloud.injection.distribution import DISTRIBUTIONS, Distribution
 from foamprb.cloud.injection.models import INJECTIONS
 from foamprb.cloud.surroundings.dispersion import DISPERSIONS
+from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.registry import FUNCTIONS
 from foamprb.dictionary.constraints import Choice, NoEffect, Only
 from foamprb.dictionary.files import existing
@@ -201,6 +202,8 @@ class _Reader:
                     self.cloud.forces += _lines(entry)
                 except InputError as error:
                     self._leave_out(entry, str(error))
+            elif name in SURROUNDINGS:
+                self._leave_out(entry, "it acts with the integrator stokes only")
             elif name != "sphereDrag":
                 self._leave_out(
                     entry, "ellipsoidDrag replaces it" if name.endswith("Drag") else "it is not modelled"

@@ -232,6 +232,11 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
     # Without any force g is zero: gravity then does nothing, in a loop that is compiled already.
     forces = tuple(settings.forces.values()) or Models.forces
     frames = (RotatingFrames(),) if rotating else ()
+    if rotating and "SaffmanMeiLiftForce" in settings.surroundings:
+        raise InputError(
+            "SaffmanMeiLiftForce does not hold in rotating zones (MRFProperties): leave the force out, or "
+            "set solution/rotatingZones absolute"
+        )
     return Models(
         settings.traction,
         settings.drag,

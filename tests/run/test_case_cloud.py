@@ -25,7 +25,10 @@ solution
 constantProperties { rho0 1500; alphaMax 0.9; T0 300; youngsModulus 3000; poissonsRatio 0.25; }
 subModels
 {
-    particleForces { WenYuDrag { alphac alpha.air; } virtualMass { Cvm 0.5; } paramagnetic; }
+    particleForces
+    {
+        WenYuDrag { alphac alpha.air; } virtualMass { Cvm 0.5; } paramagnetic; SaffmanMeiLiftForce;
+    }
     injectionModels
     {
         many
@@ -61,6 +64,7 @@ LEFT_OUT = [
     "constantProperties/T0 300 (it is not modelled)",
     "subModels/particleForces/WenYuDrag (ellipsoidDrag replaces it)",
     "subModels/particleForces/paramagnetic (it is not modelled)",
+    "subModels/particleForces/SaffmanMeiLiftForce (it acts with the integrator stokes only)",
     "injectionModels/many/massTotal 40 (particles are single, not parcels: their mass",
     "injectionModels/many/nParticle 5 (particles are single, not parcels)",
     "subModels/injectionModels/zone (",

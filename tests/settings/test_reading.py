@@ -11,7 +11,7 @@ import pytest
 from cloud_dictionary import CLOUD, Reader, unexpected
 from paths import PIPE
 
-from foamprb import PressureGradient, VirtualMass, WallLift
+from foamprb import PressureGradient, SaffmanMeiLift, VirtualMass, WallLift
 from foamprb.cloud.injection.models import ManualInjection, PatchInjection
 from foamprb.cloud.patches import Escape, Rebound, Stick
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
@@ -21,6 +21,7 @@ from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.dictionary.positions import read_positions
 from foamprb.errors import InputError
 from foamprb.flow.base import Patch
+from foamprb.run.job import _models
 from foamprb.settings.patches import PatchRule, match_patches
 from foamprb.settings.settings import read_settings
 
@@ -328,6 +329,13 @@ def test_forces(read: Reader) -> None:
     assert list(settings.forces.items()) == both
     with pytest.raises(InputError, match="virtualMass/Cvm is missing"):
         read(("ellipsoidDrag;", "ellipsoidDrag; virtualMass;"))
+
+
+def test_saffmans_lift(read: Reader) -> None:
+    settings = read(("ellipsoidDrag;", "ellipsoidDrag; SaffmanMeiLiftForce { U U; }"))
+    assert settings.surroundings == {"SaffmanMeiLiftForce": SaffmanMeiLift()}
+    with pytest.raises(InputError, match="SaffmanMeiLiftForce does not hold in rotating zones"):
+        _models(settings, "stokes", rotating=True)
 
 
 def test_surroundings(read: Reader) -> None:

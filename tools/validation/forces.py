@@ -1,4 +1,4 @@
-"""Forces on the barycentre beside drag and weight: pressure gradient and virtual mass (beyond the paper)."""
+"""Forces on the barycentre beside drag and weight (beyond the paper): of pressure, virtual mass, lift."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.forces import Force, Gravity, PressureGradient, VirtualMass
 from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.tracker import Models
 from foamprb.flow import analytic
 from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
@@ -105,9 +106,30 @@ def _run(
     return np.array(path)
 
 
+def _lift() -> list[Row]:
+    """Return the drift of a sphere of 50 µm that settles along a shear flow of 1000 1/s in water."""
+    R, rate = 25e-6, 1000.0
+    saffman = 6.46 / (6.0 * np.pi) * R * np.sqrt(rate * RHO_F / MU_F)
+    rows = []
+    for slip, name in ((1e-8, "Saffman (1965)"), (1e-3, "Mei (1992)")):
+        p = spheres(np.zeros((1, 3)), d=2.0 * R, rho=1e-6, mu=1e5)
+        g = -4.5 * MU_F * slip / (R * R * RHO_F)
+        models = Models(integrator="stokes", surroundings=(SaffmanMeiLift(),))
+        Cloud(
+            p, analytic.shear(rate), Medium(MU_F, RHO_F, (g, 0.0, 0.0)), (), 1e-9, models, threads=1
+        ).advance(1)
+        v = p.v[0]
+        Re = 2.0 * R * RHO_F * np.hypot(v[0], v[1]) / MU_F
+        a = 0.3314 * np.sqrt(2.0 * R * R * rate * RHO_F / MU_F / Re)
+        factor = 1.0 if slip < 1e-6 else (1.0 - a) * np.exp(-0.1 * Re) + a
+        title = f"lift, slip without it {slip:g} m/s: drift over slip along the flow"
+        rows.append(Row(title, -v[1] / v[0], factor * saffman, name, 5e-5, relative=True))
+    return rows
+
+
 def forces(quick: bool) -> Outcome:
     """Pressure gradient, virtual mass."""
-    rows: list[Row] = []
+    rows = _lift()
     turns: list[Curve] = []
     swings: list[Curve] = []
     omega, radius = 50.0, 1e-2

@@ -41,8 +41,8 @@ class Surrounding:
     block, which are saved if their declaration says so.
     """
 
-    rows: ClassVar[type[tuple[int, ...]]]
-    """Declaration of its rows, as :func:`foamprb.cloud.layout.offsets` reads it."""
+    rows: ClassVar[type[tuple[int, ...]] | None] = None
+    """Declaration of its rows, if any, as :func:`foamprb.cloud.layout.offsets` reads it."""
     rows_name: ClassVar[str]
     """Global name of the offsets of its rows in its functions."""
     update: ClassVar[Callable[..., None]]

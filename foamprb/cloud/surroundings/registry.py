@@ -11,6 +11,7 @@ from foamprb.cloud.layout import Layout, end, keep, layout, offsets
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
+from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.compile.link import bound
 from foamprb.flow.base import Patch
@@ -19,6 +20,7 @@ __all__ = ["SURROUNDINGS", "coefficients", "compose", "with_rows"]
 
 SURROUNDINGS: dict[str, type[Surrounding]] = {
     "faxenCorrection": FaxenCorrection,
+    "SaffmanMeiLiftForce": SaffmanMeiLift,
     "wallLift": WallLift,
     "BrownianMotion": BrownianMotion,
 }
@@ -69,9 +71,11 @@ def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tupl
     found: dict[str, tuple[int, ...]] = {}
     first = own.rows
     for model in surroundings:
-        at = offsets(type(model).rows, first)
-        found[type(model).rows_name] = at
-        first = end(at)
+        rows = type(model).rows
+        if rows is not None:
+            at = offsets(rows, first)
+            found[type(model).rows_name] = at
+            first = end(at)
     return found
 
 
