@@ -108,6 +108,11 @@ class CloudFunction:
         """Tracking steps between two samples: ``sampleInterval``, or 0 for samples at write times only."""
         return int(getattr(self, "sampleInterval", 0))
 
+    @property
+    def needed_fields(self) -> tuple[str, ...]:
+        """Names of the scalar fields of the case that it needs."""
+        return ()
+
     def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
         """Return the initial data; raise InputError if the cloud lacks a name in the entries."""
         return {}

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from foamprb.cloudfunctions.base import CloudFunction, Memory, ObservedCloud
 from foamprb.cloudfunctions.deformability_cytometry import DeformabilityCytometry
+from foamprb.cloudfunctions.field_sampling import FieldSampling
 from foamprb.cloudfunctions.haemolysis import Haemolysis
 from foamprb.cloudfunctions.particle_collector import ParticleCollector
 from foamprb.cloudfunctions.particle_histogram import ParticleHistogram
@@ -23,6 +24,7 @@ __all__ = ["FUNCTIONS", "CloudFunctions"]
 
 FUNCTIONS: dict[str, type[CloudFunction]] = {
     "deformabilityCytometry": DeformabilityCytometry,
+    "fieldSampling": FieldSampling,
     "haemolysis": Haemolysis,
     "particleCollector": ParticleCollector,
     "particleHistogram": ParticleHistogram,

@@ -145,6 +145,7 @@ class MeshFlow:
         viscosity: Floats | None = None,
     ) -> None:
         self._time = time
+        self.scalars: Mapping[str, Floats] = {}
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -295,12 +296,18 @@ class MeshFlow:
         """Return the field of the viscosity at all nodes, as it was read, (n,)."""
         return self._arrays.viscosity[:, 0]
 
+    def scalar(self, name: str, points: Floats, hosts: Ints) -> Floats:
+        """Return one of the scalar fields at points (n, 3) in hosts (n,), (n,)."""
+        arrays = self._arrays._replace(viscosity=self.scalars[name])
+        return viscosity_with(viscosity, arrays, points, hosts, 0.0)
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return mesh and velocities by name."""
         arrays = self._arrays._asdict()
         if len(arrays["viscosity"]) == 0:
             del arrays["viscosity"]
-        return {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen"))}
+        fixed = {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen"))}
+        return fixed | {f"scalar {name}": table for name, table in self.scalars.items()}
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""

@@ -117,13 +117,15 @@ class Reconstruction:
             self._images.agree(values)
         return u_nodes, l_nodes
 
-    def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
+    def scalars(self, cells: Floats, boundary: Floats, *, linear: bool = False) -> tuple[Floats, Floats]:
         """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
 
         Parameters
         ----------
         cells, boundary
             (n_cells, 3) and (n_boundary, 3); :func:`mean_series` takes three at a time.
+        linear
+            Reproduce linear fields instead, beyond that range beside a front.
 
         Returns
         -------
@@ -135,8 +137,10 @@ class Reconstruction:
         at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
         slopes_of_cells = np.zeros((n, m, 3))
         self._gradient(at_sites, slopes_of_cells)
-        values = np.concatenate([self._means(at_sites), cells])
-        if len(self._walls):
+        of_sites = [np.concatenate([s, s[owner], images.turned(s)]) for s in slopes_of_cells.swapaxes(0, 1)]
+        means = self._means(at_sites, np.stack(of_sites, axis=1) if linear else None)
+        values = np.concatenate([means, cells])
+        if len(self._walls) and not linear:
             rows, columns = points_of_faces(mesh, self._walls)
             on_wall, place = np.unique(rows, return_inverse=True)
             count = np.bincount(place)
@@ -146,16 +150,20 @@ class Reconstruction:
         slopes = np.zeros((mesh.n_points + n, m, 3))
         for f in range(m):
             own = slopes_of_cells[:, f]
-            slopes[: mesh.n_points, f] = self._means(np.concatenate([own, own[owner], images.turned(own)]))
+            slopes[: mesh.n_points, f] = self._means(of_sites[f])
             images.agree(slopes[: mesh.n_points, f])
             slopes[mesh.n_points :, f] = own
         return values, slopes
 
-    def _means(self, values: Floats) -> Floats:
-        """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance."""
+    def _means(self, values: Floats, slopes: Floats | None = None) -> Floats:
+        """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance.
+
+        With gradients (n_sites, 3, 3) they are continued to the points first.
+        """
         m = values.shape[1]
         means, nothing = np.empty((self.mesh.n_points, m)), np.empty((self.mesh.n_points, m, 3))
-        self._average(values, np.zeros((len(values), m, 3)), np.zeros((len(values), m, 6)), means, nothing)
+        l = np.zeros((len(values), m, 3)) if slopes is None else slopes
+        self._average(values, l, np.zeros((len(values), m, 6)), means, nothing)
         return means
 
     def _average(self, u: Floats, l: Floats, h: Floats, u_points: Floats, l_points: Floats) -> None:

@@ -44,6 +44,7 @@ from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
+from foamprb.flow.read.scalars import read_scalars
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
@@ -232,11 +233,12 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     u, l = at_nodes[:2]
     zones, turbulence = partial(case.zones, name), at_nodes[2] if source.turbulent else None
     viscosity = at_nodes[-2] if source.viscosity else None
-    if rotating:
-        return RotatingFlow(
-            rotating, whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity
-        )
-    return MeshFlow(whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity)
+    given = whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity
+    flow = RotatingFlow(rotating, *given) if rotating else MeshFlow(*given)
+    if source.scalars:
+        read = partial(case.field, name)
+        flow.scalars = read_scalars(case.fields(name), read, source.scalars, whole, operators[0])
+    return flow
 
 
 def transient_flow(case: Case, times: str | None, period: float | None, source: FlowSource) -> MeshFlow:
@@ -244,6 +246,11 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     names = case.select_times(times)
     if len(names) == 1:
         return steady_flow(case, names[0], source)
+    if source.scalars:
+        raise InputError(
+            f"{case.root}: the fields {' '.join(source.scalars)} are sampled in steady flows only. "
+            "Allowed: solution/transient no, or no fieldSampling."
+        )
     _refuse_moving(case, names)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])

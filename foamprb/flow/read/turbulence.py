@@ -82,11 +82,14 @@ def _diffusivity(k: Floats, epsilon: Floats) -> Floats:
     return diffusivity
 
 
-def values_of(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
-    """Return values at cells (n_cells,) and boundary faces (n_boundary,), there of the cell if not given."""
+def values_of(field: FoamField, whole: CaseMesh, signed: bool = False) -> tuple[Floats, Floats]:
+    """Return values at cells (n_cells,) and boundary faces (n_boundary,), there of the cell if not given.
+
+    Unless they are ``signed``, those of cells must not be negative, and at faces 0 replaces a negative one.
+    """
     mesh = whole.mesh
     cells = at_cells(field, mesh)[:, 0]
-    if cells.min() < 0.0:
+    if not signed and cells.min() < 0.0:
         cell = int(cells.argmin())
         raise InputError(f"{field.path}: the value at cell {cell} is {cells[cell]:g}. Allowed: none below 0.")
     boundary = cells[mesh.owner[mesh.n_internal :]].copy()
@@ -94,5 +97,7 @@ def values_of(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
         entry = field.of(patch)
         found = entry.fields.get("value") if entry else None
         if found is not None and len(found) in (1, patch.faces) and np.isfinite(found).all():
-            boundary[mesh.patch_start[index] : mesh.patch_start[index + 1]] = np.maximum(found[:, 0], 0.0)
+            boundary[mesh.patch_start[index] : mesh.patch_start[index + 1]] = (
+                found[:, 0] if signed else np.maximum(found[:, 0], 0.0)
+            )
     return cells, boundary
