@@ -29,7 +29,7 @@ def mei_factor(Re: Scalar, Re_w: Scalar) -> Scalar:
     ``Re`` = ρ_f |v − u| d/μ_f and ``Re_w`` = ρ_f |ω| d²/μ_f are the Reynolds numbers of slip and vorticity.
     """
     beta = 0.5 * Re_w / (Re + _TINY)
-    lost = -np.expm1(-0.1 * Re)
+    lost = 1.0 - np.exp(-0.1 * Re)
     # (1 − a) e + a with a = 0.3314 √β, which is large for small Re.
     return select(Re < 40.0, 1.0 - lost + 0.3314 * np.sqrt(beta) * lost, 0.0524 * np.sqrt(beta * Re))
 
