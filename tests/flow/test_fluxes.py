@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -184,6 +189,28 @@ def test_where_the_density_varies_cells_keep_mass():
     lost = np.bincount(cell, density * fluxes)
     assert lost == pytest.approx(-0.1 * mesh.volumes, abs=1e-4 / 16)
     assert np.bincount(cell, fluxes) / mesh.volumes == pytest.approx(0.9 - 0.2 * mesh.centres[:, 0], rel=0.1)
+
+
+_HASH = """
+import hashlib
+import numpy as np
+from test_fluxes import Conservation, Reconstruction, closed, whirl
+mesh = closed("hexahedra", 22)
+u, l = Reconstruction(mesh)(whirl(mesh.centres), np.zeros_like(mesh.boundary_centres))
+print(hashlib.sha256(Conservation(mesh)(u, l).tobytes()).hexdigest())
+"""
+
+
+def test_bits_do_not_depend_on_the_threads_of_blas():
+    found = set()
+    for threads in "1", "2":
+        path = os.pathsep.join([*sys.path, str(Path(__file__).parent)])
+        env = os.environ | {"OPENBLAS_NUM_THREADS": threads, "PYTHONPATH": path}
+        done = subprocess.run(
+            [sys.executable, "-c", _HASH], env=env, capture_output=True, text=True, check=True
+        )
+        found.add(done.stdout)
+    assert len(found) == 1
 
 
 def test_fluxes_that_are_not_balanced_are_told(monkeypatch):
