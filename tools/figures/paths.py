@@ -45,8 +45,9 @@ def main() -> None:
     )
     parser.add_argument("-help", "--help", action="help", help="show this text and stop")
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
+    options = parser.parse_args()
     print("| case | keeps volume | interpolated | between them |\n|---|---|---|---|")
-    for case in parser.parse_args().cases:
+    for case in options.cases:
         flow = read_case(case)
         _, u, l = flow.at_nodes()
         speeds = np.linalg.norm(u, axis=1)
