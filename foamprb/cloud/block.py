@@ -111,7 +111,7 @@ class Medium(NamedTuple):
     """Fluid around the particles, and gravity."""
 
     mu: Any
-    """VaryingViscosity, Pa s, or a model of it (:mod:`foamprb.cloud.viscosity`)."""
+    """Viscosity, Pa s, or a model of it (:mod:`foamprb.cloud.viscosity`)."""
     rho: float
     """kg/m³."""
     gravity: Vector = (0.0, 0.0, 0.0)

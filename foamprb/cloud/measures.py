@@ -116,7 +116,7 @@ class FlowSamples(NamedTuple):
     l_f: Floats
     """∂u_i/∂x_j, (n, 9), 1/s."""
     mu: Floats | None = None
-    """VaryingViscosity of the fluid, (n,), Pa s, if it varies."""
+    """Viscosity of the fluid, (n,), Pa s, if it varies."""
 
 
 class Measure(NamedTuple):
@@ -226,7 +226,7 @@ def find_out(
     l
         ∂u_i/∂x_j of the fluid, (n, 9), 1/s.
     mu
-        VaryingViscosity of the fluid, (n,), Pa s.
+        Viscosity of the fluid, (n,), Pa s.
     block
         Working memory, (ALL_ROWS · LANES,).
     frames
@@ -379,7 +379,7 @@ def context(
     flow
         The flow around them, or what it was there.
     mu
-        VaryingViscosity of the fluid, Pa s, or a model of it; values sampled with the flow take its place.
+        Viscosity of the fluid, Pa s, or a model of it; values sampled with the flow take its place.
     time
         Time of the state, s.
     ids

@@ -31,7 +31,7 @@ def longest_stable_steps(p: Particles, mu_f: float | Floats, dt: float, material
     p
         The cloud.
     mu_f, dt
-        VaryingViscosity of the fluid, Pa s, a number or (n,), and Δt, s.
+        Viscosity of the fluid, Pa s, a number or (n,), and Δt, s.
     material
         Name of the solid.
     """

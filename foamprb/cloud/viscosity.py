@@ -1,4 +1,4 @@
-"""VaryingViscosity of a fluid in which it varies, at the barycentres of particles.
+"""Viscosity of a fluid in which it varies, at the barycentres of particles.
 
 ``Medium.mu`` is a number, or one of the models below: a law of the shear rate, or a field of the flow. In a
 loop a model is the first of the surroundings. It stores μ_f in rows of its own, from which
@@ -298,7 +298,7 @@ def viscosity_of(
     Parameters
     ----------
     mu
-        VaryingViscosity, Pa s, or a model of it.
+        Viscosity, Pa s, or a model of it.
     flow, x, hosts, t
         The flow, points (n, 3), m, their hosts, and the time, s.
     l_f

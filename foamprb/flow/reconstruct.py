@@ -155,6 +155,16 @@ class Reconstruction:
             slopes[mesh.n_points :, f] = own
         return values, slopes
 
+    def scalar(self, cells: Floats, boundary: Floats, *, linear: bool = False) -> Floats:
+        """Return a scalar and its gradient at the nodes, (n_nodes, 4).
+
+        ``cells`` (n_cells,) and ``boundary`` (n_boundary,) are its values; see :meth:`scalars`, which takes
+        three.
+        """
+        three = (np.repeat(a[:, None], 3, axis=1) for a in (cells, boundary))
+        values, slopes = self.scalars(*three, linear=linear)
+        return np.concatenate([values[:, :1], slopes[:, 0]], axis=1)
+
     def _means(self, values: Floats, slopes: Floats | None = None) -> Floats:
         """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance.
 

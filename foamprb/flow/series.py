@@ -26,7 +26,7 @@ from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.planes import walls as walls_mesh
 from foamprb.flow.sampling import sample_with, with_velocity
-from foamprb.flow.viscosity import blend_viscosity
+from foamprb.flow.viscosity import blend_scalar
 from foamprb.flow.walk import (
     FAILED,
     blend_turbulence,
@@ -121,8 +121,8 @@ def viscosity(flow: SeriesArrays, host: int, x: Vector, t: float) -> tuple[float
     """See :func:`foamprb.flow.viscosity.viscosity`; linear in t. The loop requests it only if it was read."""
     k = _interval(flow, t)
     w, column = shape(flow.mesh, host, x), flow.fields.shape[1] - _OF_VISCOSITY
-    a, da = blend_viscosity(flow.fields, column, corners(flow.mesh, host, flow.first[k]), w)
-    b, db = blend_viscosity(flow.fields, column, corners(flow.mesh, host, flow.first[k + 1]), w)
+    a, da = blend_scalar(flow.fields, column, corners(flow.mesh, host, flow.first[k]), w)
+    b, db = blend_scalar(flow.fields, column, corners(flow.mesh, host, flow.first[k + 1]), w)
     s = (t - flow.times[k]) / (flow.times[k + 1] - flow.times[k])
     return a + s * (b - a), between(da, db, s)
 

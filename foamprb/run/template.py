@@ -398,7 +398,7 @@ def _fluid(case: Path, source: FlowSource, rate: float) -> tuple[float, float, l
 
 def _typical(found: CaseViscosity, rate: float, where: str) -> tuple[float | None, float | None, list[str]]:
     """Return a viscosity, m²/s or else Pa s, and a comment: one that varies at a rate, 1/s, or its mean."""
-    nu, mu, at = found.nu, found.mu, "on the mean"
+    nu, mu, at = found.nu, found.mu, "on average"
     if found.law is not None:
         nu, at = found.law(rate), f"at {rate:.3g} 1/s"
     elif found.field is not None:

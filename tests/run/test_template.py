@@ -239,7 +239,7 @@ def test_the_viscosity_is_that_of_the_local_temperature(case):
         'boundaryField { ".*" { type zeroGradient; } }'
     )
     mu = 1.458e-6 * np.sqrt(977.0) / (1.0 + 110.4 / 977.0)
-    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on the mean"
+    comment = f"// mu          local, by sutherland at the local T; {mu:.4g} on average"
     assert comment in write_template(case).read_text()
     fluid = read_settings(case).fluid
     assert (fluid.field.name, fluid.mu.mean) == ("T", pytest.approx(mu))

@@ -403,7 +403,7 @@ def given_shear_modulus(
     poissons_ratio
         ν_s, which ``youngsModulus`` needs.
     mu, shear_rate
-        VaryingViscosity μ_f of the fluid, Pa s, and γ̇, 1/s, to which Ca refers.
+        Viscosity μ_f of the fluid, Pa s, and γ̇, 1/s, to which Ca refers.
 
     Raises
     ------

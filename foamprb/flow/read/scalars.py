@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import Floats
 from foamprb.flow.read.boundary import CaseMesh
@@ -50,8 +48,6 @@ def read_scalars(
             raise InputError(
                 f"fieldSampling: no field {name} at the time of the flow. {suggestion(name, scalars)}"
             )
-        parts = values_of(read(name, _SCALAR), whole, signed=True)
-        # The reconstruction takes three scalars at a time.
-        values, slopes = reconstruct.scalars(*(np.repeat(a[:, None], 3, axis=1) for a in parts), linear=True)
-        found[name] = np.concatenate([values[:, :1], slopes[:, 0]], axis=1)
+        cells, boundary = values_of(read(name, _SCALAR), whole, signed=True)
+        found[name] = reconstruct.scalar(cells, boundary, linear=True)
     return found

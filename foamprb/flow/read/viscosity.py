@@ -54,6 +54,4 @@ def read_viscosity_field(
         )
     # A value of 0 on a patch is a placeholder.
     boundary = np.where(boundary > 0.0, boundary, cells[whole.mesh.owner[whole.mesh.n_internal :]])
-    # The reconstruction takes three scalars at a time.
-    values, slopes = reconstruct.scalars(*(np.repeat(a[:, None], 3, axis=1) for a in (cells, boundary)))
-    return np.concatenate([values[:, :1], slopes[:, 0]], axis=1)
+    return reconstruct.scalar(cells, boundary)
