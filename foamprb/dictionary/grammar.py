@@ -151,6 +151,7 @@ _CLOSING = {"{": "}", "(": ")", "[": "]"}
 _MARKS = frozenset("{}()[];")
 _INCLUDES = {"#include": True, "#includeIfPresent": False, "#sinclude": False, "#includeEtc": True}
 _ETC = "#includeEtc"
+_FUNCTION = "#includeFunc"
 _CASE_FOLDERS = {
     "$FOAM_CASE": "",
     "${FOAM_CASE}": "",
@@ -195,7 +196,9 @@ class _Parser:
                 raise self.mistake(opened or token, f"of {dictionary.path} has no closing }}.")
             if token.text == ";":
                 continue
-            if token.text.startswith("#"):
+            if token.text == _FUNCTION:
+                dictionary.add(self.function(token, dictionary))
+            elif token.text.startswith("#"):
                 self.include(token, dictionary)
             elif token.text.startswith("$"):
                 self.merge(token, dictionary)
@@ -268,14 +271,19 @@ class _Parser:
         return entry
 
     def stream(self, key: _Token) -> list[_Token]:
-        """Read tokens up to the semicolon; dictionaries may stand in lists, ``((air in water) { … })``."""
+        """Read tokens up to the semicolon; dictionaries may stand in lists, ``((air in water) { … })``.
+
+        One may also end a value, ``Gauss multivariateSelection { … };``.
+        """
         tokens: list[_Token] = []
         expected: list[str] = []
         computed = self.peek().text.startswith("#")
         while (token := self.take()).text != ";" or expected[-1:] == ["}"]:
             if expected and token.text == expected[-1]:
                 expected.pop()
-            elif token.text in _CLOSING and (token.text != "{" or computed or expected):
+                if token.text == "}" and not expected and not computed and self.peek().text != ";":
+                    raise self.mistake(key, "has no closing ;.")
+            elif token.text in _CLOSING:
                 expected.append(_CLOSING[token.text])
             elif (token.text in _MARKS and token.text != ";") or token.text == "":
                 raise self.mistake(key, f"has no closing {expected[-1] if expected else ';'}.")
@@ -343,6 +351,13 @@ class _Parser:
         if self.take().text != ";":
             raise self.mistake(token, "has no closing ;.")
         dictionary.merge(self.copy(token, template, template.key, dictionary).dictionary())
+
+    def function(self, directive: _Token, parent: Dictionary) -> Stream:
+        """Read ``#includeFunc`` and the rest of its line, an entry that only OpenFOAM's solvers use."""
+        words = []
+        while self.peek().text not in ("", "}") and self.peek().line == directive.line:
+            words.append(self.take().text)
+        return Stream(directive.text, parent, self.source, directive.line, tokens=tuple(words))
 
     def include(self, directive: _Token, dictionary: Dictionary) -> None:
         """Read another file's entries into a dictionary."""
