@@ -7,7 +7,7 @@ import logging
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from foamprb.cli.options import add_cloud, add_flow, source_of
+from foamprb.cli.options import add_cloud, add_flow, fraction, source_of
 
 if TYPE_CHECKING:
     from foamprb.parallel.ranks import Ranks
@@ -22,8 +22,18 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add_flow(parser)
     add_cloud(parser)
     add = parser.add_argument
-    add("kind", choices=("openfoam", "vtkhdf", "ovito"), help="format of the files")
+    add(
+        "kind",
+        choices=("openfoam", "vtkhdf", "ovito", "stress"),
+        help="format of the files, or their stress for a solver",
+    )
     add("--output", type=Path, metavar="PATH", help="file or folder [postProcessing/CLOUD/...]")
+    add(
+        "--volumeFraction",
+        type=fraction,
+        metavar="PHI",
+        help="stress of this mean volume fraction of the particles [that of the run]",
+    )
     add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow with the mesh [latest]")
 
 
@@ -39,6 +49,7 @@ def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
         arguments.flowTime,
         arguments.output,
         arguments.results,
+        arguments.volumeFraction,
     )
     log.info("Written: %s", target)
     return 0

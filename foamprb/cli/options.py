@@ -11,7 +11,7 @@ from foamprb.errors import InputError
 if TYPE_CHECKING:
     from foamprb.flow.read.source import FlowSource
 
-__all__ = ["add_case", "add_cloud", "add_flow", "source_of"]
+__all__ = ["add_case", "add_cloud", "add_flow", "fraction", "source_of"]
 
 
 def add_case(parser: argparse.ArgumentParser) -> None:
@@ -53,6 +53,14 @@ def add_flow(parser: argparse.ArgumentParser) -> None:
         metavar="DEG",
         help="split patches of a mesh file at edges with a larger angle",
     )
+
+
+def fraction(text: str) -> float:
+    """Return a number above 0 and below 1."""
+    value = float(text)
+    if not 0.0 < value < 1.0:
+        raise argparse.ArgumentTypeError(f"{text}: a number above 0 and below 1 is needed")
+    return value
 
 
 def source_of(arguments: argparse.Namespace) -> FlowSource:

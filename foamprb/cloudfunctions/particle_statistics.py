@@ -1,10 +1,11 @@
-"""Fields on the mesh: residence time, deformation and deposition of particles."""
+"""Fields on the mesh: residence time, deformation, deposition and stress of particles."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,21 +13,22 @@ from scipy.spatial import cKDTree
 
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import Memory, ObservedCloud, Rows, SampledFunction, SampleInterval
+from foamprb.dictionary.constraints import Meaning
 from foamprb.errors import InputError
 from foamprb.flow.mesh.mesh import Mesh
-from foamprb.results.foam import PatchValues, write_scalar_field
+from foamprb.results.foam import GENERIC, PatchValues, write_field
 
 __all__ = ["ParticleStatistics"]
 
 Floats = NDArray[np.float64]
 
-_GENERIC = frozenset({"patch", "wall", "mappedWall", "mappedPatch"})
-"""Types of patches on which a field may have any boundary condition."""
 _DIMENSIONS: dict[str, tuple[int, ...]] = {
     "concentration": (0, -3, 0, 0, 0, 0, 0),
     "residenceTime": (0, 0, 1, 0, 0, 0, 0),
     "meanD": (0, 0, 0, 0, 0, 0, 0),
     "deposition": (0, -2, 0, 0, 0, 0, 0),
+    "volumeFraction": (0, 0, 0, 0, 0, 0, 0),
+    "sigmaParticles": (1, -1, -2, 0, 0, 0, 0),
 }
 
 
@@ -37,21 +39,30 @@ class ParticleStatistics(SampledFunction):
     ``concentration``, mean number of particles per volume since the start, 1/m³; ``residenceTime``, the time
     that all of them have spent in a cell, s; ``meanD``, the mean of Taylor's D over that time; and on the
     boundary ``deposition``, particles stuck per area of a face, 1/m². Half of the time between two samples
-    counts for the cell at its beginning, and half for the cell at its end.
+    counts for the cell at its beginning, and half for the cell at its end. With ``sigmaParticles`` also
+    ``volumeFraction`` and ``sigmaParticles``, means since the start of the particles' volume and of the sum
+    of their stresslets, per volume of the cell.
     """
 
     sampleInterval: SampleInterval = 1
+    sigmaParticles: Annotated[bool, Meaning("whether to write the particles' stress and volume, too")] = False
 
     def observe(self, cloud: ObservedCloud, rows: Rows) -> Memory:
         """Return cells, −1 outside, and Taylor's D."""
         mesh, hosts = _mesh(cloud), cloud.particles.host[rows]
         cell = np.where(hosts >= 0, mesh.tets[hosts, 0].astype(np.int64) - mesh.n_points, -1)
-        return {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
+        own = {"cell": cell, "D": cloud.measure(rows, "taylorDeformation")[0]}
+        if self.sigmaParticles:
+            # The volume comes first among the seven.
+            J, S = cloud.measure(rows, "J", "stresslet")
+            own["S"] = np.column_stack([4.0 / 3.0 * math.pi * cloud.particles.R[rows] ** 3 * J, S])
+        return own
 
     def initial(self, cloud: ObservedCloud) -> Memory:
         """Return sums of zero; raise InputError if the flow has no mesh."""
         n = _mesh(cloud).n_cells
-        return {"time": np.zeros(n), "timeD": np.zeros(n)}
+        stress = {"timeS": np.zeros((7, n))} if self.sigmaParticles else {}
+        return {"time": np.zeros(n), "timeD": np.zeros(n), **stress}
 
     def add(self, memory: Memory, cloud: ObservedCloud, rows: Rows, now: Memory) -> None:
         """Add the time since the last sample to the sums of the cells."""
@@ -59,22 +70,29 @@ class ParticleStatistics(SampledFunction):
         half = 0.5 * (now["t"] - memory["t"][rows])
         # A particle that the mesh has lost counts in its last cell.
         now["cell"] = np.where(now["cell"] >= 0, now["cell"], memory["cell"][rows])
-        for cell, D in ((memory["cell"][rows], memory["D"][rows]), (now["cell"], now["D"])):
-            known = cell >= 0
-            memory["time"] += np.bincount(cell[known], half[known], n)
-            memory["timeD"] += np.bincount(cell[known], (half * D)[known], n)
+        for end in ({name: memory[name][rows] for name in ("cell", "D", "S") if name in now}, now):
+            known = end["cell"] >= 0
+            cell, weight = end["cell"][known], half[known]
+            memory["time"] += np.bincount(cell, weight, n)
+            memory["timeD"] += np.bincount(cell, weight * end["D"][known], n)
+            if self.sigmaParticles:
+                for total, values in zip(memory["timeS"], end["S"][known].T, strict=True):
+                    total += np.bincount(cell, weight * values, n)
 
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the fields of this time."""
         mesh = _mesh(cloud)
         time = memory["time"]
-        passed = max(cloud.time - cloud.cloud.start, 1e-300)
+        passed = np.maximum(mesh.volumes, 1e-300) * max(cloud.time - cloud.cloud.start, 1e-300)
         fields = {
-            "concentration": time / (np.maximum(mesh.volumes, 1e-300) * passed),
+            "concentration": time / passed,
             "residenceTime": time,
             "meanD": np.divide(memory["timeD"], time, out=np.zeros_like(time), where=time > 0.0),
             "deposition": np.zeros(mesh.n_cells),
         }
+        if self.sigmaParticles:
+            volume, *stress = memory["timeS"] / passed
+            fields |= {"volumeFraction": volume, "sigmaParticles": np.stack(stress, axis=1)}
         stuck = _stuck_on_faces(cloud, mesh)
         areas = np.linalg.norm(mesh.boundary_areas, axis=1)
         folder.mkdir(exist_ok=True)
@@ -82,11 +100,11 @@ class ParticleStatistics(SampledFunction):
             on_faces = stuck / areas if name == "deposition" else values[mesh.owner[mesh.n_internal :]]
             patches = {
                 patch.name: PatchValues("calculated", on_faces[mesh.patch_start[k] : mesh.patch_start[k + 1]])
-                if patch.type in _GENERIC
+                if patch.type in GENERIC
                 else PatchValues(patch.type)
                 for k, patch in enumerate(mesh.patches)
             }
-            write_scalar_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], values, patches)
+            write_field(folder / f"{cloud.time:.12g}" / name, _DIMENSIONS[name], values, patches)
 
 
 def _mesh(cloud: ObservedCloud) -> Mesh:

@@ -13,9 +13,13 @@ from numpy.typing import NDArray
 
 from foamprb.results.atomic import write_text
 
-__all__ = ["PatchValues", "remove_lagrangian", "write_lagrangian", "write_scalar_field"]
+__all__ = ["GENERIC", "SYMMETRIC", "PatchValues", "remove_lagrangian", "write_field", "write_lagrangian"]
 
 Floats = NDArray[np.float64]
+
+
+GENERIC = frozenset({"patch", "wall", "mappedWall", "mappedPatch"})
+"""Types of patches on which a field may have any boundary condition."""
 
 
 class PatchValues(NamedTuple):
@@ -27,47 +31,58 @@ class PatchValues(NamedTuple):
     """Values at the faces; None for a constraint patch."""
 
 
-def write_scalar_field(
-    path: Path, dimensions: Sequence[int], cells: Floats, patches: Mapping[str, PatchValues]
+def write_field(
+    path: Path,
+    dimensions: Sequence[int],
+    cells: Floats,
+    patches: Mapping[str, PatchValues],
+    name: str | None = None,
 ) -> None:
-    """Write a ``volScalarField``, plain text, in one step.
+    """Write a ``volScalarField`` or a ``volSymmTensorField``, plain text, in one step.
 
     Parameters
     ----------
     path
-        The file; its name is the field's.
+        The file.
     dimensions
         Exponents of kg, m, s, K, mol, A, cd.
     cells
-        Values at the cells.
+        Values at the cells, (n,), or (n, 6) in the order xx yy zz xy yz xz.
     patches
         Fields on the patches by name, in the order of the mesh.
+    name
+        Name of the field; by default the file's.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
+    kind = "volScalarField" if cells.ndim == 1 else "volSymmTensorField"
     parts = [
-        f"{_header('volScalarField', path.name)}dimensions      [{' '.join(map(str, dimensions))}];\n\n"
+        f"{_header(kind, name or path.name)}dimensions      [{' '.join(map(str, dimensions))}];\n\n"
         f"internalField   {_values(cells)};\n\nboundaryField\n{{\n"
     ]
-    for name, patch in patches.items():
+    for key, patch in patches.items():
         value = "" if patch.values is None else f"        value           {_values(patch.values)};\n"
-        key = name if name.replace("_", "").replace("-", "").isalnum() else f'"{name}"'
-        parts.append(f"    {key}\n    {{\n        type            {patch.type};\n{value}    }}\n")
+        word = key if key.replace("_", "").replace("-", "").isalnum() else f'"{key}"'
+        parts.append(f"    {word}\n    {{\n        type            {patch.type};\n{value}    }}\n")
     parts.append("}\n")
     write_text(path, "".join(parts))
 
 
 def _values(values: Floats) -> str:
-    if len(values) and (values == values[0]).all():
-        return f"uniform {float(values[0])!r}"
-    return f"nonuniform List<scalar> {len(values)}\n(\n" + "".join(f"{v!r}\n" for v in values.tolist()) + ")"
+    if values.ndim == 1:
+        inner, items = "scalar", [f"{v!r}" for v in values.tolist()]
+    else:
+        inner, items = "symmTensor", [f"({' '.join(map(repr, v))})" for v in values[:, SYMMETRIC].tolist()]
+    if items and (values == values[0]).all():
+        return f"uniform {items[0]}"
+    return f"nonuniform List<{inner}> {len(items)}\n(\n" + "".join(f"{item}\n" for item in items) + ")"
 
 
 _CLASSES = {1: "scalarField", 3: "vectorField", 6: "symmTensorField", 9: "tensorField"}
-_SYMMETRIC = [0, 3, 5, 1, 4, 2]
+SYMMETRIC = [0, 3, 5, 1, 4, 2]
 """Indices of xx xy xz yy yz zz among xx yy zz xy yz xz."""
 _GEOMETRY = "geometry        positions;\n"
 
@@ -137,7 +152,7 @@ def write_lagrangian(
             plain, kind = np.nan_to_num(array, nan=0.0, posinf=0.0, neginf=0.0), _CLASSES[components]
         else:
             plain, kind = array.astype(np.int64), "labelField"
-        rows = plain[:, _SYMMETRIC] if components == 6 else plain
+        rows = plain[:, SYMMETRIC] if components == 6 else plain
         if components == 1:
             lines = [f"{value!r}\n" for value in rows.tolist()]
         else:

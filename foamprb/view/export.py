@@ -19,10 +19,11 @@ from foamprb.results.foam import remove_lagrangian, write_lagrangian
 from foamprb.results.ovito import write_dump
 from foamprb.results.vtk import write_vtkhdf
 from foamprb.view.results import Run, open_run
+from foamprb.view.stress import write_stress
 
 __all__ = ["export"]
 
-_TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "ovito": "{}.dump"}
+_TARGETS = {"openfoam": "openfoam", "vtkhdf": "{}.vtkhdf", "ovito": "{}.dump", "stress": "sigma"}
 """Default file or folder of each kind, beside the results."""
 _BEGINNINGS = {"vtkhdf": b"\x89HDF", "ovito": b"ITEM: TIMESTEP"}
 
@@ -35,19 +36,22 @@ def export(
     time: str,
     output: Path | None,
     results: Path | None = None,
+    fraction: float | None = None,
 ) -> Path:
     """Write the results of a run, finished or not, for another program.
 
     Parameters
     ----------
     kind
-        ``openfoam``, ``vtkhdf`` or ``ovito``.
+        ``openfoam``, ``vtkhdf``, ``ovito`` or ``stress``.
     case, cloud, results
         See :func:`foamprb.view.results.open_run`.
     source, time
-        Flow and its time, for the cell indices in OpenFOAM's files.
+        Flow and its time, for the mesh of OpenFOAM's files.
     output
         File or folder; by default beside the results.
+    fraction
+        See :func:`foamprb.view.stress.write_stress`.
 
     Returns
     -------
@@ -71,6 +75,9 @@ def export(
         write_dump(target, map(run.cloud, range(len(run.entries))))
     else:
         flow = read_flow(case, time, source)
+        if kind == "stress":
+            write_stress(target, run, case, flow.mesh, fraction)
+            return target
         if target.resolve() != case.resolve():
             _link_case(target, case, run.name)
         _write_lagrangian(target, run, flow)

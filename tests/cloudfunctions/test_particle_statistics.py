@@ -15,10 +15,10 @@ from foamprb.cloudfunctions.particle_statistics import ParticleStatistics
 from foamprb.errors import InputError
 from foamprb.flow.read.field import Kind, read_field
 from foamprb.flow.read.openfoam import read_case
-from foamprb.results.foam import PatchValues, write_scalar_field
+from foamprb.results.foam import PatchValues, write_field
 from foamprb.view.results import open_run
 
-FUNCTION = "\ncloudFunctions { fields { type particleStatistics; sampleInterval 20; } }\n"
+FUNCTION = "\ncloudFunctions { fields { type particleStatistics; sampleInterval 20; sigmaParticles yes; } }\n"
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +27,7 @@ def run(tmp_path_factory):
     shutil.copytree(PIPE, case, ignore=shutil.ignore_patterns("postProcessing"))
     file = case / "constant/softCloudProperties"
     text = re.sub(r"((?:endTime|writeInterval)\s+)[^;]+;", r"\g<1>0.02;", file.read_text())
+    text = re.sub(r"(\bCa\s+)[\d.]+;", r"\g<1>0.01;", text)
     file.write_text(re.sub(r"\ncloudFunctions.*", "", text, flags=re.DOTALL) + FUNCTION)
     assert main(["run", "-case", str(case)]) == 0
     return case
@@ -54,6 +55,57 @@ def test_mean_deformation_is_where_particles_were(run):
     assert 0.0 < D.max() < 1.0
 
 
+def stress(run, path=None):
+    path = path or run / "postProcessing/softCloud/fields/0.02/sigmaParticles"
+    kind = Kind("volSymmTensorField", "symmTensor", (), "a stress")
+    return read_field(path, kind, run)
+
+
+def test_stress_is_that_of_nearly_rigid_spheres_in_the_flow_of_their_cells(run):
+    fraction = field(run, "volumeFraction", (0, 0, 0, 0, 0, 0, 0))
+    results, flow = open_run(run), read_case(run)
+    fates = results.table()
+    volume = np.pi / 6.0 * results.snapshot()["d"][0] ** 3
+    moved = (fates["t1"] - fates["t0"])[fates["fate"] != "pending"].sum()
+    assert 0.02 * (fraction @ flow.mesh.volumes) == pytest.approx(moved * volume, rel=1e-3)
+    mu = results.record["fluid"]["mu"]
+    centres = flow.mesh.centres
+    l = flow.sample(centres, flow.locate(centres), 0.0)[1].reshape(-1, 3, 3)
+    d = 0.5 * (l + l.transpose(0, 2, 1))
+    rigid = 5.0 * mu * fraction[:, None] * d[:, [0, 0, 0, 1, 1, 2], [0, 1, 2, 1, 2, 2]]
+    # Ca is 0.01; a body is not at the centre of its cell.
+    difference = stress(run).cells - rigid
+    assert np.linalg.norm(difference) < 0.1 * np.linalg.norm(rigid)
+
+
+def test_stress_is_exported_for_a_solver_at_a_chosen_volume_fraction(run, capsys):
+    target = run / "1/sigma"
+    export = ["export", "stress", "-case", str(run), "-volumeFraction", "0.03", "-output", str(target)]
+    assert main(export) == 0
+    fraction = field(run, "volumeFraction", (0, 0, 0, 0, 0, 0, 0))
+    volumes = read_case(run, "0").mesh.volumes
+    factor = -0.03 / (fraction @ volumes / volumes.sum()) / open_run(run).record["fluid"]["rho"]
+    found = stress(run, target)
+    np.testing.assert_allclose(found.cells, factor * stress(run).cells, rtol=1e-12)
+    assert {patch.type for patch in found.patches.values()} == {"fixedValue"}
+    export[5] = "0.06"
+    assert main(export) == 0
+    assert "Change of the stress: 100 %" in capsys.readouterr().out
+
+
+def test_a_run_without_stress_and_another_file_are_refused(run, tmp_path, capsys):
+    settings = run / "constant/softCloudProperties"
+    before = settings.read_bytes()
+    assert main(["export", "stress", "-case", str(run), "-output", str(settings)]) == 1
+    assert "a file of another kind, which is kept" in capsys.readouterr().err
+    assert settings.read_bytes() == before
+    results = run / "postProcessing/softCloud/fields"
+    results.rename(tmp_path / "fields")
+    assert main(["export", "stress", "-case", str(run)]) == 1
+    assert "type particleStatistics; sigmaParticles yes;" in capsys.readouterr().err
+    (tmp_path / "fields").rename(results)
+
+
 def test_a_flow_without_a_mesh_is_refused(tmp_path):
     with pytest.raises(InputError, match="the flow has no mesh"):
         observe(pipe_cloud(), ParticleStatistics(), tmp_path)
@@ -61,7 +113,7 @@ def test_a_flow_without_a_mesh_is_refused(tmp_path):
 
 def test_a_field_is_written_as_openfoam_reads_it(tmp_path):
     patches = {"wall": PatchValues("calculated", np.array([1.0, 0.1])), "front": PatchValues("empty")}
-    write_scalar_field(tmp_path / "s", (0, -2, 0, 0, 0, 0, 0), np.array([2.0, 3.0]), patches)
+    write_field(tmp_path / "s", (0, -2, 0, 0, 0, 0, 0), np.array([2.0, 3.0]), patches)
     text = (tmp_path / "s").read_text()
     assert "dimensions      [0 -2 0 0 0 0 0];" in text
     assert "internalField   nonuniform List<scalar> 2\n(\n2.0\n3.0\n);" in text

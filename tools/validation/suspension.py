@@ -21,6 +21,9 @@ ODE = "inertialess equations by solve_ivp, stress of the solid"
 NAMES = ("[η]", "N₁/(μ_f γ̇ φ)", "N₂/(μ_f γ̇ φ)")
 STIFF = 1e-5
 """Ca of bodies that count as rigid."""
+GIVEN = {0.05: (2.4870, 0.624), 0.1: (2.4483, 1.241), 0.4: (1.7828, 4.525)}
+"""[η] and N₁ at some Ca, of an independent quadrature."""
+QUADRATURE = "independent quadrature, to the digits that are given"
 VOLUME = 4.0 / 3.0 * np.pi
 
 
@@ -138,6 +141,16 @@ def stress(quick: bool) -> Outcome:
             panels[k].append(Curve(Ca, ours[:, k], f"foamprb, η_s/μ_f = {ratio:g}", colour=colour))
             known = "Roscoe (1967)" if colour == 0 else ""
             panels[k].append(Curve(fine, line[:, k], known, "reference", colour))
+
+    given = np.array(sorted(GIVEN))
+    cloud = unit_cloud(analytic.shear(1.0), given, 1e-6, 0.05, Models(integrator="stokes", tolerance=1e-7))
+    advance_to(cloud, 60.0)
+    ours = np.array([soft.rheology(S) for S in stresslets(cloud)])
+    for k, name in enumerate(NAMES[:2]):
+        own = np.array([GIVEN[c][k] for c in given])
+        rows.append(
+            worst(f"spheres: {name}, worst of Ca = 0.05, 0.1, 0.4", ours[:, k], own, QUADRATURE, 6e-4)
+        )
 
     small = np.array([0.01, 0.02])
     cloud = unit_cloud(analytic.shear(1.0), small, 1e-6, 0.02, Models(integrator="stokes", tolerance=1e-7))
