@@ -6,11 +6,30 @@ OpenFOAM's kinematic ones times the density.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from dataclasses import MISSING, astuple, dataclass, fields
+from typing import Any, ClassVar
+
 import numpy as np
 
 from foamprb.body.tensor import Scalar, Tensor, ddot, sym
 
-__all__ = ["bird_carreau", "casson", "cross_power_law", "herschel_bulkley", "power_law", "shear_rate"]
+__all__ = [
+    "LAWS",
+    "BirdCarreau",
+    "Casson",
+    "CrossPowerLaw",
+    "HerschelBulkley",
+    "PowerLaw",
+    "RateLaw",
+    "bird_carreau",
+    "casson",
+    "cross_power_law",
+    "herschel_bulkley",
+    "power_law",
+    "shear_rate",
+]
 
 _LEAST_RATE = 1e-300
 """Smallest shear rate, 1/s; OpenFOAM's VSMALL."""
@@ -51,3 +70,101 @@ def casson(rate: Scalar, m: Scalar, tau0: Scalar, least: Scalar, most: Scalar) -
     """Return (√(τ₀/γ̇) + √m)² within limits, Pa s: ``Casson``."""
     root = np.sqrt(tau0 / np.maximum(rate, _LEAST_RATE)) + np.sqrt(m)
     return np.maximum(least, np.minimum(most, root * root))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RateLaw:
+    """A law of the shear rate; its fields are the arguments of the formula."""
+
+    law: ClassVar[Callable[..., Any]]
+    """The formula."""
+    by_density: ClassVar[tuple[str, ...]]
+    """Coefficients that are the kinematic ones times the density."""
+
+    def at(self, rate: Any) -> Any:
+        """Return the viscosity, Pa s, at a shear rate, 1/s."""
+        return type(self).law(rate, *astuple(self))
+
+    @classmethod
+    def kinematic_names(cls) -> dict[str, float | None]:
+        """Return OpenFOAM's names of the coefficients, with their default values, None if required."""
+        return {
+            field.name.replace("mu", "nu"): None if field.default is MISSING else float(field.default)
+            for field in fields(cls)
+        }
+
+
+@dataclass(frozen=True, kw_only=True)
+class PowerLaw(RateLaw):
+    """k γ̇ⁿ⁻¹ between two limits, OpenFOAM's ``powerLaw``: k in Pa sⁿ, limits in Pa s."""
+
+    k: float
+    n: float
+    muMin: float = 0.0
+    muMax: float = math.inf
+
+    law: ClassVar = staticmethod(power_law)
+    by_density: ClassVar = ("k", "muMin", "muMax")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CrossPowerLaw(RateLaw):
+    """μ∞ + (μ₀ − μ∞)/(1 + (m γ̇)ⁿ), OpenFOAM's ``CrossPowerLaw``: μ in Pa s, m in s."""
+
+    mu0: float
+    muInf: float
+    m: float
+    n: float
+
+    law: ClassVar = staticmethod(cross_power_law)
+    by_density: ClassVar = ("mu0", "muInf")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BirdCarreau(RateLaw):
+    """μ∞ + (μ₀ − μ∞)(1 + (k γ̇)ᵃ)^((n − 1)/a), OpenFOAM's ``BirdCarreau``: μ in Pa s, k in s."""
+
+    mu0: float
+    muInf: float
+    k: float
+    n: float
+    a: float = 2.0
+
+    law: ClassVar = staticmethod(bird_carreau)
+    by_density: ClassVar = ("mu0", "muInf")
+
+
+@dataclass(frozen=True, kw_only=True)
+class HerschelBulkley(RateLaw):
+    """(τ₀ + k γ̇ⁿ)/γ̇, at most μ₀, OpenFOAM's ``HerschelBulkley``: μ₀ in Pa s, τ₀ in Pa, k in Pa sⁿ."""
+
+    mu0: float
+    tau0: float
+    k: float
+    n: float
+
+    law: ClassVar = staticmethod(herschel_bulkley)
+    by_density: ClassVar = ("mu0", "tau0", "k")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Casson(RateLaw):
+    """(√(τ₀/γ̇) + √m)² between two limits, OpenFOAM's ``Casson``: m and limits in Pa s, τ₀ in Pa."""
+
+    m: float
+    tau0: float
+    muMin: float = 0.0
+    muMax: float = math.inf
+
+    law: ClassVar = staticmethod(casson)
+    by_density: ClassVar = ("m", "tau0", "muMin", "muMax")
+
+
+LAWS: dict[str, type[RateLaw]] = {
+    "BirdCarreau": BirdCarreau,
+    "Casson": Casson,
+    "CrossPowerLaw": CrossPowerLaw,
+    "HerschelBulkley": HerschelBulkley,
+    "powerLaw": PowerLaw,
+}
+"""By OpenFOAM's names."""

@@ -7,7 +7,6 @@ loop a model is the first of the surroundings. It stores μ_f in rows of its own
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
@@ -15,15 +14,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple, Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+import foamprb.body.viscosity as laws
 from foamprb.body.tensor import Scalar, inner, minus, select
-from foamprb.body.viscosity import (
-    bird_carreau,
-    casson,
-    cross_power_law,
-    herschel_bulkley,
-    power_law,
-    shear_rate,
-)
+from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
 from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import LANES, Row, offsets
@@ -138,13 +131,8 @@ class VaryingViscosity(Surrounding):
 
 
 @dataclass(frozen=True, kw_only=True)
-class RateViscosity(VaryingViscosity):
-    """A law of the shear rate; its fields are the arguments of the law."""
-
-    law: ClassVar[Callable[..., Any]]
-
-    by_density: ClassVar[tuple[str, ...]]
-    """Coefficients that are the kinematic ones times the density."""
+class RateViscosity(laws.RateLaw, VaryingViscosity):
+    """A law of the shear rate."""
 
     rows: ClassVar = ViscosityRows
     update: ClassVar = staticmethod(no_update)
@@ -167,82 +155,36 @@ class RateViscosity(VaryingViscosity):
 
     def of(self, flow: Any, x: Floats, hosts: NDArray[np.int32], rate: Floats, t: float) -> Floats:  # noqa: ARG002
         """See :meth:`VaryingViscosity.of`."""
-        return np.asarray(type(self).law(rate, *self.coefficients(())))
+        return np.asarray(self.at(rate))
 
     def at_rate(self, rate: float) -> float:
         """See :meth:`VaryingViscosity.at_rate`."""
-        return float(type(self).law(rate, *self.coefficients(())))
+        return float(self.at(rate))
 
     def at_nodes(self, flow: Flow) -> Floats:
         """See :meth:`VaryingViscosity.at_nodes`."""
         l = flow.at_nodes()[2]
-        return self.of(flow, l, np.empty(0, dtype=np.int32), np.asarray(shear_rate(tuple(l.T))), 0.0)
+        return np.asarray(self.at(np.asarray(shear_rate(tuple(l.T)))))
 
 
-@dataclass(frozen=True, kw_only=True)
-class PowerLaw(RateViscosity):
-    """k γ̇ⁿ⁻¹ between two limits, OpenFOAM's ``powerLaw``: k in Pa sⁿ, limits in Pa s."""
-
-    k: float
-    n: float
-    muMin: float = 0.0
-    muMax: float = math.inf
-
-    law: ClassVar = staticmethod(power_law)
-    by_density: ClassVar = ("k", "muMin", "muMax")
+class PowerLaw(laws.PowerLaw, RateViscosity):
+    """See :class:`foamprb.body.viscosity.PowerLaw`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class CrossPowerLaw(RateViscosity):
-    """μ∞ + (μ₀ − μ∞)/(1 + (m γ̇)ⁿ), OpenFOAM's ``CrossPowerLaw``: μ in Pa s, m in s."""
-
-    mu0: float
-    muInf: float
-    m: float
-    n: float
-
-    law: ClassVar = staticmethod(cross_power_law)
-    by_density: ClassVar = ("mu0", "muInf")
+class CrossPowerLaw(laws.CrossPowerLaw, RateViscosity):
+    """See :class:`foamprb.body.viscosity.CrossPowerLaw`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class BirdCarreau(RateViscosity):
-    """μ∞ + (μ₀ − μ∞)(1 + (k γ̇)ᵃ)^((n − 1)/a), OpenFOAM's ``BirdCarreau``: μ in Pa s, k in s."""
-
-    mu0: float
-    muInf: float
-    k: float
-    n: float
-    a: float = 2.0
-
-    law: ClassVar = staticmethod(bird_carreau)
-    by_density: ClassVar = ("mu0", "muInf")
+class BirdCarreau(laws.BirdCarreau, RateViscosity):
+    """See :class:`foamprb.body.viscosity.BirdCarreau`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class HerschelBulkley(RateViscosity):
-    """(τ₀ + k γ̇ⁿ)/γ̇, at most μ₀, OpenFOAM's ``HerschelBulkley``: μ₀ in Pa s, τ₀ in Pa, k in Pa sⁿ."""
-
-    mu0: float
-    tau0: float
-    k: float
-    n: float
-
-    law: ClassVar = staticmethod(herschel_bulkley)
-    by_density: ClassVar = ("mu0", "tau0", "k")
+class HerschelBulkley(laws.HerschelBulkley, RateViscosity):
+    """See :class:`foamprb.body.viscosity.HerschelBulkley`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Casson(RateViscosity):
-    """(√(τ₀/γ̇) + √m)² between two limits, OpenFOAM's ``Casson``: m and limits in Pa s, τ₀ in Pa."""
-
-    m: float
-    tau0: float
-    muMin: float = 0.0
-    muMax: float = math.inf
-
-    law: ClassVar = staticmethod(casson)
-    by_density: ClassVar = ("m", "tau0", "muMin", "muMax")
+class Casson(laws.Casson, RateViscosity):
+    """See :class:`foamprb.body.viscosity.Casson`."""
 
 
 RATE_LAWS: dict[str, type[RateViscosity]] = {

@@ -391,7 +391,7 @@ def test_viscosity(case: Path, read: Reader, text: str) -> None:
         ("transportModel Newtonian;", "transportProperties: nu is missing"),
         (
             "transportModel CrossPowerlaw; nu 1e-5;",
-            "transportModel is 'CrossPowerlaw'. Allowed: Newtonian, constant, CrossPowerLaw, BirdCarreau, ",
+            "transportModel is 'CrossPowerlaw'. Allowed: Newtonian, constant, BirdCarreau, Casson, ",
         ),
         (
             "transportModel powerLaw; k 1; nuMin 0; nuMax 1;",

@@ -12,7 +12,7 @@ from typing import Annotated, Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from foamprb.body.viscosity import bird_carreau, casson, cross_power_law, herschel_bulkley, power_law
+from foamprb.body.viscosity import LAWS
 from foamprb.dictionary.constraints import Choice, Positive
 from foamprb.dictionary.dimensions import DYNAMIC_VISCOSITY, KINEMATIC_VISCOSITY
 from foamprb.dictionary.files import existing
@@ -45,13 +45,13 @@ class RateLaw(NamedTuple):
     """Viscosity by the shear rate."""
 
     model: str
-    """OpenFOAM's name, a key of :data:`LAWS`."""
+    """OpenFOAM's name, a key of :data:`foamprb.body.viscosity.LAWS`."""
     coefficients: Mapping[str, float]
     """By OpenFOAM's names, of the kinematic viscosity."""
 
     def __call__(self, rate: float) -> float:
         """Return the kinematic viscosity, m²/s, at a shear rate, 1/s."""
-        return float(LAWS[self.model][1](rate, *self.coefficients.values()))
+        return float(LAWS[self.model].law(rate, *self.coefficients.values()))
 
 
 class ViscosityField(NamedTuple):
@@ -158,9 +158,8 @@ def _nu_of(root: Dictionary) -> float:
 def _law_of(dictionary: Dictionary, model: str, given: Mapping[str, float]) -> RateLaw:
     """Return the law of a model, with coefficients from ``…Coeffs`` or beside it, if they are not given."""
     own = dictionary.entries.get(f"{model}Coeffs", dictionary).dictionary()
-    names, _, defaults = LAWS[model]
     found, mistakes = dict[str, float](), Mistakes()
-    for name in names:
+    for name, default in LAWS[model].kinematic_names().items():
         with mistakes:
             if name in given:
                 found[name] = given[name]
@@ -169,8 +168,8 @@ def _law_of(dictionary: Dictionary, model: str, given: Mapping[str, float]) -> R
                 if number is None or not math.isfinite(number):
                     raise own.entries[name].mistake(f"is {own.entries[name]}. Allowed: a number.")
                 found[name] = number
-            elif name in defaults:
-                found[name] = defaults[name]
+            elif default is not None:
+                found[name] = default
             else:
                 raise own.missing(name, f"Allowed: a number, a coefficient of {model}.")
     mistakes.raise_any()
@@ -197,7 +196,9 @@ def _generalised_law(laminar: Dictionary, nu0: float) -> RateLaw:
     # In some versions ν₀ takes the place of k.
     if model == "powerLaw" and ("k" not in own.entries or word_of(laminar, "model") == _WITHOUT_K):
         given["k"] = nu0
-    return _law_of(laminar, model, {name: given[name] for name in LAWS[model][0] if name in given})
+    return _law_of(
+        laminar, model, {name: given[name] for name in LAWS[model].kinematic_names() if name in given}
+    )
 
 
 class _Fields(NamedTuple):
@@ -470,14 +471,3 @@ def _number(dictionary: Dictionary, key: str) -> float | None:
         return float(entry.tokens[-1]) if isinstance(entry, Stream) and entry.tokens else None
     except ValueError:
         return None
-
-
-_NO_LIMIT = {"nuMin": 0.0, "nuMax": math.inf}
-LAWS: dict[str, tuple[tuple[str, ...], Callable[..., Any], Mapping[str, float]]] = {
-    "CrossPowerLaw": (("nu0", "nuInf", "m", "n"), cross_power_law, {}),
-    "BirdCarreau": (("nu0", "nuInf", "k", "n", "a"), bird_carreau, {"a": 2.0}),
-    "powerLaw": (("k", "n", "nuMin", "nuMax"), power_law, {}),
-    "HerschelBulkley": (("nu0", "tau0", "k", "n"), herschel_bulkley, {}),
-    "Casson": (("m", "tau0", "nuMin", "nuMax"), casson, {}),
-}
-"""OpenFOAM's models: names of their coefficients, formula, and values of optional coefficients."""
