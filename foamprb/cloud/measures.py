@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
+from types import MappingProxyType
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -59,6 +60,7 @@ from foamprb.cloud.state import Particles, Status
 from foamprb.cloud.viscosity import VaryingViscosity, viscosity_of
 from foamprb.compile.link import link
 from foamprb.flow.base import Flow, Sampled
+from foamprb.flow.fields import Fields, FieldValues, columns_of
 
 Floats = NDArray[np.float64]
 
@@ -106,6 +108,8 @@ class Context(NamedTuple):
     time: float
     mu: Floats
     """(n,), viscosity of the fluid at the centres, Pa s; NaN where it varies and the fluid is unknown."""
+    fields: Callable[[], Mapping[str, FieldValues]]
+    """Returns the sampled fields of the case at the centres, by :func:`name_of_field`."""
 
 
 class FlowSamples(NamedTuple):
@@ -117,6 +121,8 @@ class FlowSamples(NamedTuple):
     """∂u_i/∂x_j, (n, 9), 1/s."""
     mu: Floats | None = None
     """Viscosity of the fluid, (n,), Pa s, if it varies."""
+    fields: Mapping[str, FieldValues] = MappingProxyType({})
+    """Sampled fields of the case."""
 
 
 class Measure(NamedTuple):
@@ -359,6 +365,34 @@ that of the longest and the shortest axis; the components of ``stresslet`` are x
 ``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
 fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there.
 """
+_TAKEN = frozenset(MEASURES) | frozenset(
+    (
+        "id", "d", "rho", "Ca", "t0", "x0", "y0", "z0", "t1", "x1", "y1", "z1", "fate", "patch",
+        "a", "b", "c", "D", "time", "injector",
+    )
+)  # fmt: skip
+
+
+def name_of_field(name: str) -> str:
+    """Return the name under which a field of the case is written: with a c, as ``rhoc``, if it is taken."""
+    return name_of_field(f"{name}c") if name in _TAKEN else name
+
+
+def fields_at(flow: Sampled, x: Floats, hosts: NDArray[np.int32], t: Any) -> dict[str, FieldValues]:
+    """Return the sampled fields of a flow at points (n, 3) in hosts (n,), −1 for none, by name.
+
+    The times t, s, are one for all or (n,).
+    """
+    columns = columns_of(flow)
+    if not columns:
+        return {}
+    if len(x) == 0:
+        return {name_of_field(c.name): FieldValues(np.empty((0, c.components)), c.unit) for c in columns}
+    given: Any = flow
+    fields: Fields = given.fields(float(np.min(t)), float(np.max(t)))
+    return {name_of_field(name): values for name, values in fields.at(x, hosts, t).items()}
+
+
 OPTIONAL = tuple(name for name, measure in MEASURES.items() if measure.optional)
 """Names of the measures that files contain on request only."""
 
@@ -443,13 +477,14 @@ def flow_samples(
     u, l_f = np.full((particles.size, 3), np.nan), np.full((particles.size, 9), np.nan)
     mu_f = np.full(particles.size, np.nan) if isinstance(mu, VaryingViscosity) else None
     rows = injected(particles)
+    fields = fields_at(flow, particles.x, particles.host, time)
     for start in range(0, len(rows), PER_CONTEXT):
         chosen = as_slice(rows[start : start + PER_CONTEXT])
         x, hosts = particles.x[chosen], particles.host[chosen]
         u[chosen], l_f[chosen] = _sampled(x, hosts, flow, time)
         if mu_f is not None:
             mu_f[chosen] = viscosity_of(mu, flow, x, hosts, l_f[chosen], time)
-    return FlowSamples(u, l_f, mu_f)
+    return FlowSamples(u, l_f, mu_f, fields)
 
 
 def _prepare(
@@ -464,6 +499,7 @@ def _prepare(
     p = particles.take(chosen)
     if isinstance(flow, FlowSamples):
         u, l, sampled = flow.u[chosen], flow.l_f[chosen], flow.mu
+        given = {name: FieldValues(f.values[chosen], f.unit) for name, f in flow.fields.items()}
     else:
         u, l = _sampled(p.x, p.host, flow, time)
         sampled = None
@@ -476,7 +512,10 @@ def _prepare(
     )  # fmt: skip
     F, frame, l_f = tuple(p.F.T), tuple(frames[:9]), tuple(l.T)
     numbers = rows if ids is None else ids[rows]
-    return Context(p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu_f)
+    fields = (lambda: given) if isinstance(flow, FlowSamples) else partial(fields_at, flow, p.x, p.host, time)
+    return Context(
+        p, F, frame, (frames[9], frames[10], frames[11]), u, l_f, found, numbers, time, mu_f, fields
+    )
 
 
 @cache

@@ -30,7 +30,7 @@ def report(
     further: Collection[str] = (),
     ids: NDArray[np.int64] | None = None,
 ) -> Parts:
-    """Return all measures of the injected particles, computed part by part on request.
+    """Return all measures and sampled fields of the injected particles, computed part by part on request.
 
     Parameters
     ----------
@@ -45,6 +45,9 @@ def report(
 
     def parts() -> Iterator[PointCloud]:
         for c in contexts(particles, flow, mu, time, ids):
-            yield PointCloud(time, c.particles.x, measure(c, further), units, names)
+            fields = c.fields()
+            arrays = measure(c, further) | {name: f.array for name, f in fields.items()}
+            all_units = units | {name: f.unit for name, f in fields.items()}
+            yield PointCloud(time, c.particles.x, arrays, all_units, names)
 
     return Parts(time, number_of_contexts(len(injected(particles))), parts())

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.contact import Rebounds, passages
-from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts
+from foamprb.cloud.measures import MEASURES, PER_CONTEXT, Context, as_slice, contexts, fields_at
 from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Particles, Status
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
+from foamprb.flow.fields import FieldValues
 from foamprb.results.tables import Column
 
 __all__ = [
@@ -87,6 +88,17 @@ class ObservedCloud:
         p = p._replace(status=np.full_like(p.status, Status.ACTIVE))
         return contexts(p, self.cloud.flow, self.cloud.medium.mu, self.time)
 
+    def fields(self, rows: Rows) -> Mapping[str, FieldValues]:
+        """Return the sampled fields at particles at their times; NaN at pending ones."""
+        p = self.particles.take(rows)
+        hosts = np.where(p.status == Status.PENDING, np.int32(-1), p.host)
+        return fields_at(self.cloud.flow, p.x, hosts, np.minimum(p.t, self.time))
+
+    def fields_at_release(self, rows: Rows, hosts: NDArray[np.int32]) -> Mapping[str, FieldValues]:
+        """Return the sampled fields where and when particles were released in their hosts."""
+        p = self.particles
+        return fields_at(self.cloud.flow, p.x0[rows], hosts, p.t0[rows])
+
     def measure(self, rows: Rows, *names: str) -> list[NDArray[Any]]:
         """Return some of :data:`foamprb.cloud.measures.MEASURES` of particles of any status."""
         return _collect(self.contexts(rows), [MEASURES[name].value for name in names])
@@ -110,7 +122,7 @@ class CloudFunction:
 
     @property
     def needed_fields(self) -> tuple[str, ...]:
-        """Names of the scalar fields of the case that it needs."""
+        """Names of the fields of the case that it samples."""
         return ()
 
     def begin(self, cloud: ObservedCloud) -> Memory:  # noqa: ARG002
@@ -123,6 +135,10 @@ class CloudFunction:
     def write(self, memory: Memory, cloud: ObservedCloud, folder: Path) -> None:
         """Write the data into the function's own folder, at each write time."""
         raise NotImplementedError
+
+    def fates(self, memory: Memory, cloud: ObservedCloud) -> Mapping[str, Column]:  # noqa: ARG002
+        """Return columns of ``fates``, with a row for each particle of the cloud; by default none."""
+        return {}
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:  # noqa: ARG002
         """Return whether it needs the records of rebounds or passages, by the interactions of the patches."""

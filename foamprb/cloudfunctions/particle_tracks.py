@@ -15,17 +15,21 @@ from foamprb.cloud.patches import CYCLIC, Interaction
 from foamprb.cloud.state import Status
 from foamprb.cloudfunctions.base import STATUS_NAMES, CloudFunction, Memory, ObservedCloud, Rows
 from foamprb.dictionary.constraints import AtLeastOne, Meaning
+from foamprb.flow.fields import FieldValues
 from foamprb.results.vtk import Tracks, write_tracks
 
 __all__ = ["ParticleTracks"]
 
 _TRACKED = ("semiAxes", "taylorDeformation", "shearRate")
+# The sampled fields follow.
 _POINT = ("x", "y", "z", "t", "Ux", "Uy", "Uz", "a", "b", "c", "D", "shearRate", "begins")
 
 
 @dataclass(frozen=True)
 class ParticleTracks(CloudFunction):
     """Paths of particles, with velocity, semi-axes, D and shear rate at their points: ``tracks.vtp``.
+
+    The fields of ``fieldSampling`` are added.
 
     A path begins at the release, has a point every ``trackInterval`` steps and at the write times, and ends
     with the particle. It has at most ``maxSamples`` points. At most ``maxTracks`` particles are tracked,
@@ -48,13 +52,16 @@ class ParticleTracks(CloudFunction):
         """Return paths with one point each, the place of release."""
         n = cloud.particles.size
         tracks = min(n, self.maxTracks)
+        rows = np.arange(tracks) * n // max(tracks, 1)
+        points = self._points(cloud, rows)
         memory = {
-            "row": np.arange(tracks) * n // max(tracks, 1),
+            "row": rows,
+            "host": cloud.particles.host[rows],
             "closed": np.zeros(tracks, dtype=bool),
             "count": np.zeros(tracks, dtype=np.int64),
-            "points": np.zeros((tracks, min(self.maxSamples, 16), len(_POINT))),
+            "points": np.zeros((tracks, min(self.maxSamples, 16), points.shape[1])),
         }
-        self._append(memory, np.arange(tracks), self._points(cloud, memory["row"]))
+        self._append(memory, np.arange(tracks), points)
         return memory
 
     def needs_rebounds(self, interactions: Mapping[str, Interaction]) -> bool:
@@ -69,9 +76,10 @@ class ParticleTracks(CloudFunction):
                 p = cloud.particles.take(met.number)._replace(F=met.F)
                 axes, D = cloud.collect_of(p, *(MEASURES[name].value for name in _TRACKED[:2]))
                 tracks = np.searchsorted(memory["row"], met.number)
-                # The flow may have changed since: the shear rate is that of the point before.
-                rate = memory["points"][tracks, memory["count"][tracks] - 1, 11]
-                points = [met.x, met.t, met.v, axes, D, rate, np.full(p.size, begins)]
+                # The flow may have changed since: shear rate and fields are those of the point before.
+                last = memory["points"][tracks, memory["count"][tracks] - 1]
+                begin = np.full(p.size, begins)
+                points = [met.x, met.t, met.v, axes, D, last[:, 11], begin, last[:, len(_POINT) :]]
                 self._append(memory, tracks, np.column_stack(points))
 
     def sample(self, memory: Memory, cloud: ObservedCloud) -> None:
@@ -80,13 +88,18 @@ class ParticleTracks(CloudFunction):
         last = memory["points"][np.arange(len(status)), memory["count"] - 1, 3]
         moved = cloud.particles.t[memory["row"]] > last
         tracks = np.flatnonzero(~memory["closed"] & (status != Status.PENDING) & moved)
+        first = tracks[memory["count"][tracks] == 1]
+        fields = cloud.fields_at_release(memory["row"][first], memory["host"][first])
+        if fields and len(first):
+            values = np.concatenate([f.values for f in fields.values()], axis=1)
+            memory["points"][first, 0, len(_POINT) :] = values
         self._append(memory, tracks, self._points(cloud, memory["row"][tracks]))
         memory["closed"] |= status > Status.ACTIVE
 
     def _points(self, cloud: ObservedCloud, rows: Rows) -> NDArray[np.float64]:
         p = cloud.particles
         point = [p.x[rows], p.t[rows], p.v[rows], *cloud.measure(rows, *_TRACKED), np.zeros(len(rows))]
-        return np.column_stack(point)
+        return np.column_stack([*point, *(f.values for f in cloud.fields(rows).values())])
 
     def _append(self, memory: Memory, tracks: Rows, points: NDArray[np.float64]) -> None:
         fits = memory["count"][tracks] < self.maxSamples
@@ -94,7 +107,7 @@ class ParticleTracks(CloudFunction):
         at = memory["count"][tracks]
         room = memory["points"].shape[1]
         if len(at) and at.max() >= room:
-            more = np.zeros((len(memory["row"]), min(room, self.maxSamples - room), len(_POINT)))
+            more = np.zeros_like(memory["points"][:, : self.maxSamples - room])
             memory["points"] = np.concatenate([memory["points"], more], axis=1)
         memory["points"][tracks, at] = points
         memory["count"][tracks] += 1
@@ -109,16 +122,23 @@ class ParticleTracks(CloudFunction):
         first = np.cumsum(count) - count
         start = np.union1d(first, np.flatnonzero(points[:, 12])).astype(np.int64)
         rows = memory["row"][tracks][np.searchsorted(first, start, side="right") - 1]
+        fields = cloud.fields(rows[:0])
+        ends = len(_POINT) + np.cumsum([f.values.shape[1] for f in fields.values()], dtype=int)
+        found = {
+            name: FieldValues(points[:, end - f.values.shape[1] : end], f.unit).array
+            for (name, f), end in zip(fields.items(), ends, strict=True)
+        }
         write_tracks(
             folder / "tracks.vtp",
             Tracks(
                 points[:, :3].copy(),
                 np.append(start, len(points)),
                 {"time": points[:, 3], "U": points[:, 4:7], "semiAxes": points[:, 7:10],
-                 "taylorDeformation": points[:, 10], "shearRate": points[:, 11]},
+                 "taylorDeformation": points[:, 10], "shearRate": points[:, 11], **found},
                 {"origId": rows, "d": 2.0 * p.R[rows], "Ca": p.Ca[rows], "injector": p.injector[rows],
                  "status": p.status[rows], "patch": p.patch[rows]},
-                {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)},
+                {"time": "s", "d": "m", "Ca": "1"} | {n: MEASURES[n].unit for n in ("U", *_TRACKED)}
+                | {name: f.unit for name, f in fields.items()},
                 {"status": STATUS_NAMES, "patch": cloud.patches, "injector": cloud.injectors},
             ),
         )  # fmt: skip

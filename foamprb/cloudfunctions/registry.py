@@ -19,6 +19,7 @@ from foamprb.cloudfunctions.particle_tracks import ParticleTracks
 from foamprb.cloudfunctions.patch_post_processing import PatchPostProcessing
 from foamprb.cloudfunctions.suspension_stress import SuspensionStress
 from foamprb.errors import InputError
+from foamprb.results.tables import Column
 
 __all__ = ["FUNCTIONS", "CloudFunctions"]
 
@@ -81,6 +82,11 @@ class CloudFunctions:
         for name, function in self.functions.items():
             function.sample(self._memory[name], self._cloud)
             function.write(self._memory[name], self._cloud, folder / name)
+
+    def fates(self) -> dict[str, Column]:
+        """Return the columns that the functions add to ``fates``."""
+        functions = self.functions.items()
+        return {k: c for name, f in functions for k, c in f.fates(self._memory[name], self._cloud).items()}
 
     def state(self) -> Memory:
         """Return the data of all functions, by ``function/array``."""

@@ -20,6 +20,7 @@ __all__ = [
     "described",
     "read_dimensions",
     "read_unit",
+    "unit_text",
     "written",
 ]
 
@@ -145,6 +146,17 @@ def read_unit(text: str) -> tuple[Dimensions, float] | None:
 def written(dimensions: Dimensions) -> str:
     """Return dimensions as OpenFOAM writes them."""
     return f"[{' '.join(f'{exponent:g}' for exponent in dimensions)}]"
+
+
+def unit_text(dimensions: Dimensions) -> str:
+    """Return the unit of a quantity in SI: ``m/s2``, ``kg/(m s)``, ``1/s``; ``1`` without one."""
+    powers = list(zip(("kg", "m", "s", "K", "mol", "A", "cd"), dimensions, strict=True))
+    above, below = (
+        [f"{unit}{'' if n * sign == 1 else f'{n * sign:g}'}" for unit, n in powers if n * sign > 0]
+        for sign in (1, -1)
+    )
+    bottom = f"({' '.join(below)})" if len(below) > 1 else "".join(below)
+    return (" ".join(above) or "1") + (f"/{bottom}" if below else "")
 
 
 def described(dimensions: Dimensions) -> str:

@@ -74,8 +74,10 @@ class Images:
 
 
 def _turned(turns: Floats, values: Floats) -> Floats:
-    """Return Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T (n, 3, …, 3)."""
+    """Return Q_ia Q_jb … T_ab… for n rotations or mirrors Q (n, 3, 3) and tensors T, (n,) to (n, 3, …, 3)."""
     rank = values.ndim - 1
+    if rank == 0:
+        return values
     old, new = "abc"[:rank], "ijk"[:rank]
     factors = ",".join(f"n{i}{a}" for i, a in zip(new, old, strict=True))
     turned: Floats = np.einsum(f"{factors},n{old}->n{new}", *[turns] * rank, values, optimize=True)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from foamprb.compile.link import link
 from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
+from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
 from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
@@ -145,7 +146,8 @@ class MeshFlow:
         viscosity: Floats | None = None,
     ) -> None:
         self._time = time
-        self.scalars: Mapping[str, Floats] = {}
+        self.field_columns: tuple[FieldColumns, ...] = ()
+        self.field_table: NDArray[np.float64] = np.empty((0, 0))
         self.mesh = mesh
         self._zones = zones
         self.patches = mesh.patches
@@ -296,10 +298,9 @@ class MeshFlow:
         """Return the field of the viscosity at all nodes, as it was read, (n,)."""
         return self._arrays.viscosity[:, 0]
 
-    def scalar(self, name: str, points: Floats, hosts: Ints) -> Floats:
-        """Return one of the scalar fields at points (n, 3) in hosts (n,), (n,)."""
-        arrays = self._arrays._replace(viscosity=self.scalars[name])
-        return viscosity_with(viscosity, arrays, points, hosts, 0.0)
+    def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
+        """Return the fields that are sampled, from time ``start`` to ``end``, s."""
+        return fields_on(self._arrays, self.field_table, self.field_columns)
 
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return mesh and velocities by name."""
@@ -307,7 +308,7 @@ class MeshFlow:
         if len(arrays["viscosity"]) == 0:
             del arrays["viscosity"]
         fixed = {name: a for name, a in arrays.items() if not name.startswith(("wall_", "seen"))}
-        return fixed | {f"scalar {name}": table for name, table in self.scalars.items()}
+        return fixed | ({"sampled": self.field_table} if self.field_columns else {})
 
     def locate(self, points: Floats) -> Ints:
         """Return the tetrahedra (n,) that hold the points (n, 3), −1 outside the mesh."""

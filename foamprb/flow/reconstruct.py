@@ -117,15 +117,13 @@ class Reconstruction:
             self._images.agree(values)
         return u_nodes, l_nodes
 
-    def scalars(self, cells: Floats, boundary: Floats, *, linear: bool = False) -> tuple[Floats, Floats]:
+    def scalars(self, cells: Floats, boundary: Floats) -> tuple[Floats, Floats]:
         """Reconstruct three scalars within the range of the values around a node, so that they stay positive.
 
         Parameters
         ----------
         cells, boundary
             (n_cells, 3) and (n_boundary, 3); :func:`mean_series` takes three at a time.
-        linear
-            Reproduce linear fields instead, beyond that range beside a front.
 
         Returns
         -------
@@ -137,10 +135,8 @@ class Reconstruction:
         at_sites = np.concatenate([cells, boundary[self._valued], cells[images.cells]])
         slopes_of_cells = np.zeros((n, m, 3))
         self._gradient(at_sites, slopes_of_cells)
-        of_sites = [np.concatenate([s, s[owner], images.turned(s)]) for s in slopes_of_cells.swapaxes(0, 1)]
-        means = self._means(at_sites, np.stack(of_sites, axis=1) if linear else None)
-        values = np.concatenate([means, cells])
-        if len(self._walls) and not linear:
+        values = np.concatenate([self._means(at_sites), cells])
+        if len(self._walls):
             rows, columns = points_of_faces(mesh, self._walls)
             on_wall, place = np.unique(rows, return_inverse=True)
             count = np.bincount(place)
@@ -150,20 +146,38 @@ class Reconstruction:
         slopes = np.zeros((mesh.n_points + n, m, 3))
         for f in range(m):
             own = slopes_of_cells[:, f]
-            slopes[: mesh.n_points, f] = self._means(of_sites[f])
+            slopes[: mesh.n_points, f] = self._means(np.concatenate([own, own[owner], images.turned(own)]))
             images.agree(slopes[: mesh.n_points, f])
             slopes[mesh.n_points :, f] = own
         return values, slopes
 
-    def scalar(self, cells: Floats, boundary: Floats, *, linear: bool = False) -> Floats:
+    def scalar(self, cells: Floats, boundary: Floats) -> Floats:
         """Return a scalar and its gradient at the nodes, (n_nodes, 4).
 
         ``cells`` (n_cells,) and ``boundary`` (n_boundary,) are its values; see :meth:`scalars`, which takes
         three.
         """
-        three = (np.repeat(a[:, None], 3, axis=1) for a in (cells, boundary))
-        values, slopes = self.scalars(*three, linear=linear)
+        values, slopes = self.scalars(*(np.repeat(a[:, None], 3, axis=1) for a in (cells, boundary)))
         return np.concatenate([values[:, :1], slopes[:, 0]], axis=1)
+
+    def linear(self, cells: Floats, boundary: Floats) -> Floats:
+        """Return a scalar, a vector or a tensor at the nodes, (n_nodes, 3, …); linear fields are exact.
+
+        ``cells`` (n_cells, 3, …) and ``boundary`` (n_boundary, 3, …) are its values. Beside a front it may
+        exceed their range.
+        """
+        n, owner, turned = self.mesh.n_cells, self._owner[self._valued], self._images.turned
+        values = np.concatenate([cells, boundary[self._valued], turned(cells)])
+        flat = values.reshape(len(values), -1)
+        found = np.zeros((n, flat.shape[1], 3))
+        self._gradient(flat, found)
+        slopes = found.reshape(*cells.shape, 3)
+        of_sites = np.concatenate([slopes, slopes[owner], turned(slopes)]).reshape(len(values), -1, 3)
+        at_points = np.empty((self.mesh.n_points, flat.shape[1]))
+        for k in range(0, flat.shape[1], 3):
+            three = np.minimum(np.arange(k, k + 3), flat.shape[1] - 1)
+            at_points[:, three] = self._means(np.take(flat, three, 1), np.take(of_sites, three, 1))
+        return np.concatenate([at_points.reshape(-1, *cells.shape[1:]), cells])
 
     def _means(self, values: Floats, slopes: Floats | None = None) -> Floats:
         """Average values (n_sites, 3) at the mesh points, (n_points, 3), by the inverse distance.

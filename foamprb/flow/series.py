@@ -20,6 +20,7 @@ from foamprb.body.faxen import Curvature
 from foamprb.body.tensor import Tensor, Vector, between, dot_vector, minus, plus
 from foamprb.errors import InputError
 from foamprb.flow.base import Floats, Ints, PatchFaces, Planes, Turbulence
+from foamprb.flow.fields import FieldColumns, Fields, fields_on, width
 from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.locator import locate
 from foamprb.flow.mesh.mesh import Mesh
@@ -201,8 +202,9 @@ class SeriesFlow(MeshFlow):
     read
         Returns u (n_nodes, 3), m/s, and l (n_nodes, 3, 3), 1/s, at the time of an index; with ``turbulent``
         also k, ε, ∇k and ∇(k²/3ε), (n_nodes, 8); with ``viscous`` also the viscosity and its gradient,
-        (n_nodes, 4); with ``conservative`` last the correction of u, (n_tets, 8)
-        (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not always the same.
+        (n_nodes, 4); with ``sampled`` also these fields, (n_nodes, columns); with ``conservative`` last the
+        correction of u, (n_tets, 8) (:mod:`foamprb.flow.fluxes`). It is called by one thread at a time, not
+        always the same.
     period
         Duration after which the flow repeats itself, s. Times from ``times[0] + period`` on are ignored; at
         that time the first field follows.
@@ -214,6 +216,8 @@ class SeriesFlow(MeshFlow):
         Returns the cells of each zone by name; called when a zone is requested.
     turbulent, conservative, viscous
         Whether ``read`` returns the turbulence, the correction, and the viscosity.
+    sampled
+        Further fields that ``read`` returns.
 
     Raises
     ------
@@ -249,6 +253,7 @@ class SeriesFlow(MeshFlow):
         turbulent: bool = False,
         conservative: bool = False,
         viscous: bool = False,
+        sampled: Sequence[FieldColumns] = (),
     ) -> None:
         self.times = tuple(times) if period is None else _one_period(times, period)
         if np.any(np.diff(self.times) <= 0.0):
@@ -261,6 +266,8 @@ class SeriesFlow(MeshFlow):
         self._slack = _SLACK * float(np.diff(self._ends).min())
         self.span = (self.times[0], self.times[-1] if period is None else math.inf)
         self._turbulent = turbulent
+        self.field_columns = tuple(sampled)
+        self.field_table: NDArray[np.float64] = np.empty((0, nodes, width(sampled)))
         self._fields = np.empty((0, nodes, _width(turbulent, viscous)))
         self._corrections = np.empty((0, len(mesh.tets) if conservative else 0, 8), dtype=np.float32)
         self._in_memory: dict[int, int] = {}
@@ -354,11 +361,27 @@ class SeriesFlow(MeshFlow):
         """Return the field of the viscosity at all nodes at the first time, as it was read, (n,)."""
         return self._first()[:, -_OF_VISCOSITY]
 
+    def fields(self, start: float, end: float) -> Fields:
+        """Load times and return the fields that are sampled; see :meth:`MeshFlow.fields` and :meth:`load`."""
+        self.load(start, end)
+        nodes = self.field_table.shape[1]
+        first = [self._in_memory[self._index(level)] * nodes for level in self._levels]
+        times = [self._time_of(level) for level in self._levels]
+        return fields_on(
+            self._arrays,
+            self.field_table.reshape(-1, self.field_table.shape[2]),
+            self.field_columns,
+            first,
+            times,
+        )
+
     def traits(self) -> Mapping[str, ArrayLike]:
         """Return mesh, times, and fields at the first time, by name."""
+        first = self._first()
+        sampled = {"sampled": self.field_table[self._in_memory[0]]} if self.field_columns else {}
         return {
-            **super().traits(), "times": self.times, "period": self.period or 0.0, "fields": self._first(),
-            "correction": self._corrections[self._in_memory[0]],
+            **super().traits(), "times": self.times, "period": self.period or 0.0, "fields": first,
+            "correction": self._corrections[self._in_memory[0]], **sampled,
         }  # fmt: skip
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
@@ -404,12 +427,9 @@ class SeriesFlow(MeshFlow):
     def _make_room(self, wanted: Sequence[int]) -> None:
         capacity = max(len(set(wanted)), min(self._keep, len(self.times)))
         if capacity > len(self._fields):
-            fields = np.empty((capacity, *self._fields.shape[1:]))
-            fields[: len(self._fields)] = self._fields
-            self._fields = fields
-            corrections = np.empty((capacity, *self._corrections.shape[1:]), dtype=np.float32)
-            corrections[: len(self._corrections)] = self._corrections
-            self._corrections = corrections
+            self._fields = _grown(self._fields, capacity)
+            self._corrections = _grown(self._corrections, capacity)
+            self.field_table = _grown(self.field_table, capacity)
         for index in wanted:
             if index in self._in_memory:
                 self._in_memory[index] = self._in_memory.pop(index)
@@ -427,6 +447,8 @@ class SeriesFlow(MeshFlow):
         self._fields[place, :, 3:_OF_VELOCITY] = l.reshape(-1, 9)
         if self._corrections.shape[1] > 0:
             self._corrections[place] = more.pop()
+        if self.field_columns:
+            self.field_table[place] = more.pop()
         if more:
             self._fields[place, :, _OF_VELOCITY:] = np.concatenate(more, axis=1)
         self._in_memory[index] = place
@@ -435,6 +457,13 @@ class SeriesFlow(MeshFlow):
         if self._prefetched is None or self._prefetched[0] != index:
             self._prefetched = index, self._reader.submit(self._read, index)
         return self._prefetched[1]
+
+
+def _grown(array: NDArray[Any], n: int) -> NDArray[Any]:
+    """Return a copy of an array with n rows; further ones are not set."""
+    grown = np.empty((n, *array.shape[1:]), dtype=array.dtype)
+    grown[: len(array)] = array
+    return grown
 
 
 def _width(turbulent: bool, viscous: bool) -> int:
@@ -482,6 +511,7 @@ def series_of(
     turbulent: bool = False,
     conservative: bool = False,
     viscous: bool = False,
+    sampled: Sequence[FieldColumns] = (),
 ) -> SeriesFlow:
     """Return the flow of a case or a file at several times: a few of them in memory, or a whole short period.
 
@@ -495,7 +525,7 @@ def series_of(
         Names of the times, rising.
     read
         Returns the fields at the time of a name; see :class:`SeriesFlow`.
-    period, notes, zones, turbulent, conservative, viscous
+    period, notes, zones, turbulent, conservative, viscous, sampled
         See :class:`SeriesFlow`.
 
     Raises
@@ -505,7 +535,7 @@ def series_of(
     """
     note = f"The flow is linear in time between {len(names)} times from {names[0]} to {names[-1]}"
     note += "." if period is None else f", and repeats itself every {period:g} s."
-    size = 8 * _width(turbulent, viscous) * (mesh.n_points + mesh.n_cells)
+    size = 8 * (_width(turbulent, viscous) + width(sampled)) * (mesh.n_points + mesh.n_cells)
     size += 32 * len(mesh.tets) if conservative else 0
     keep = _MOST_IN_MEMORY // size if period is not None else 0
     times = [float(name) for name in names]
@@ -521,6 +551,7 @@ def series_of(
             turbulent,
             conservative,
             viscous,
+            sampled,
         )
     except InputError as error:
         raise InputError(f"{source}: {error}") from None

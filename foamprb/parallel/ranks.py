@@ -17,13 +17,14 @@ import logging
 import pickle
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.state import Status
 from foamprb.cloud.tracker import Outcome, never
+from foamprb.flow.fields import Fields, columns_of
 from foamprb.parallel.exchange import plan_exchange
 from foamprb.parallel.shared_memory import Publisher
 from foamprb.parallel.worker import Answer, Worker, piece_file
@@ -88,6 +89,15 @@ class Ranks:
         self.worker.wait_for_all()
         self.worker.comm.bcast(("finalise", (status,)))
         self.worker.finalise()
+
+
+class Published(NamedTuple):
+    """Data of the flow for all processes."""
+
+    flow: Any
+    """Arguments of its kernels."""
+    fields: Fields | None
+    """Fields that are sampled, for writing."""
 
 
 class RankStepper(Stepper):
@@ -156,7 +166,8 @@ class RankStepper(Stepper):
             If a file cannot be written.
         """
         self.cloud.flow.load(time, time)
-        self._publish(self.cloud.flow_arrays())
+        flow: Any = self.cloud.flow
+        self._publish(self.cloud.flow_arrays(), flow.fields(time, time) if columns_of(flow) else None)
         written = self.ranks.order("write", stem, time, names, further)
         pieces = [piece for piece in written if piece is not None]
         file = with_ending(stem, ".pvtp")
@@ -182,9 +193,9 @@ class RankStepper(Stepper):
         self._gathered = False
         return sum((share.outcome for share in shares), Outcome())
 
-    def _publish(self, flow: Any) -> None:
-        """Place the arguments of the flow's kernels in shared memory, where they have changed."""
-        placed = pickle.dumps(self.published.publish(flow))
+    def _publish(self, flow: Any, fields: Fields | None = None) -> None:
+        """Place the arguments of the flow's kernels and the fields in shared memory, where they changed."""
+        placed = pickle.dumps(self.published.publish(Published(flow, fields)))
         if placed != self._placed:
             self.ranks.order("use_flow", placed)
             self._placed = placed

@@ -20,6 +20,7 @@ from foamprb.cloud.state import Particles, Status, concatenate, empty
 from foamprb.cloud.tracker import Outcome, Tracker
 from foamprb.errors import InputError, RankError, RunStopped
 from foamprb.flow.base import Floats, Ints
+from foamprb.flow.fields import FieldColumns, Fields
 from foamprb.flow.sampling import sample_with, viscosity_with
 from foamprb.parallel.exchange import RECORD, pack, unpack
 from foamprb.parallel.shared_memory import Windows
@@ -58,6 +59,15 @@ class _SharedFlow(NamedTuple):
 
     kernels: Mapping[str, Callable[..., Any]]
     arrays: Any
+    sampled: Fields | None
+
+    @property
+    def field_columns(self) -> tuple[FieldColumns, ...]:
+        return () if self.sampled is None else self.sampled.columns
+
+    def fields(self, start: float, end: float) -> Fields:  # noqa: ARG002
+        assert self.sampled is not None
+        return self.sampled
 
     def sample(self, points: Floats, hosts: Ints, t: float) -> tuple[Floats, Floats]:
         return sample_with(self.kernels["sample"], self.arrays, points, hosts, t)
@@ -87,6 +97,7 @@ class Worker:
         # True for particles whose state the first process may not have.
         self._fresh = np.empty(0, dtype=bool)
         self._flow: Any = None
+        self._sampled: Fields | None = None
         self.signals: Sequence[int] = ()
         """Signals that this process has received; the sequence grows."""
 
@@ -137,8 +148,8 @@ class Worker:
         return ShareState(counts)
 
     def use_flow(self, flow: bytes) -> None:
-        """Replace the arguments of the flow's kernels, whose arrays are places in shared memory."""
-        self._flow = self.windows.find(pickle.loads(flow))
+        """Replace the arguments of the flow's kernels and the fields, whose arrays lie in shared memory."""
+        self._flow, self._sampled = self.windows.find(pickle.loads(flow))
 
     def exchange(self, plan: NDArray[np.int64]) -> None:
         """Send active particles and receive others: ``plan[i, j]`` from process i to j."""
@@ -202,7 +213,7 @@ class Worker:
         """
         if self.rank and not len(injected(self.particles)):
             return None
-        flow, mu = _SharedFlow(self._tracker.kernels, self._flow), self._tracker.mu
+        flow, mu = _SharedFlow(self._tracker.kernels, self._flow, self._sampled), self._tracker.mu
         file = piece_file(folder, self.rank)
         return file, write_snapshot(file, report(self.particles, flow, mu, time, names, further, self.ids))
 

@@ -165,7 +165,7 @@ def prepare(
     relative = settings.solution.rotatingZones == "relative"
     source = replace(source, turbulent=turbulent, relative=relative, viscosity=settings.fluid.field)
     needed = dict.fromkeys(name for f in settings.functions.values() for name in f.needed_fields)
-    source = replace(source, scalars=tuple(needed))
+    source = replace(source, sampled=tuple(needed))
     rotating = bool(rotations_of(case, source))
     compilation = _compile(settings, rotating) if precompile else None
     try:

@@ -397,7 +397,7 @@ def _write_fates(path: Path, job: Job, before: Callable[[Path], object]) -> None
             "t0": p.t0, "x0": p.x0[:, 0], "y0": p.x0[:, 1], "z0": p.x0[:, 2],
             "t1": p.t, "x1": p.x[:, 0], "y1": p.x[:, 1], "z1": p.x[:, 2],
             "fate": fates[p.status], "patch": patches[p.patch],
-            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D,
+            "a": axes[:, 0], "b": axes[:, 1], "c": axes[:, 2], "D": D, **job.functions.fates(),
         },
         before,
     )  # fmt: skip

@@ -4,25 +4,33 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import pyvista
 from foam_writer import header, write_case
 from observing import column, table
 from pipe_case import END, edit, results, short_case, stop_after, time_folder
+from transient_case import write_transient_case
 
 from foamprb.cli import main
+from foamprb.dictionary.dimensions import unit_text
 from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_transient_flow
 from foamprb.flow.read.openfoam import Case, steady_flow
 from foamprb.flow.read.source import FlowSource
 
 SLOPE = np.array([2.0, -3.0, 0.5])
+KINDS = {1: "Scalar", 3: "Vector", 6: "SymmTensor", 9: "Tensor"}
 
 
-def put_linear(folder, mesh, name="T", at=SLOPE):
-    """-1 + at · x, with values on all patches."""
+def put_linear(folder, mesh, name="T", at=SLOPE, begin=-1.0, dimensions="[0 0 0 1 0 0 0]"):
+    """``begin`` + at · x, with values on all patches; ``at`` is (3,) or (components, 3)."""
+    at = np.reshape(at, (-1, 3))
+    kind = KINDS[len(at)]
+    inner = kind[0].lower() + kind[1:]
 
     def listed(x):
-        values = x @ at - 1.0
-        return f"nonuniform List<scalar> {len(values)}({' '.join(f'{v:.17g}' for v in values)})"
+        rows = (" ".join(f"{v:.17g}" for v in row) for row in begin + x @ at.T)
+        text = " ".join(row if len(at) == 1 else f"({row})" for row in rows)
+        return f"nonuniform List<{inner}> {len(x)}({text})"
 
     starts = mesh.patch_start
     patches = " ".join(
@@ -30,34 +38,61 @@ def put_linear(folder, mesh, name="T", at=SLOPE):
         for patch, a, b in zip(mesh.patches, starts, starts[1:], strict=False)
     )
     (folder / name).write_text(
-        header("volScalarField", name) + "dimensions [0 0 0 1 0 0 0]; "
+        header(f"vol{kind}Field", name) + f"dimensions {dimensions}; "
         f"internalField {listed(mesh.centres)}; boundaryField {{ {patches} }}"
     )
 
 
-def test_a_linear_field_is_exact(tmp_path):
+@pytest.mark.parametrize("components", [1, 3, 6, 9])
+def test_a_linear_field_is_exact(components, tmp_path):
     write_case(tmp_path)
     mesh = Case(tmp_path).mesh("1e1").mesh
-    put_linear(tmp_path / "1e1", mesh)
-    flow = steady_flow(Case(tmp_path), "1e1", FlowSource(scalars=("T",)))
+    at = np.random.default_rng(2).normal(size=(components, 3))
+    put_linear(tmp_path / "1e1", mesh, at=at)
+    flow = steady_flow(Case(tmp_path), "1e1", FlowSource(sampled=("T",)))
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     x = low + (high - low) * np.random.default_rng(1).uniform(0.02, 0.98, (50, 3))
     hosts = flow.locate(x)
-    x, hosts = x[hosts >= 0], hosts[hosts >= 0]
-    assert len(x) > 40
-    np.testing.assert_allclose(flow.scalar("T", x, hosts), x @ SLOPE - 1.0, atol=1e-12)
+    assert np.count_nonzero(hosts >= 0) > 40
+    found = flow.fields(0.0, 0.0).at(x, hosts, 0.0)["T"]
+    expected = np.where(hosts[:, None] >= 0, x @ at.T - 1.0, np.nan)
+    # OpenFOAM's symmetric tensors are xx xy xz yy yz zz.
+    order = [0, 3, 5, 1, 4, 2] if components == 6 else range(components)
+    np.testing.assert_allclose(found.values, expected[:, order], atol=1e-12)
+    assert found.unit == "K"
+
+
+def test_units_are_written_as_quotients():
+    units = {
+        (1, -1, -2): "kg/(m s2)",
+        (0, 2, -2): "m2/s2",
+        (0, 0, -1): "1/s",
+        (0, 0, 0): "1",
+        (1, -3, 0): "kg/m3",
+    }
+    assert {key: unit_text((*key, 0, 0, 0, 0)) for key in units} == units
 
 
 def test_what_cannot_be_sampled_has_one_message(tmp_path):
     mesh = write_case(tmp_path)
     put_linear(tmp_path / "1e1", mesh)
-    with pytest.raises(
-        InputError,
-        match=r"fieldSampling: no field Tt at the time of the flow\. Did you mean 'T'\? Allowed: T, p\.",
-    ):
-        steady_flow(Case(tmp_path), "1e1", FlowSource(scalars=("Tt",)))
-    with pytest.raises(InputError, match="sampled in steady flows only"):
-        read_transient_flow(tmp_path, None, None, FlowSource(scalars=("T",)))
+    (tmp_path / "1e1/faces").write_text(header("surfaceScalarField", "faces"))
+    with pytest.raises(InputError, match=r"no field Tt at time 1e1\. Did you mean 'T'\? Allowed: T, U, p\."):
+        steady_flow(Case(tmp_path), "1e1", FlowSource(sampled=("Tt",)))
+    with pytest.raises(InputError, match=r"faces is a surfaceScalarField, which is not sampled \(time 1e1\)"):
+        steady_flow(Case(tmp_path), "1e1", FlowSource(sampled=("faces",)))
+
+
+def test_a_field_that_a_time_lacks_is_reported_at_the_start(tmp_path):
+    case = write_transient_case(tmp_path)
+    put_linear(case / "0", Case(case).mesh("0").mesh)
+    with pytest.raises(InputError, match=r"no field T at time 0\.5"):
+        read_transient_flow(case, None, None, FlowSource(sampled=("T",)))
+
+
+def run_steady(case, *options):
+    assert main(["run", "-case", str(case), *options]) == 0
+    return case / "postProcessing/softCloud"
 
 
 def test_values_along_paths_and_after_a_restart(tmp_path):
@@ -65,14 +100,15 @@ def test_values_along_paths_and_after_a_restart(tmp_path):
     time = time_folder(case)
     mesh = Case(case).mesh(time.name).mesh
     put_linear(time, mesh, at=np.array([100.0, 0.0, 0.0]))
-    entry = "cloudFunctions { sample { type fieldSampling; fields (T); }"
+    put_linear(time, mesh, "thermo:rho", begin=2.0, at=np.zeros(3))
+    put_linear(time, mesh, "rho", at=np.eye(3), begin=0.0, dimensions="[0 1 -1 0 0 0 0]")
+    entry = "cloudFunctions { sample { type fieldSampling; fields (T rho thermo:rho); }"
     edit(case, r"^cloudFunctions\s*\{", entry)
     stop_after(case, 0.5 * END)
-    assert main(["run", "-case", str(case), "-resume"]) == 0
+    run_steady(case, "-resume")
     resumed = results(case)
-    assert main(["run", "-case", str(case), "-overwrite"]) == 0
+    output = run_steady(case, "-overwrite")
     assert results(case) == resumed
-    output = case / "postProcessing/softCloud"
     rows, fates = (table(next(output.rglob(name))) for name in ("fields.csv", "fates.csv"))
     assert [row["id"] for row in rows] == [row["id"] for row in fates]
     assert "stuck" in {row["fate"] for row in rows}
@@ -82,3 +118,45 @@ def test_values_along_paths_and_after_a_restart(tmp_path):
     np.testing.assert_array_equal(column(rows, "TMax"), column(rows, "T"))
     moved = column(rows, "time") > column(fates, "t0")
     np.testing.assert_allclose(column(rows, "TMean")[moved], 0.5 * (first + last)[moved], rtol=0.01)
+    # The name of the vector is that of the particles' density.
+    np.testing.assert_allclose(column(rows, "rhocy"), column(fates, "y1"), atol=1e-12)
+    far = np.sqrt(sum(column(fates, f"{x}1") ** 2 for x in "xyz"))
+    assert (column(rows, "rhocMax") >= far * (1.0 - 1e-12)).all()
+    np.testing.assert_array_equal(column(fates, "T"), column(rows, "T"))
+    np.testing.assert_array_equal(column(fates, "rhocz"), column(rows, "rhocz"))
+    np.testing.assert_allclose(column(fates, "thermo:rho"), 2.0, rtol=1e-12)
+    for file in (sorted(output.rglob("*.vtp"))[0], *output.rglob("tracks.vtp")):
+        data = pyvista.read(file)
+        np.testing.assert_allclose(data.point_data["T"], 100.0 * data.points[:, 0] - 1.0, atol=1e-9)
+        np.testing.assert_allclose(data.point_data["rhoc"], data.points, atol=1e-12)
+        assert {"T K", "rhoc m/s", "thermo:rho K"} <= set(data.field_data["units"])
+
+
+def test_values_are_linear_between_the_times_of_a_transient_flow(tmp_path):
+    """T = 4 t + 0.01 x at the times of the flow, 0, 0.5 and 1.5."""
+    case = write_transient_case(tmp_path)
+    mesh = Case(case).mesh("0").mesh
+    for time in ("0", "0.5", "1.5"):
+        put_linear(case / time, mesh, at=np.array([0.01, 0.0, 0.0]), begin=4.0 * float(time))
+    functions = """cloudFunctions
+    {
+        sample { type fieldSampling; fields (T); sampleInterval 3; }
+        tracks { type particleTracks; trackInterval 4; maxSamples 100; }
+    }
+    solution"""
+    edit(case, r"^solution", functions)
+    # The particles start between two samples, at 0.3 s.
+    output = run_steady(case)
+    rows, fates = table(output / "sample/fields.csv"), table(output / "fates.csv")
+    first, last = (4.0 * column(fates, f"t{k}") + 0.01 * column(fates, f"x{k}") for k in (0, 1))
+    np.testing.assert_allclose(column(rows, "T"), last, rtol=1e-10)
+    np.testing.assert_allclose(column(fates, "T"), last, rtol=1e-10)
+    np.testing.assert_allclose(column(rows, "TMean"), 0.5 * (first + last), rtol=1e-4)
+    tracks = pyvista.read(output / "tracks/tracks.vtp")
+    expected = 4.0 * tracks.point_data["time"] + 0.01 * tracks.points[:, 0]
+    assert tracks.point_data["time"].min() == pytest.approx(0.3)
+    np.testing.assert_allclose(tracks.point_data["T"], expected, rtol=1e-10)
+    clouds = [pyvista.read(file) for file in sorted(output.glob("softCloud_*.vtp"))]
+    assert clouds[0].n_points == 0
+    assert "T" in clouds[0].point_data
+    np.testing.assert_allclose(clouds[-1].point_data["T"], last, rtol=1e-10)

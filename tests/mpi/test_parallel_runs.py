@@ -37,6 +37,7 @@ FUNCTIONS = """cloudFunctions
     loads   { type particleHistogram; sampleInterval 7; }
     plane   { type particleCollector; mode plane; origin (0.0005 0 0); normal (1 0 0); }
     stress  { type suspensionStress; }
+    fields  { type fieldSampling; fields (p); }
 }"""
 ENVIRONMENT = {
     **os.environ,
@@ -300,6 +301,7 @@ def test_ctrl_c_to_mpirun_ends_the_run_in_order(case):
 
 def test_a_flow_that_changes_in_time_is_shared_as_it_is_read(tmp_path):
     case = write_transient_case(tmp_path / "case")
+    edit(case, "^solution", "cloudFunctions { fields { type fieldSampling; fields (U p); } } solution")
     alone = Path(shutil.copytree(case, tmp_path / "alone"))
     assert main(["run", "-case", str(alone)]) == 0
     # However small the mesh is, its arrays are shared.

@@ -139,10 +139,10 @@ def _refuse_of_case(source: FlowSource) -> None:
             f"{source.file}: only the velocity is read from a mesh file, but the viscosity is a field of the "
             "case. Allowed: nu or mu in constantProperties, or the case itself."
         )
-    if source.scalars:
+    if source.sampled:
         raise InputError(
             f"{source.file}: only the velocity is read from a mesh file, but fieldSampling needs the fields "
-            f"{' '.join(source.scalars)}. Allowed: no fieldSampling, or the case itself."
+            f"{' '.join(source.sampled)}. Allowed: no fieldSampling, or the case itself."
         )
     if source.region:
         raise InputError(f"{source.file}: a mesh file has no regions, but the region is {source.region}.")

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from foamprb.dictionary.files import existing
 from foamprb.errors import InputError
 from foamprb.flow.base import Caveat, Floats
+from foamprb.flow.fields import FieldColumns
 from foamprb.flow.fluxes import Conservation
 from foamprb.flow.mesh.boundary import PolyMesh
 from foamprb.flow.mesh.mesh import Mesh, assemble
@@ -44,7 +45,7 @@ from foamprb.flow.read.density import mass_of
 from foamprb.flow.read.field import GRADIENT_FIELD, VELOCITY_FIELD, FoamField, Kind, read_field
 from foamprb.flow.read.mrf import read_rotations, rotating_zones, with_rotating_walls
 from foamprb.flow.read.polymesh import read_poly
-from foamprb.flow.read.scalars import read_scalars
+from foamprb.flow.read.sampled import kinds_of, read_sampled
 from foamprb.flow.read.source import FlowSource
 from foamprb.flow.read.turbulence import read_turbulence
 from foamprb.flow.read.viscosity import read_viscosity_field
@@ -235,9 +236,11 @@ def steady_flow(case: Case, time: float | str, source: FlowSource) -> MeshFlow:
     viscosity = at_nodes[-2] if source.viscosity else None
     given = whole.mesh, u, l, notes, zones, name, turbulence, at_nodes[-1], viscosity
     flow = RotatingFlow(rotating, *given) if rotating else MeshFlow(*given)
-    if source.scalars:
+    if source.sampled:
+        kinds = kinds_of(source.sampled, case.fields, (name,))
         read = partial(case.field, name)
-        flow.scalars = read_scalars(case.fields(name), read, source.scalars, whole, operators[0])
+        sampled = read_sampled(read, source.sampled, kinds, whole, operators[0])
+        flow.field_table, flow.field_columns = sampled
     return flow
 
 
@@ -246,11 +249,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     names = case.select_times(times)
     if len(names) == 1:
         return steady_flow(case, names[0], source)
-    if source.scalars:
-        raise InputError(
-            f"{case.root}: the fields {' '.join(source.scalars)} are sampled in steady flows only. "
-            "Allowed: solution/transient no, or no fieldSampling."
-        )
+    kinds = kinds_of(source.sampled, case.fields, names)
     _refuse_moving(case, names)
     refuse_absolute(case.root, case.region, case.folder(names[0]), source.velocity)
     whole = case.mesh(names[0])
@@ -258,9 +257,13 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     flux = caveat_of_flux(whole, *first, partial(case.field, names[0]), source.velocity)
     operators = Reconstruction(whole.mesh), Conservation(whole.mesh)
 
+    def sampled(name: str) -> tuple[Floats, tuple[FieldColumns, ...]]:
+        return read_sampled(partial(case.field, name), source.sampled, kinds, whole, operators[0])
+
     def read(name: str) -> tuple[Any, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
-        return _at_nodes(case, names, names.index(name), source, whole, operators, *values)
+        *found, correction = _at_nodes(case, names, names.index(name), source, whole, operators, *values)
+        return (*found, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*case.notes, *whole.notes]
     notes += notes_of_forms(case.folder(name) / source.velocity for name in names)[:1]
@@ -269,7 +272,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     notes += flux
     return series_of(
         case.root, whole.mesh, names, read, period, notes, zones, source.turbulent, conservative=True,
-        viscous=source.viscosity is not None,
+        viscous=source.viscosity is not None, sampled=sampled(names[0])[1] if kinds else (),
     )  # fmt: skip
 
 

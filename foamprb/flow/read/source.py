@@ -41,8 +41,8 @@ class FlowSource:
     """Describe rotating zones in the frames of their rotors."""
     viscosity: ViscosityField | None = None
     """Read also a field of the viscosity."""
-    scalars: tuple[str, ...] = ()
-    """Read also these scalar fields, of a steady flow."""
+    sampled: tuple[str, ...] = ()
+    """Read also these fields, for sampling."""
     reader: str = ""
     """``vtk`` to read a case's mesh by VTK's OpenFOAM reader, in single precision."""
 

@@ -17,7 +17,7 @@ from foamprb.flow.read.checks import at_cells
 from foamprb.flow.read.field import FoamField, Kind
 from foamprb.flow.reconstruct import Reconstruction
 
-__all__ = ["read_turbulence", "values_of"]
+__all__ = ["given_values", "read_turbulence", "values_of"]
 
 _K = Kind("volScalarField", "scalar", (SPECIFIC_ENERGY,), "the turbulent kinetic energy")
 _EPSILON = Kind("volScalarField", "scalar", (DISSIPATION,), "the dissipation of turbulent kinetic energy")
@@ -82,22 +82,31 @@ def _diffusivity(k: Floats, epsilon: Floats) -> Floats:
     return diffusivity
 
 
-def values_of(field: FoamField, whole: CaseMesh, signed: bool = False) -> tuple[Floats, Floats]:
+def values_of(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
     """Return values at cells (n_cells,) and boundary faces (n_boundary,), there of the cell if not given.
 
-    Unless they are ``signed``, those of cells must not be negative, and at faces 0 replaces a negative one.
+    Those of cells must not be negative; at faces 0 replaces a negative one.
     """
-    mesh = whole.mesh
-    cells = at_cells(field, mesh)[:, 0]
-    if not signed and cells.min() < 0.0:
+    cells, boundary = given_values(field, whole)
+    if cells.min() < 0.0:
         cell = int(cells.argmin())
-        raise InputError(f"{field.path}: the value at cell {cell} is {cells[cell]:g}. Allowed: none below 0.")
-    boundary = cells[mesh.owner[mesh.n_internal :]].copy()
+        raise InputError(
+            f"{field.path}: the value at cell {cell} is {cells[cell, 0]:g}. Allowed: none below 0."
+        )
+    return cells[:, 0], np.maximum(boundary[:, 0], 0.0)
+
+
+def given_values(field: FoamField, whole: CaseMesh) -> tuple[Floats, Floats]:
+    """Return values at cells (n_cells, components) and boundary faces, there of the cell if not given."""
+    mesh = whole.mesh
+    cells = at_cells(field, mesh)
+    boundary = cells[mesh.owner[mesh.n_internal :]]
     for index, patch in enumerate(whole.patches):
         entry = field.of(patch)
+        own = slice(mesh.patch_start[index], mesh.patch_start[index + 1])
         found = entry.fields.get("value") if entry else None
         if found is not None and len(found) in (1, patch.faces) and np.isfinite(found).all():
-            boundary[mesh.patch_start[index] : mesh.patch_start[index + 1]] = (
-                found[:, 0] if signed else np.maximum(found[:, 0], 0.0)
-            )
+            boundary[own] = found
+        elif entry and entry.type == "noSlip":
+            boundary[own] = 0.0
     return cells, boundary

@@ -1,0 +1,106 @@
+"""Fields of a case at the nodes that are sampled along paths."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from foamprb.dictionary.dimensions import unit_text
+from foamprb.errors import InputError, suggestion
+from foamprb.flow.base import Floats
+from foamprb.flow.fields import FieldColumns
+from foamprb.flow.read.boundary import CaseMesh
+from foamprb.flow.read.field import FoamField, Kind
+from foamprb.flow.read.turbulence import given_values
+from foamprb.flow.reconstruct import Reconstruction
+
+__all__ = ["kinds_of", "read_sampled"]
+
+_KINDS = {
+    name: Kind(name, inner, (), "a field that is sampled")
+    for name, inner in (
+        ("volScalarField", "scalar"),
+        ("volVectorField", "vector"),
+        ("volSymmTensorField", "symmTensor"),
+        ("volTensorField", "tensor"),
+    )
+}
+_WHOLE = np.array([0, 1, 2, 1, 3, 4, 2, 4, 5])
+"""Component of OpenFOAM's symmetric tensors, xx xy xz yy yz zz, for each of the nine of a tensor."""
+_SIX = np.array([0, 4, 8, 1, 5, 2])
+"""Components xx yy zz xy yz xz of a tensor."""
+
+
+def kinds_of(
+    names: Sequence[str], classes: Callable[[str], Mapping[str, str]], times: Sequence[str]
+) -> list[Kind]:
+    """Return the kinds of fields by their names.
+
+    Parameters
+    ----------
+    names
+        The fields.
+    classes
+        Returns the classes of the fields at a time, by name.
+    times
+        The times at which they are read.
+
+    Raises
+    ------
+    InputError
+        A field is missing at a time, or has no value for each cell.
+    """
+    found: list[Kind] = []
+    for time in times if names else ():
+        at_time = classes(time)
+        for name in names:
+            kind = _KINDS.get(at_time.get(name, ""))
+            if kind is None:
+                others = [other for other, word in at_time.items() if word in _KINDS]
+                what = f"no field {name}" if name not in at_time else f"{name} is a {at_time[name]}, which"
+                where = f"at time {time}" if name not in at_time else f"is not sampled (time {time})"
+                raise InputError(f"fieldSampling: {what} {where}. {suggestion(name, others)}")
+            found.append(kind)
+    return found[: len(names)]
+
+
+def read_sampled(
+    read: Callable[[str, Kind], FoamField],
+    names: Sequence[str],
+    kinds: Sequence[Kind],
+    whole: CaseMesh,
+    reconstruct: Reconstruction,
+) -> tuple[Floats, tuple[FieldColumns, ...]]:
+    """Return fields at the nodes, (n_nodes, columns of all), and their columns.
+
+    Parameters
+    ----------
+    read
+        Reads the field of a name and a kind.
+    names, kinds
+        The fields, and the results of :func:`kinds_of`.
+    whole, reconstruct
+        Mesh of the case, and its reconstruction.
+
+    Raises
+    ------
+    InputError
+        A field is broken, or a value is not finite.
+    """
+    tables, columns = [], []
+    for name, kind in zip(names, kinds, strict=True):
+        field = read(name, kind)
+        cells, boundary = (_tensors(values, kind) for values in given_values(field, whole))
+        at_nodes = reconstruct.linear(cells, boundary).reshape(-1, cells[0].size)
+        table = at_nodes[:, _SIX] if kind.inner == "symmTensor" else at_nodes
+        tables.append(table)
+        columns.append(FieldColumns(name, table.shape[1], unit_text(field.dimensions)))
+    return np.concatenate(tables, axis=1), tuple(columns)
+
+
+def _tensors(values: Floats, kind: Kind) -> Floats:
+    """Return values (n, components) as scalars (n,), vectors (n, 3) or tensors (n, 3, 3)."""
+    if kind.inner == "symmTensor":
+        values = values[:, _WHOLE]
+    return values.reshape(len(values), *{1: (), 3: (3,), 9: (3, 3)}[values.shape[1]])
