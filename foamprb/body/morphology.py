@@ -32,6 +32,7 @@ from foamprb.body.tensor import (
     add,
     add_identity,
     cofactor,
+    ddot,
     det,
     dot,
     log_ratio,
@@ -97,6 +98,18 @@ def strain_of_drop(ratio: Scalar, Ca: Scalar) -> Scalar:
     """Return f₂."""
     square = Ca * Ca
     return 5.0 / (2.0 * ratio + 3.0) + 3.0 * square / (2.0 + 6.0 * square)
+
+
+def drop_growth(l_f: Tensor, ratio: Scalar, time: Scalar) -> tuple[Tensor, Scalar]:
+    """Return a tensor and a limit: a drop breaks up if the real part of an eigenvalue exceeds the limit.
+
+    dS/dt = A S + S Aᵀ − f₁ (S − g I)/τ with A = W + f₂ E has a steady solution if all eigenvalues of A τ are
+    below f₁/2. ``time`` is τ = μ_f R/σ, s.
+    """
+    E = sym(l_f)
+    f2 = strain_of_drop(ratio, time * np.sqrt(2.0 * ddot(E, E)))
+    growing = add(subtract(l_f, E), scale(f2, E))
+    return scale(time, growing), 0.5 * recovery_of_drop(ratio)
 
 
 def drop_energy(_I1: Scalar, I2: Scalar, J: Scalar, mu: Scalar, lame: Scalar, _k: Scalar) -> Scalar:

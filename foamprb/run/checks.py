@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foamprb.body.imex import relaxation_time
+from foamprb.body.material import MATERIALS
+from foamprb.body.morphology import drop_growth
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS, SMALL_STOKES
 from foamprb.cloud.measures import as_slice, path_stokes_number, shear_rate_at
@@ -45,7 +47,7 @@ class Groups(NamedTuple):
     stiffness: tuple[float, float]
     """μ_s Δt/μ_f."""
     extending: float = 0.0
-    """Share of the flow in which the softest particle has no steady shape."""
+    """Share of the flow in which the softest particle has no steady shape; see :func:`_extending`."""
 
 
 def groups(cloud: Cloud, injector: int) -> Groups:
@@ -86,22 +88,31 @@ def _range(values: NDArray[np.float64]) -> tuple[float, float]:
 
 
 def _extending(cloud: Cloud, rows: NDArray[np.intp]) -> float:
-    """Return the share of the nodes where the softest particle's capillary number of extension is too large.
+    """Return the share of the nodes where the softest particle has no steady shape.
 
-    The rate of extension is the largest real part of the eigenvalues of ∇u. It is zero in simple shear, where
-    every body has a steady shape.
+    A solid has none beyond a capillary number of extension, whose rate is the largest real part of the
+    eigenvalues of ∇u. It is zero in simple shear, where every solid has a steady shape. A drop breaks up
+    where it grows faster than its surface tension restores it.
     """
     gradient = cloud.flow.at_nodes()[2]
     some = slice(None, None, max(1, len(gradient) // _MOST_NODES))
     gradient, mu = gradient[some], np.asarray(viscosity_at_nodes(cloud.medium.mu, cloud.flow))
     if len(gradient) == 0 or len(rows) == 0:
         return 0.0
+    p, mu = cloud.particles, mu[some] if mu.ndim else mu
+    softest = rows[np.argmin(p.mu[rows])]
+    times = mu / p.mu[softest]
+    if MATERIALS[cloud.models.material].liquid:
+        ratio = p.eta[softest] / mu
+        l: Any = tuple(gradient.reshape(-1, 9).T)
+        growth, limit = drop_growth(l, ratio, times)
+        growing = np.stack(np.broadcast_arrays(*growth), axis=-1).reshape(-1, 3, 3)
+        return float(np.mean(np.linalg.eigvals(growing).real.max(axis=1) > limit))
     rate = np.linalg.eigvals(gradient.reshape(-1, 3, 3)).real.max(axis=1)
-    softest = cloud.particles.mu[rows].min()
-    return float(np.mean(np.sqrt(3.0) * (mu[some] if mu.ndim else mu) * rate / softest > STEADY_CAPILLARY))
+    return float(np.mean(np.sqrt(3.0) * rate * times > STEADY_CAPILLARY))
 
 
-def doubts(g: Groups, integrator: str, where: str) -> list[str]:
+def doubts(g: Groups, integrator: str, where: str, liquid: bool = False) -> list[str]:
     """Return a sentence, with its number, for each group that is out of the model's range.
 
     Parameters
@@ -110,6 +121,8 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
         The groups, and the integrator of the shape.
     where
         Beginning of the sentences, e.g. ``injection model inlet``.
+    liquid
+        Whether the particles are drops.
     """
     found = []
     scheme = INTEGRATORS[integrator]
@@ -139,10 +152,12 @@ def doubts(g: Groups, integrator: str, where: str) -> list[str]:
             f"those of Stokes flow, which needs it small (below {SMALL_REYNOLDS:g})."
         )
     if g.extending > _SMALL_SHARE:
+        share = f"{where}: in {100 * g.extending:.3g} % of the flow"
         found.append(
-            f"{where}: in {100 * g.extending:.3g} % of the flow the capillary number is beyond "
-            f"{STEADY_CAPILLARY:g} in extension, where a body has no steady shape: one that stays there is "
-            "stretched on and on, and fails at maxStretch."
+            f"{share} a drop has no steady shape: one that stays there breaks up, and fails at maxStretch."
+            if liquid
+            else f"{share} the capillary number is beyond {STEADY_CAPILLARY:g} in extension, where a body "
+            "has no steady shape: one that stays there is stretched on and on, and fails at maxStretch."
         )
     if g.size[1] > 1.0:
         found.append(

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.material import MATERIALS
 from foamprb.body.viscosity import shear_rate
 from foamprb.cloud.cloud import Cloud
 from foamprb.cloud.integrators.registry import INTEGRATORS
@@ -55,7 +56,8 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             {"name": injection.name, "type": type(injection.model).__name__, "particles": g.n, **ranges}
         )
         if g.n:
-            warnings += doubts(g, models.integrator, f"injection model {injection.name}")
+            liquid = MATERIALS[models.material].liquid
+            warnings += doubts(g, models.integrator, f"injection model {injection.name}", liquid)
     for model in models.surroundings:
         warnings += model.warnings(cloud.particles, flow, cloud.medium_there, cloud.dt)
     if cloud.particles.size == 0:

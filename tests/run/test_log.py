@@ -13,7 +13,7 @@ from foamprb.cloud.block import Medium
 from foamprb.cloud.cloud import Cloud, Stepper
 from foamprb.cloud.measures import path_stokes_number
 from foamprb.cloud.patches import Stick
-from foamprb.cloud.state import spheres
+from foamprb.cloud.state import drops, spheres
 from foamprb.cloud.tracker import Models
 from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
@@ -30,12 +30,16 @@ def flow_of(gradient):
     return MeshFlow(mesh, mesh.nodes @ l.T, np.broadcast_to(l, (len(mesh.nodes), 3, 3)))
 
 
-def doubts_in(gradient, Ca):
-    flow = flow_of(gradient)
-    p = spheres(np.full((1, 3), 0.5), d=1e-4, rho=1000.0, mu=1.0 / Ca)
-    models = Models(integrator="stokes")
+def doubts_in(gradient, Ca, ratio=None):
+    """Warnings of a solid, or of a drop of this ratio of the viscosities."""
+    flow, x = flow_of(gradient), np.full((1, 3), 0.5)
+    if ratio is None:
+        p, material = spheres(x, d=1e-4, rho=1000.0, mu=1.0 / Ca), "neoHooke"
+    else:
+        p, material = drops(x, d=1e-4, rho=1000.0, gamma=5e-5 / Ca, eta=ratio), "drop"
+    models = Models(integrator="stokes", material=material)
     cloud = Cloud(p, flow, OIL, [Stick()] * len(flow.patches), 1e-3, models)
-    return doubts(groups(cloud, 0), "stokes", "it")
+    return doubts(groups(cloud, 0), "stokes", "it", ratio is not None)
 
 
 def test_progress_lines_give_the_time_left(caplog, monkeypatch):
@@ -59,6 +63,16 @@ def test_extension_beyond_steady_shapes_is_a_doubt_and_shear_is_none():
     assert "no steady shape" in text
     assert doubts_in(extension, 0.25) == []
     assert doubts_in([[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]], 10.0) == []
+
+
+@pytest.mark.parametrize(("ratio", "critical"), [(0.1, 0.51909), (1.0, 0.59795), (2.0, 0.87803)])
+def test_shear_beyond_breakup_is_a_doubt_for_drops(ratio, critical):
+    """Critical numbers of the equation of Maffettone and Minale; from a ratio of 4 on drops never break."""
+    shear = [[0.0, 1.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    (text,) = doubts_in(shear, 1.001 * critical, ratio)
+    assert "in 100 % of the flow a drop has no steady shape" in text
+    assert doubts_in(shear, 0.999 * critical, ratio) == []
+    assert doubts_in(shear, 10.0, 4.0) == []
 
 
 def test_steps_of_the_last_tracking_step_are_counted(caplog):
