@@ -17,19 +17,22 @@ the middle of a face times the area, which exceeds the integral by the curvature
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import NamedTuple
+import math
+from collections.abc import Callable, Collection, Iterable
+from functools import partial
+from itertools import pairwise, zip_longest
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from foamprb.body.tensor import Vector, inner, minus, vector_product
+from foamprb.body.tensor import Vector, inner, minus, plus, scale_vector, vector_product
 from foamprb.compile.link import link
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
-from foamprb.flow.mesh.lists import Index, Mask, share
+from foamprb.flow.mesh.lists import Mask, share, together
 from foamprb.flow.mesh.mesh import Mesh
 
 _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
@@ -43,10 +46,14 @@ _BLOCK, _MOST_BLOCKS = 100, 5000
 _BALANCED = 1e-5
 """Largest flux that cells make or lose, over the fluxes through faces; root mean squares."""
 _MOST_ITERATIONS = 2000
+_PARTS, _LEAST_PART = 8, 10_000
+"""Parts of the cells that are computed at the same time, at most, and cells in a part, at least."""
 # Sum of squares of what the tetrahedra of a cell may still lack, over that of their fluxes.
 _EXACT = 1e-14
 _ROWS = 7
 """Rows of working memory of :func:`correct`."""
+_SIZE, _COUNT = 3, 4
+"""Columns of its sides: the length of the area vector, m², and the number of free nodes."""
 
 
 def free_nodes(mesh: Mesh) -> Floats:
@@ -125,7 +132,7 @@ class Conservation:
         )
 
         def cells(low: int, high: int) -> None:
-            work = np.empty((most, 4)), np.empty((most, 4)), np.empty((_ROWS, most))
+            work = np.empty((most, 4)), np.empty((most, 4)), np.empty((most, 4, 5)), np.empty((_ROWS, most))
             link(correct)(*fields, *arrays, low, high, *work)
 
         share(mesh.n_cells, cells)
@@ -165,35 +172,32 @@ class _Balance:
 
     def __init__(self, mesh: Mesh, nodes: Floats, u: Floats, free: Mask, fluxes: Floats) -> None:
         self._mesh, self._closed = mesh, not free.any()
-        n, cells, neighbour = mesh.n_internal, mesh.n_cells, mesh.neighbour
-        areas = np.empty((len(mesh.owner), 3))
-        link(face_areas)(nodes, mesh.face_start, mesh.face_points, areas)
-        size = np.maximum(np.sqrt(np.einsum("fi,fi->f", areas, areas)), 1e-300)
-        arms = np.concatenate([mesh.centres[neighbour], mesh.boundary_centres]) - mesh.centres[mesh.owner]
-        square = np.maximum(np.einsum("fi,fi->f", arms, arms), 1e-300)
-        along = np.einsum("fi,fi->f", areas, arms)
-        weight = np.maximum(along, _LEAST_ALONG * size * np.sqrt(square)) / square
-        mean = u[mesh.n_points + mesh.owner]
-        mean[:n] += u[mesh.n_points + neighbour]
-        mean[:n] *= 0.5
-        error = ((np.einsum("fi,fi->f", areas, mean) - fluxes) / size) ** 2
-        weight *= error + _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean((fluxes / size) ** 2) + 1e-300
-        weight /= weight.max(initial=1e-300)
+        n, cells = mesh.n_internal, mesh.n_cells
+        self._weight = weight = _weights(mesh, nodes, u, fluxes)
         weight[n:][~free] = 0.0
-        self._weight = weight
-        owner = mesh.owner[:n]
-        diagonal = np.bincount(mesh.owner, weight, cells) + np.bincount(neighbour, weight[:n], cells)
-        diagonal = np.where(diagonal > 0.0, diagonal, 1.0)
-        pairs = np.concatenate([owner, neighbour]), np.concatenate([neighbour, owner])
-        beside = sparse.csr_array((np.tile(-weight[:n], 2), pairs), shape=(cells, cells))
-        self._matrix = beside + sparse.diags_array(diagonal)
-        self._inverse = 1.0 / diagonal
-        self._block = _blocks(mesh.centres)
-        sums = sparse.csr_array((np.ones(cells), (self._block, np.arange(cells))))
-        coarse = sums @ self._matrix @ sums.T
+        # Unsigned, which avoids a check for negative indices.
+        start, columns = np.empty(cells + 1, dtype=np.uint32), np.empty(2 * n, dtype=np.uint32)
+        self._rows = start, columns, np.empty(2 * n), np.empty(cells)
+        faces_of = mesh.cell_face_start, mesh.cell_faces, mesh.owner, mesh.neighbour
+        link(list_rows)(*faces_of, weight, *self._rows)
+        self._block, self._n_blocks = _blocks(mesh.centres)
+        self._solve_blocks = splu(self._coarse().tocsc()).solve
+        # Sums must not depend on the number of threads.
+        ends = np.linspace(0, cells, max(1, min(_PARTS, cells // _LEAST_PART)) + 1).astype(np.intp)
+        self._parts = list(pairwise(ends.tolist()))
+
+    def _coarse(self) -> sparse.csr_array:
+        """Return the matrix of the sums over the blocks."""
+        mesh, block, number = self._mesh, self._block, self._n_blocks
+        at, beside = block[mesh.owner[: mesh.n_internal]], block[mesh.neighbour]
+        weight, apart = self._weight[: mesh.n_internal], at != beside
+        sums = np.bincount(block, self._rows[3], number)
+        inside = np.bincount(at[~apart], weight[~apart], number)
+        pairs = at[apart], beside[apart]
+        between = sparse.csr_array((-weight[apart], pairs), shape=(number, number))
         # Blocks that no flux leaves, as a closed flow, are determined but for a constant.
-        lift = sparse.diags_array(1e-9 * np.bincount(self._block, diagonal))
-        self._solve_blocks = splu((coarse + lift).tocsc()).solve
+        found: sparse.csr_array = between + between.T + sparse.diags_array((1.0 + 1e-9) * sums - 2.0 * inside)
+        return found
 
     def __call__(self, fluxes: Floats, mass: Mass) -> float:
         """Change fluxes (n_faces,) in place; what remains of a closed flow is shared by volume.
@@ -206,7 +210,9 @@ class _Balance:
         owner, neighbour, cells = mesh.owner, mesh.neighbour, mesh.n_cells
         inside = np.broadcast_to(mass.cells, (cells,))
         outside = np.broadcast_to(mass.boundary, (len(owner) - n,))
-        density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
+        density = np.ones(1)
+        if mass is not CONSTANT:
+            density = np.concatenate([0.5 * (inside[owner[:n]] + inside[neighbour]), outside])
         fluxes *= density
         stored = mesh.volumes * mass.growth
         rest = np.bincount(neighbour, fluxes[:n], cells) - np.bincount(owner, fluxes, cells) - stored
@@ -219,44 +225,64 @@ class _Balance:
         fluxes /= density
         return left / max(size, 1e-300)
 
-    def _solve(self, rest: Floats, enough: float) -> tuple[Floats, float]:
+    def _solve(self, residual: Floats, enough: float) -> tuple[Floats, float]:
         """Solve for potentials of the cells by conjugate gradients until the norm of what is left is enough.
 
-        BLAS, and so SciPy's solvers, add in an order that depends on the number of threads.
+        The preconditioner is Jacobi's plus the exact solution with a constant in each block. BLAS, and so
+        SciPy's solvers, add in an order that depends on the number of threads.
+
+        Parameters
+        ----------
+        residual
+            (n_cells,) what cells lack; it is overwritten.
 
         Returns
         -------
         The potentials (n_cells,), and the norm.
         """
-        y, residual = np.zeros_like(rest), rest.copy()
-        way = self._precondition(residual)
-        energy, left = _product(residual, way), np.sqrt(_product(residual, residual))
-        for _ in range(_MOST_ITERATIONS):
-            if left <= enough:
+        y, way, image = np.zeros((3, len(residual)))
+        of_parts = np.zeros((len(self._parts), self._n_blocks))
+        diagonal, block = self._rows[3], self._block
+        go, turn, multiply = link(go_down), link(turn_way), link(multiply_rows)
+        step = part_of_last = before = 0.0
+        for iteration in range(_MOST_ITERATIONS + 1):
+            found = self._each(go, diagonal, block, step, way, image, y, residual, rows=of_parts)
+            squares, energies = zip(*found, strict=True)
+            left = math.sqrt(math.fsum(squares))
+            if left <= enough or iteration == _MOST_ITERATIONS:
                 break
-            image = self._matrix @ way
-            step = energy / _product(way, image)
-            y += step * way
-            residual -= step * image
-            better = self._precondition(residual)
-            before, energy = energy, _product(residual, better)
-            left = np.sqrt(_product(residual, residual))
-            way = better + energy / before * way
-        return y, float(left)
+            sums = of_parts.sum(axis=0)
+            of_blocks = self._solve_blocks(sums)
+            energy = math.fsum([*energies, float(np.einsum("i,i->", sums, of_blocks))])
+            part_of_last, before = energy / before if before else 0.0, energy
+            self._each(turn, diagonal, block, of_blocks, part_of_last, residual, way)
+            step = energy / math.fsum(self._each(multiply, *self._rows, way, image))
+        return y, left
 
-    def _precondition(self, rest: Floats) -> Floats:
-        """Return Jacobi's approximation plus the exact solution with a constant in each block."""
-        of_blocks: Floats = self._solve_blocks(np.bincount(self._block, rest))
-        found: Floats = self._inverse * rest + of_blocks[self._block]
-        return found
+    def _each(self, kernel: Callable[..., Any], *arguments: Any, rows: Iterable[Any] = ()) -> list[Any]:
+        """Return the results of a kernel for the parts of the cells; its last argument is a row, if given."""
+        parts = zip_longest(self._parts, ((row,) for row in rows), fillvalue=())
+        return together(*(partial(kernel, *part, *arguments, *row) for part, row in parts))
 
 
-def _product(a: Floats, b: Floats) -> float:
-    return float(np.einsum("i,i->", a, b))
+def _weights(mesh: Mesh, nodes: Floats, u: Floats, fluxes: Floats) -> Floats:
+    """Return the weights of the faces; see :class:`_Balance`."""
+    weight, weigh = np.empty(len(fluxes)), link(weigh_faces)
+    errors = error, square = np.empty((2, len(fluxes)))
+    given = nodes, u, mesh.n_points, mesh.boundary_centres, mesh.neighbour
+    own = mesh.face_start, mesh.face_points, mesh.owner, fluxes
+    share(len(fluxes), lambda low, high: weigh(low, high, *given, *own, weight, *errors))
+    error += _LEAST_ERROR * np.mean(error) + 1e-12 * np.mean(square) + 1e-300
+    weight *= error
+    weight /= weight.max(initial=1e-300)
+    return weight
 
 
-def _blocks(centres: Floats) -> Index:
-    """Return the block of each cell: a box of a regular grid over the centres with one at least."""
+def _blocks(centres: Floats) -> tuple[Ints, int]:
+    """Return the block of each cell, a box of a regular grid over the centres, and the number of blocks.
+
+    Boxes without a cell are not counted.
+    """
     n, extent = len(centres), np.ptp(centres, axis=0)
     wide = extent > 1e-6 * max(extent.max(initial=0.0), 1e-300)
     counts = np.ones(3, dtype=np.int64)
@@ -264,9 +290,15 @@ def _blocks(centres: Floats) -> Index:
         boxes = min(max(n / _BLOCK, 1.0), _MOST_BLOCKS)
         edge = float(np.prod(extent[wide]) / boxes) ** (1.0 / np.count_nonzero(wide))
         counts[wide] = np.ceil(extent[wide] / edge)
-    at = (centres - centres.min(axis=0)) / np.where(wide, extent, 1.0) * counts
-    number = np.ravel_multi_index(tuple(np.minimum(at.astype(np.int64), counts - 1).T), tuple(counts))
-    return np.unique(number, return_inverse=True)[1]
+    number = np.zeros(n, dtype=np.intp)
+    for axis in range(3):
+        x = centres[:, axis]
+        at = (x - x.min()) / (extent[axis] if wide[axis] else 1.0) * counts[axis]
+        number *= counts[axis]
+        number += np.minimum(at.astype(np.int32), counts[axis] - 1)
+    used = np.bincount(number, minlength=int(counts.prod())) > 0
+    numbers = np.cumsum(used, dtype=np.int32)
+    return numbers[number] - np.int32(1), int(numbers[-1])
 
 
 def face_fluxes(
@@ -276,18 +308,146 @@ def face_fluxes(
     for f in range(fluxes.shape[0]):
         base, total = points[start[f]], 0.0
         for k in range(start[f] + 1, start[f + 1] - 1):
-            total += triangle_flux(nodes, u, l, free, base, points[k], points[k + 1])[1]
+            total += triangle_flux(nodes, u, l, free, base, points[k], points[k + 1])
         fluxes[f] = total
 
 
-def face_areas(nodes: Floats, start: Ints, points: Ints, areas: Floats) -> None:
-    """Put the area vector of each face, out of its owner, m², into ``areas`` (n_faces, 3)."""
-    for f in range(areas.shape[0]):
-        areas[f] = 0.0
+def weigh_faces(
+    begin: int,
+    end: int,
+    nodes: Floats,
+    u: Floats,
+    n_points: int,
+    boundary_centres: Floats,
+    neighbour: Ints,
+    start: Ints,
+    points: Ints,
+    owner: Ints,
+    fluxes: Floats,
+    weight: Floats,
+    error: Floats,
+    square: Floats,
+) -> None:
+    """Compute conductance (m), squared error and squared velocity (m²/s²) of faces; see :class:`_Balance`.
+
+    The faces are those from ``begin`` to before ``end``; the last three arguments are the results (n_faces,).
+    """
+    for f in range(begin, end):
+        s = 0.0, 0.0, 0.0
         for k in range(start[f] + 1, start[f + 1] - 1):
-            s = area_vector(nodes, points[start[f]], points[k], points[k + 1])
-            for i in range(3):
-                areas[f, i] += s[i]
+            s = plus(s, area_vector(nodes, points[start[f]], points[k], points[k + 1]))
+        size = max(np.sqrt(inner(s, s)), 1e-300)
+        o = n_points + owner[f]
+        v, x = point(u, o), point(nodes, o)
+        if f < neighbour.shape[0]:
+            other = n_points + neighbour[f]
+            v, d = scale_vector(0.5, plus(v, point(u, other))), arm(nodes, other, x)
+        else:
+            d = arm(boundary_centres, f - neighbour.shape[0], x)
+        reach = max(inner(d, d), 1e-300)
+        weight[f] = max(inner(s, d), _LEAST_ALONG * size * np.sqrt(reach)) / reach
+        error[f] = ((inner(s, v) - fluxes[f]) / size) ** 2
+        square[f] = (fluxes[f] / size) ** 2
+
+
+def list_rows(
+    first: Ints,
+    of_cell: Ints,
+    owner: Ints,
+    neighbour: Ints,
+    weight: Floats,
+    start: Ints,
+    columns: Ints,
+    values: Floats,
+    diagonal: Floats,
+) -> None:
+    """List the equations of the cells: minus the weights of the cells beside, and the sum of all weights.
+
+    Parameters
+    ----------
+    first, of_cell, owner, neighbour, weight
+        The faces of each cell; the cells and the weight of each face.
+    start, columns, values, diagonal
+        Results: the row of cell c is from ``start[c]`` to before ``start[c + 1]``. 1 on the diagonal of a
+        cell without weights.
+    """
+    at = 0
+    for c in range(diagonal.shape[0]):
+        total, start[c] = 0.0, at
+        for h in range(first[c], first[c + 1]):
+            f = of_cell[h]
+            total += weight[f]
+            if f < neighbour.shape[0]:
+                columns[at] = neighbour[f] if owner[f] == c else owner[f]
+                values[at] = -weight[f]
+                at += 1
+        diagonal[c] = total if total > 0.0 else 1.0
+    start[diagonal.shape[0]] = at
+
+
+def multiply_rows(
+    begin: int,
+    end: int,
+    start: Ints,
+    columns: Ints,
+    values: Floats,
+    diagonal: Floats,
+    way: Floats,
+    image: Floats,
+) -> float:
+    """Write the product of some rows of :func:`list_rows` with ``way``; return its product with ``way``."""
+    total = 0.0
+    for c in range(begin, end):
+        y = diagonal[c] * way[c]
+        for k in range(start[c], start[c + 1]):
+            y += values[k] * way[columns[k]]
+        image[c] = y
+        total += y * way[c]
+    return total
+
+
+def go_down(
+    begin: int,
+    end: int,
+    diagonal: Floats,
+    block: Ints,
+    step: float,
+    way: Floats,
+    image: Floats,
+    y: Floats,
+    residual: Floats,
+    sums: Floats,
+) -> tuple[float, float]:
+    """Go a step on the way for some cells; put the sums of the residual by blocks into ``sums``.
+
+    Returns
+    -------
+    The sum of squares of the residual, and that over the diagonal.
+    """
+    sums[:] = 0.0
+    square = energy = 0.0
+    for c in range(begin, end):
+        y[c] += step * way[c]
+        residual[c] -= step * image[c]
+        sums[block[c]] += residual[c]
+        square += residual[c] * residual[c]
+        energy += residual[c] * residual[c] / diagonal[c]
+    return square, energy
+
+
+def turn_way(
+    begin: int,
+    end: int,
+    diagonal: Floats,
+    block: Ints,
+    of_blocks: Floats,
+    before: float,
+    residual: Floats,
+    way: Floats,
+) -> None:
+    """Write the preconditioned residual plus ``before`` times the last way for some cells."""
+    for c in range(begin, end):
+        way[c] = residual[c] / diagonal[c] + of_blocks[block[c]] + before * way[c]
 
 
 def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:
@@ -297,26 +457,30 @@ def area_vector(nodes: Floats, a: int, b: int, c: int) -> Vector:
     return 0.5 * s[0], 0.5 * s[1], 0.5 * s[2]
 
 
-def triangle_flux(
-    nodes: Floats, u: Floats, l: Floats, free: Floats, a: int, b: int, c: int
-) -> tuple[float, float]:
-    """Return the flux of the interpolated velocity through a triangle, and that of a better one, m³/s.
-
-    The interpolated velocity (:func:`foamprb.flow.walk.interpolate`) is straight along an edge to a wall. The
-    other one is quadratic there, too, but along edges on a wall.
-    """
-    s = area_vector(nodes, a, b, c)
-    flux = more = 0.0
+def triangle_flux(nodes: Floats, u: Floats, l: Floats, free: Floats, a: int, b: int, c: int) -> float:
+    """Return the flux of the better velocity (:func:`measure_sides`) through a triangle, m³/s."""
+    s, flux = area_vector(nodes, a, b, c), 0.0
     for k in range(3):
         flux += s[k] * (u[a, k] + u[b, k] + u[c, k]) / 3.0
     for i, j in ((a, b), (b, c), (c, a)):
-        bend = 0.0
-        for k in range(3):
-            for m in range(3):
-                bend += s[k] * (l[i, k, m] - l[j, k, m]) * (nodes[j, m] - nodes[i, m]) / 24.0
-        flux += free[i] * free[j] * bend
-        more += (free[i] + free[j] - 2.0 * free[i] * free[j]) * bend
-    return flux, flux + more
+        flux += (free[i] + free[j] - free[i] * free[j]) * inner(s, edge_bend(nodes, l, i, j))
+    return float(flux)
+
+
+def edge_bend(nodes: Floats, l: Floats, i: int, j: int) -> Vector:
+    """Return (l_i − l_j)·(x_j − x_i)/24, m/s: a third of what an edge adds to a mean velocity."""
+    d, s = arm(nodes, j, point(nodes, i)), 1.0 / 24.0
+    return (
+        s * _change(l, i, j, 0, d),
+        s * _change(l, i, j, 1, d),
+        s * _change(l, i, j, 2, d),
+    )
+
+
+def _change(l: Floats, i: int, j: int, k: int, d: Vector) -> float:
+    """Return row k of (l_i − l_j)·d."""
+    x, y, z = l[i, k, 0] - l[j, k, 0], l[i, k, 1] - l[j, k, 1], l[i, k, 2] - l[j, k, 2]
+    return x * d[0] + y * d[1] + z * d[2]  # type: ignore[no-any-return]
 
 
 def correct(
@@ -337,6 +501,7 @@ def correct(
     end: int,
     fluxes: Floats,
     weight: Floats,
+    sides: Floats,
     work: Floats,
 ) -> None:
     """Fill ``correction`` for the cells from ``begin`` to before ``end``.
@@ -351,20 +516,16 @@ def correct(
         (n_faces,) flux out of the owner of each face, m³/s.
     correction
         (n_tets, 8), the result.
-    fluxes, weight, work
-        Working memory, twice (n, 4) and (7, n), for the n tetrahedra of the largest cell.
+    fluxes, weight, sides, work
+        Working memory, twice (n, 4), (n, 4, 5) and (7, n), for the n tetrahedra of the largest cell.
     """
     rest, change, volume = work[0], work[4], work[5]
     for c in range(begin, end):
         first, n = cell_start[c], cell_start[c + 1] - cell_start[c]
         total = space = 0.0
         for t in range(n):
-            volume[t] = volume_of(nodes, tets, first + t)
+            volume[t] = measure_sides(nodes, u, l, free, tets, first + t, t, fluxes, sides, correction)
             space += volume[t]
-            for k in range(4):
-                flux, better = side_flux(nodes, u, l, free, tets, first + t, k)
-                fluxes[t, k] = better
-                correction[first + t, k] = -flux
         # The triangles of a face share its flux by their areas and free nodes.
         t = 0
         for h in range(cell_face_start[c], cell_face_start[c + 1]):
@@ -373,18 +534,18 @@ def correct(
             interpolated = area = 0.0
             for k in range(t, t + size):
                 interpolated += fluxes[k, 0]
-                work[1, k] = side_area(nodes, tets, first + k, 0) * free_of(free, tets, first + k, 0)
+                work[1, k] = sides[k, 0, _SIZE] * sides[k, 0, _COUNT]
                 area += work[1, k]
             if area == 0.0:
                 for k in range(t, t + size):
-                    work[1, k] = side_area(nodes, tets, first + k, 0)
+                    work[1, k] = sides[k, 0, _SIZE]
                     area += work[1, k]
             out = phi[f] if owner[f] == c else -phi[f]
             total += out
             for k in range(t, t + size):
                 fluxes[k, 0] += (out - interpolated) * work[1, k] / max(area, 1e-300)
             t += size
-        _carry(nodes, free, tets, first, n, space, fluxes, correction)
+        _carry(nodes, tets, first, n, space, fluxes, sides, correction)
         square = lost = 0.0
         for t in range(n):
             rest[t] = total * volume[t] / space
@@ -397,28 +558,107 @@ def correct(
             rest[t] -= lost
         for t in range(n):
             for k in range(1, 4):
-                other = neighbours[first + t, k] - first
-                reach = abs(volume[t]) + abs(volume[other])
-                size = side_area(nodes, tets, first + t, k)
-                weight[t, k] = free_of(free, tets, first + t, k) * size * size / max(reach, 1e-300)
+                reach = abs(volume[t]) + abs(volume[neighbours[first + t, k] - first])
+                size = sides[t, k, _SIZE]
+                weight[t, k] = sides[t, k, _COUNT] * size * size / max(reach, 1e-300)
         _share(neighbours, first, n, weight, work, _EXACT * square)
         for t in range(n):
             tet = first + t
             for k in range(1, 4):
                 fluxes[t, k] += weight[t, k] * (change[t] - change[neighbours[tet, k] - first])
             for k in range(4):
-                correction[tet, k] = scaled(fluxes[t, k] + correction[tet, k], free, tets, tet, k, volume[t])
-                correction[tet, 4 + k] = 0.25 * divergence(nodes, l, free, tets, tet, k, volume[t])
+                # All nodes of a side are free if none is.
+                count = sides[t, k, _COUNT] if sides[t, k, _COUNT] > 0.0 else 3.0
+                flux = fluxes[t, k] + correction[tet, k]
+                correction[tet, k] = flux / (count * volume[t]) if volume[t] != 0.0 else 0.0
+
+
+def measure_sides(
+    nodes: Floats,
+    u: Floats,
+    l: Floats,
+    free: Floats,
+    tets: Ints,
+    tet: int,
+    row: int,
+    fluxes: Floats,
+    sides: Floats,
+    correction: NDArray[np.float32],
+) -> float:
+    """Measure the sides of a tetrahedron; return its signed volume, m³.
+
+    Side k is opposite vertex k. The interpolated velocity (:func:`foamprb.flow.walk.interpolate`) is straight
+    along an edge to a wall. A better one is quadratic there, too, but straight along edges on a wall.
+
+    Parameters
+    ----------
+    tet, row
+        The tetrahedron, and its row in working memory.
+    fluxes, sides
+        Results (n, 4) and (n, 4, 5): the flux of the better velocity out of each side, m³/s; its area vector,
+        m², the length of this, and the number of free nodes.
+    correction
+        Result (n_tets, 8): minus the flux of the interpolated velocity, m³/s, and a quarter of its divergence
+        at each vertex, up to a constant, 1/s.
+    """
+    o, a, b, c = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
+    x = point(nodes, o)
+    p, q, r = arm(nodes, a, x), arm(nodes, b, x), arm(nodes, c, x)
+    so, sa = _half_product(minus(q, p), minus(r, p)), _half_product(r, q)
+    sb, sc = _half_product(p, r), _half_product(q, p)
+    oa, ob, oc = edge_bend(nodes, l, o, a), edge_bend(nodes, l, o, b), edge_bend(nodes, l, o, c)
+    ab, bc, ca = edge_bend(nodes, l, a, b), edge_bend(nodes, l, b, c), edge_bend(nodes, l, c, a)
+    fo, fa, fb, fc = free[o], free[a], free[b], free[c]
+    uo, ua, ub, uc = point(u, o), point(u, a), point(u, b), point(u, c)
+    results = row, fluxes, sides, tet, correction
+    _put_side(*results, 0, so, plus(plus(ua, ub), uc), (fa, fb, fc), (ab, bc, ca))
+    _put_side(*results, 1, sa, plus(plus(uo, uc), ub), (fo, fc, fb), (oc, bc, ob))
+    _put_side(*results, 2, sb, plus(plus(uo, ua), uc), (fo, fa, fc), (oa, ca, oc))
+    _put_side(*results, 3, sc, plus(plus(uo, ub), ua), (fo, fb, fa), (ob, ab, oa))
+    volume = -inner(p, sa) / 3.0
+    s = -1.0 / volume if volume != 0.0 else 0.0
+    # The gradient of the weight of a vertex is its side over −3 volumes.
+    correction[tet, 4] = s * fo * (fa * inner(sa, oa) + fb * inner(sb, ob) + fc * inner(sc, oc))
+    correction[tet, 5] = s * fa * (fo * inner(so, oa) + fb * inner(sb, ab) + fc * inner(sc, ca))
+    correction[tet, 6] = s * fb * (fo * inner(so, ob) + fa * inner(sa, ab) + fc * inner(sc, bc))
+    correction[tet, 7] = s * fc * (fo * inner(so, oc) + fa * inner(sa, ca) + fb * inner(sb, bc))
+    return float(volume)
+
+
+def _half_product(v: Vector, w: Vector) -> Vector:
+    return scale_vector(0.5, vector_product(v, w))
+
+
+def _put_side(
+    row: int,
+    fluxes: Floats,
+    sides: Floats,
+    tet: int,
+    correction: NDArray[np.float32],
+    k: int,
+    s: Vector,
+    u: Vector,
+    free: Vector,
+    bends: tuple[Vector, Vector, Vector],
+) -> None:
+    """Write side k from its area vector, and the sum of velocities, free nodes and edges 01, 12, 20."""
+    f, g, h = free
+    size, ends = inner(s, s), (inner(s, bends[0]), inner(s, bends[1]), inner(s, bends[2]))
+    flux = inner(s, u) / 3.0 + f * g * ends[0] + g * h * ends[1] + h * f * ends[2]
+    more = (f + g - 2.0 * f * g) * ends[0] + (g + h - 2.0 * g * h) * ends[1] + (h + f - 2.0 * h * f) * ends[2]
+    fluxes[row, k], correction[tet, k] = flux + more, -flux
+    sides[row, k, 0], sides[row, k, 1], sides[row, k, 2] = s
+    sides[row, k, _SIZE], sides[row, k, _COUNT] = np.sqrt(size), f + g + h
 
 
 def _carry(
     nodes: Floats,
-    free: Floats,
     tets: Ints,
     first: int,
     n: int,
     space: float,
     fluxes: Floats,
+    sides: Floats,
     correction: NDArray[np.float32],
 ) -> None:
     """Add to the fluxes inside a cell those of the mean correction that the ones through its sides make.
@@ -427,9 +667,9 @@ def _carry(
     """
     o, mean = point(nodes, tets[first, 0]), (0.0, 0.0, 0.0)
     for t in range(n):
-        a, b, c = _side(tets, first + t, 0)
-        s = (fluxes[t, 0] + correction[first + t, 0]) / (3.0 * space)
-        p, q, r = arm(nodes, a, o), arm(nodes, b, o), arm(nodes, c, o)
+        tet = first + t
+        s = (fluxes[t, 0] + correction[tet, 0]) / (3.0 * space)
+        p, q, r = arm(nodes, tets[tet, 1], o), arm(nodes, tets[tet, 2], o), arm(nodes, tets[tet, 3], o)
         mean = (
             mean[0] + s * (p[0] + q[0] + r[0]),
             mean[1] + s * (p[1] + q[1] + r[1]),
@@ -437,8 +677,8 @@ def _carry(
         )
     for t in range(n):
         for k in range(1, 4):
-            a, b, c = _side(tets, first + t, k)
-            fluxes[t, k] += inner(area_vector(nodes, a, b, c), mean) * free_of(free, tets, first + t, k) / 3.0
+            area = sides[t, k, 0], sides[t, k, 1], sides[t, k, 2]
+            fluxes[t, k] += inner(area, mean) * sides[t, k, _COUNT] / 3.0
 
 
 def _share(neighbours: Ints, first: int, n: int, weight: Floats, work: Floats, enough: float) -> None:
@@ -477,71 +717,3 @@ def _share(neighbours: Ints, first: int, n: int, weight: Floats, work: Floats, e
             energy += residual[t] * residual[t] / diagonal[t]
         for t in range(n):
             way[t] = residual[t] / diagonal[t] + energy / before * way[t]
-
-
-def free_of(free: Floats, tets: Ints, tet: int, side: int) -> float:
-    """Return the number of free nodes of a side of a tetrahedron."""
-    a, b, c = _side(tets, tet, side)
-    return float(free[a] + free[b] + free[c])
-
-
-def scaled(flux: float, free: Floats, tets: Ints, tet: int, side: int, volume: float) -> float:
-    """Return a flux over the volume and the number of free nodes of a side; all are free if none is."""
-    count = free_of(free, tets, tet, side)
-    count = count if count > 0.0 else 3.0
-    return float(flux / (count * volume)) if volume != 0.0 else 0.0
-
-
-def divergence(
-    nodes: Floats, l: Floats, free: Floats, tets: Ints, tet: int, vertex: int, volume: float
-) -> float:
-    """Return the divergence that the bends of the edges make at a vertex of a tetrahedron, 1/s."""
-    here, total = tets[tet, vertex], 0.0
-    if volume == 0.0:
-        return 0.0
-    for j in range(4):
-        there = tets[tet, j]
-        a, b, c = _side(tets, tet, j)
-        # The gradient of the weight of the other vertex is this over −3 volumes.
-        s = area_vector(nodes, a, b, c)
-        for k in range(3):
-            for m in range(3):
-                bend = (l[here, k, m] - l[there, k, m]) * (nodes[there, m] - nodes[here, m])
-                total -= free[there] * s[k] * bend
-    return float(0.5 * free[here] * total / (3.0 * volume))
-
-
-def volume_of(nodes: Floats, tets: Ints, tet: int) -> float:
-    """Return the signed volume of a tetrahedron, m³."""
-    o = point(nodes, tets[tet, 0])
-    a = minus(point(nodes, tets[tet, 1]), o)
-    b = minus(point(nodes, tets[tet, 2]), o)
-    c = minus(point(nodes, tets[tet, 3]), o)
-    return float(inner(a, vector_product(b, c)) / 6.0)
-
-
-def side_flux(
-    nodes: Floats, u: Floats, l: Floats, free: Floats, tets: Ints, tet: int, side: int
-) -> tuple[float, float]:
-    """Return :func:`triangle_flux` out of a tetrahedron through the side opposite a vertex."""
-    a, b, c = _side(tets, tet, side)
-    return triangle_flux(nodes, u, l, free, a, b, c)
-
-
-def side_area(nodes: Floats, tets: Ints, tet: int, side: int) -> float:
-    """Return the area of the side of a tetrahedron opposite a vertex, m²."""
-    a, b, c = _side(tets, tet, side)
-    area = area_vector(nodes, a, b, c)
-    return float(np.sqrt(inner(area, area)))
-
-
-def _side(tets: Ints, tet: int, side: int) -> tuple[int, int, int]:
-    """Return the nodes of the side opposite a vertex, turning outwards."""
-    o, a, b, c = tets[tet, 0], tets[tet, 1], tets[tet, 2], tets[tet, 3]
-    if side == 0:
-        return a, b, c
-    if side == 1:
-        return o, c, b
-    if side == 2:
-        return o, a, c
-    return o, b, a
