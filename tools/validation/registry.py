@@ -5,6 +5,7 @@ from __future__ import annotations
 from validation import (
     blood,
     brownian,
+    capsules,
     cost,
     device,
     dispersion,
@@ -46,6 +47,7 @@ CASES: dict[str, Case] = {
     "suspension": Case("beyond the paper; stress of suspensions", suspension.stress),
     "surfaceTension": Case("beyond the paper; surface tension", tension.drops),
     "drops": Case("beyond the paper; drops", drops.steady),
+    "capsules": Case("beyond the paper; capsules", capsules.steady),
     "haemolysis": Case("beyond the paper; red blood cells", blood.cells),
     "forces": Case("beyond the paper; forces on the barycentre", forces.forces),
     "faxen": Case("beyond the paper; curved flows", faxen.lag),
