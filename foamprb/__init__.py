@@ -48,6 +48,7 @@ Particles in a flow:
     SaffmanMeiLift      lift by inertia of the fluid on a sphere that slips in shear
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
+    Swimming            swimming of bodies in a direction of their own
     StochasticDispersion  eddies of a turbulent flow, of random velocity
     GradientDispersion  eddies that go from where they are strong to where they are weak
     Stick               a patch that holds the particles that touch it

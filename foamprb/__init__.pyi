@@ -45,6 +45,7 @@ from .cloud.surroundings.dispersion import (
 )
 from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
 from .cloud.surroundings.saffman_mei import SaffmanMeiLift as SaffmanMeiLift
+from .cloud.surroundings.swimming import Swimming as Swimming
 from .cloud.surroundings.wall_lift import WallLift as WallLift
 from .cloud.tracker import Models as Models
 from .cloud.viscosity import (

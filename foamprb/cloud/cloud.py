@@ -132,6 +132,7 @@ class Cloud:
         check(self.models, tense)
         for model in (*model_of(self.medium.mu), *self.models.surroundings):
             model.check(self.flow.patches)
+            model.begin(p)
             for kernel in model.required_kernels:
                 if kernel not in self.flow.kernels:
                     raise InputError(f"{type(model).__name__} needs {kernel}, which this flow does not have")

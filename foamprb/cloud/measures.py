@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from foamprb.body.ellipsoid import sorted_frame, taylor_deformation
 from foamprb.body.imex import relaxation_time
 from foamprb.body.morphology import drop_stress
+from foamprb.body.swimming import direction
 from foamprb.body.tensor import (
     Scalar,
     Tensor,
@@ -300,6 +301,11 @@ def carrier_velocity(p: Particles, u: Floats) -> Floats:
     return u + p.eddy
 
 
+def swimming_direction(p: Particles) -> Floats:
+    """Return the directions in which particles swim, (n, 3), unit vectors; 0 if they do not."""
+    return np.stack(direction(tuple(p.F.T), tuple(p.heading.T)), axis=1)
+
+
 def shape_stokes_number(p: Particles, flow: Flow, mu: float | Floats, time: float) -> float:
     """Return the largest γ̇ τ_s of the particles at ``time`` (s) in a fluid of viscosity μ_f (Pa s)."""
     if p.size == 0:
@@ -356,6 +362,7 @@ MEASURES: dict[str, Measure] = {
     "Uc": Measure("m/s", lambda c: carrier_velocity(c.particles, c.u), optional=True),
     "Ur": Measure("m/s", lambda c: c.particles.v - carrier_velocity(c.particles, c.u), optional=True),
     "muc": Measure("Pa s", _found("viscosity"), optional=True),
+    "swimmingDirection": Measure("1", lambda c: swimming_direction(c.particles), optional=True),
 }
 """Every reported quantity by the name under which it is written, OpenFOAM's where it has one.
 
@@ -363,7 +370,8 @@ MEASURES: dict[str, Measure] = {
 as the deformed unit sphere; ``orientation`` is the :func:`quaternion` of the frame; ``taylorDeformation`` is
 that of the longest and the shortest axis; the components of ``stresslet`` are xx yy zz xy yz xz;
 ``capillaryNumber`` is that of the shear rate where the particle is; ``Uc`` and ``Ur`` are the velocity of the
-fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there.
+fluid at the centre and the particle's velocity relative to it, and ``muc`` is the fluid's viscosity there;
+``swimmingDirection`` is 0 without swimming.
 """
 _TAKEN = frozenset(MEASURES) | frozenset(
     (

@@ -262,31 +262,15 @@ def beyond(
         Both points as seen from the other side; what was done to them, x → turn·x + shift.
     """
     block = s.block
-    F, A, Q = load9(block, at.F, i), load9(block, at.A, i), load9(block, at.frame, i)
     v = load3(block, at.v, i)
     if code == MIRROR:
-        n = normal(flow, triangle, x0)
-        turn = (
-            1.0 - 2.0 * n[0] * n[0], -2.0 * n[0] * n[1], -2.0 * n[0] * n[2],
-            -2.0 * n[0] * n[1], 1.0 - 2.0 * n[1] * n[1], -2.0 * n[1] * n[2],
-            -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
-        )  # fmt: skip
-        y0 = x0
-        # The state at rest is mirrored too, and one axis reversed: J and det Q stay positive.
-        F, A, Q = dot(F, turn), dot(A, turn), dot(Q, turn)
-        store9(block, at.M, i, dot(turn, dot(load9(block, at.M, i), turn)))
-        store9(block, at.F0, i, dot(turn, dot(load9(block, at.F0, i), turn)))
-        block[at.mirrored * LANES + i] = 1.0
-        Q = (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8])
+        y0, turn = x0, mirror_body(block, i, normal(flow, triangle, x0))
     else:
         note(s, i, patch, t, x0, _NO_NORMAL)
         host, y0, turn = cross(flow, triangle, x0)
         s.host[i] = host
-        Q = dot(Q, transpose(turn))
-    store9(block, at.F, i, dot(turn, F))
-    store9(block, at.A, i, dot(turn, A))
-    store9(block, at.frame, i, Q)
-    block[at.renewed * LANES + i] = 1.0
+        turn_body(block, i, turn, load9(block, at.F, i), load9(block, at.A, i))
+        store9(block, at.frame, i, dot(load9(block, at.frame, i), transpose(turn)))
     store3(block, at.v, i, dot_vector(turn, v))
     turn_along(block, i, turn)
     if code != MIRROR:
@@ -294,6 +278,30 @@ def beyond(
     m = dot_vector(turn, x0)
     shift = (y0[0] - m[0], y0[1] - m[1], y0[2] - m[2])
     return y0, moved(turn, shift, x1), turn, shift
+
+
+def mirror_body(block: Any, i: int, n: Vector) -> Tensor:
+    """Mirror the shape of lane i in a plane of normal n; return the reflection."""
+    turn = (
+        1.0 - 2.0 * n[0] * n[0], -2.0 * n[0] * n[1], -2.0 * n[0] * n[2],
+        -2.0 * n[0] * n[1], 1.0 - 2.0 * n[1] * n[1], -2.0 * n[1] * n[2],
+        -2.0 * n[0] * n[2], -2.0 * n[1] * n[2], 1.0 - 2.0 * n[2] * n[2],
+    )  # fmt: skip
+    # The state at rest is mirrored too, and one axis reversed: J and det Q stay positive.
+    turn_body(block, i, turn, dot(load9(block, at.F, i), turn), dot(load9(block, at.A, i), turn))
+    Q = dot(load9(block, at.frame, i), turn)
+    store9(block, at.M, i, dot(turn, dot(load9(block, at.M, i), turn)))
+    store9(block, at.F0, i, dot(turn, dot(load9(block, at.F0, i), turn)))
+    block[at.mirrored * LANES + i] = 1.0
+    store9(block, at.frame, i, (Q[0], Q[1], Q[2], Q[3], Q[4], Q[5], -Q[6], -Q[7], -Q[8]))
+    return turn
+
+
+def turn_body(block: Any, i: int, turn: Tensor, F: Tensor, A: Tensor) -> None:
+    """Store turn·F and turn·A in lane i."""
+    store9(block, at.F, i, dot(turn, F))
+    store9(block, at.A, i, dot(turn, A))
+    block[at.renewed * LANES + i] = 1.0
 
 
 def moved(turn: Tensor, shift: Vector, x: Vector) -> Vector:

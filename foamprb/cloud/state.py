@@ -120,6 +120,7 @@ class Particles(NamedTuple):
     eddy: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of its eddy, if there are eddies")]
     eddyTime: Annotated[Array, Variable((), "f8", "s", "remaining life of this eddy, or its age")]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
+    heading: Annotated[Array, Variable((3,), "f8", "1", "q of a swimmer's direction F·q/|F·q|, else 0")]
 
     @property
     def size(self) -> int:

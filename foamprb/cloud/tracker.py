@@ -206,7 +206,8 @@ class Tracker:
         rows = [row for part in self.layout.parts for row in rows_of(type(part)).values()]
         saved = {row.of for row in rows if row.saved} | {"status", "reason", "patch", "host"}
         # Only mirrors change shapes at rest.
-        return frozenset(saved if MIRROR in self.table.code else saved - {"F0"})
+        mirrors = MIRROR in self.table.code or any(m.mirrors for m in self._made_of[0].surroundings)
+        return frozenset(saved if mirrors else saved - {"F0"})
 
     @property
     def compiled(self) -> bool:

@@ -96,7 +96,8 @@ class Results:
             "patch": job.patch_names,
             "injector": job.injector_names,
         }
-        self._further = job.settings.solution.optionalFields
+        own = [name for model in job.cloud.models.surroundings for name in model.measures]
+        self._further = tuple(dict.fromkeys((*job.settings.solution.optionalFields, *own)))
         self._series = Series(job.folder)
         self._place = _identity(job.folder.path)
         self.finished = False

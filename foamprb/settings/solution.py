@@ -106,7 +106,8 @@ class Solution:
         Choice(OPTIONAL),
         Meaning(
             "`( name … )`, further arrays of the particles: `Uc`, velocity of the fluid at the centre, with "
-            "that of the eddy; `Ur`, velocity of the particle relative to it",
+            "that of the eddy; `Ur`, velocity of the particle relative to it; `muc`, viscosity of the fluid "
+            "there; `swimmingDirection`, written in any case with `swimming`",
             default="none",
         ),
     ] = ()

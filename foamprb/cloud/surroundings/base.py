@@ -63,6 +63,10 @@ class Surrounding:
     """Whether it needs k and ε of the flow."""
     required_kernels: ClassVar[tuple[str, ...]] = ()
     """Kernels that a flow (:class:`foamprb.flow.base.Flow`) must have."""
+    mirrors: ClassVar[bool] = False
+    """Whether it mirrors bodies, with their shapes at rest."""
+    measures: ClassVar[tuple[str, ...]] = ()
+    """Names of the optional measures that files then contain."""
 
     @classmethod
     def stages(cls) -> tuple[Callable[..., None], ...]:
@@ -98,6 +102,10 @@ class Surrounding:
         """Raise InputError if its entries name patches that the flow does not have."""
         return
 
+    def begin(self, p: Particles) -> None:  # noqa: ARG002
+        """Set the arrays of the particles that the model keeps, where they are not set."""
+        return
+
     def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
         """Return lines for the log before a run; ``arrays`` are the arguments of the flow's kernels."""
         return ()
@@ -130,7 +138,7 @@ def _written(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
-    return f"({' '.join(value)})" if isinstance(value, tuple) else f"{value:g}"
+    return f"({' '.join(map(_written, value))})" if isinstance(value, tuple) else f"{value:g}"
 
 
 def hindrance_by_walls(_block: Any, _i: int) -> Tensor:

@@ -12,6 +12,7 @@ from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.brownian import BrownianMotion
 from foamprb.cloud.surroundings.faxen import FaxenCorrection
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
+from foamprb.cloud.surroundings.swimming import Swimming
 from foamprb.cloud.surroundings.wall_lift import WallLift
 from foamprb.compile.link import bound
 from foamprb.flow.base import Patch
@@ -23,6 +24,7 @@ SURROUNDINGS: dict[str, type[Surrounding]] = {
     "SaffmanMeiLiftForce": SaffmanMeiLift,
     "wallLift": WallLift,
     "BrownianMotion": BrownianMotion,
+    "swimming": Swimming,
 }
 """By the names of their entries in ``particleForces``, in the order in which they act."""
 
@@ -55,7 +57,10 @@ def compose(own: Layout, surroundings: Sequence[Surrounding], inertia: bool) -> 
         update = bound(_then_update, others=update, model=type(model).update)
         prepare = bound(_then_disturb, others=prepare, model=type(model).prepare or no_disturbance)
         disturb = bound(_then_disturb, others=disturb, model=type(model).disturb)
-        found |= model.bindings(inertia)
+        own_functions: dict[str, Any] = dict(model.bindings(inertia))
+        for name in _TOGETHER & own_functions.keys() & found.keys():
+            own_functions[name] = bound(_both, one=found[name], other=own_functions[name])
+        found |= own_functions
     return {**found, "update_all": update, "prepare_all": prepare, "disturb_all": disturb}
 
 
@@ -79,6 +84,15 @@ def _offsets(own: Layout, surroundings: Sequence[Surrounding]) -> dict[str, tupl
     return found
 
 
+_TOGETHER = {"turn_along", "bounce_along"}
+"""Functions that several models may bind; all are called."""
+
+
+def _both(block: Any, i: int, turn: Any) -> None:
+    one(block, i, turn)
+    other(block, i, turn)
+
+
 def _then_update(
     flow: Any, s: Scratch, i: int, step: int, rest: float, medium: Medium, coefficients: Any
 ) -> None:
@@ -93,3 +107,5 @@ def _then_disturb(block: Any, medium: Medium, share: float, coefficients: Any) -
 
 others: Any = no_update
 model: Any = no_update
+one: Any = no_update
+other: Any = no_update

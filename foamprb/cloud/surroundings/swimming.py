@@ -1,0 +1,146 @@
+"""Swimmers: bodies that move through the fluid in a direction of their own.
+
+The formulas are those of :mod:`foamprb.body.swimming`. The random spin is drawn once per tracking step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from foamprb.body.brownian import deviates
+from foamprb.body.swimming import along_axes, direction, random_directions, random_spin
+from foamprb.body.tensor import Tensor, Vector, det, dot_vector, inner, norm, scale_vector
+from foamprb.cloud.block import Medium, Scratch, at, load3, load9, store3
+from foamprb.cloud.layout import LANES, Row, offsets
+from foamprb.cloud.motion import mirror_body
+from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.surroundings.base import Seed, Surrounding, add3, add9
+from foamprb.compile.link import traced
+from foamprb.dictionary.constraints import Meaning, NonNegative, Positive, Vector3
+from foamprb.errors import InputError
+from foamprb.flow.base import Flow, Patch
+
+__all__ = ["Swimming"]
+
+LARGE_TURN = 0.02
+"""D_R Δt above which the user is warned."""
+_START, _KIND = np.uint64(4), np.uint64(3)
+"""Second words of the keys of the first directions and of the spins; the seed is the first."""
+
+
+class SwimmerRows(NamedTuple):
+    """A swimmer's direction and spin."""
+
+    swimmer: Annotated[int, Row(1, "", "number in the cloud", of="number")]
+    heading: Annotated[int, Row(3, "1", "q of its direction F·q/|F·q|", of="heading", saved=True)]
+    spun: Annotated[int, Row(1, "", "tracking step, from 1 on, for which a spin was drawn last")]
+    tumble: Annotated[int, Row(3, "1/s", "random angular velocity")]
+
+
+swimmers = offsets(SwimmerRows)
+
+
+def draw_spin(
+    _flow: Any, s: Scratch, i: int, step: int, rest: float, _medium: Medium, coefficients: Any
+) -> None:
+    """Draw the spin of lane i at the start of a tracking step."""
+    block = s.block
+    if block[swimmers.spun * LANES + i] != step + 1.0 and rest > 0.0:
+        block[swimmers.spun * LANES + i] = step + 1.0
+        number = np.uint64(block[swimmers.swimmer * LANES + i])
+        three, _ = deviates(number, np.uint64(step), (coefficients[2], _KIND))
+        store3(block, swimmers.tumble, i, random_spin(coefficients[1], rest, three))
+
+
+@traced
+def swim(block: Any, medium: Medium, share: float, coefficients: Any) -> None:  # noqa: ARG001
+    """Add the swimming velocity to u, and the random spin to l."""
+    speed = coefficients[0]
+    for i in range(LANES):
+        p = direction(load9(block, at.new_F, i), load3(block, swimmers.heading, i))
+        add3(block, at.u, i, scale_vector(speed, p))
+        x, y, z = load3(block, swimmers.tumble, i)
+        add9(block, at.l, i, (0.0 * x, -z, y, z, 0.0 * x, -x, -y, x, 0.0 * x))
+
+
+def turn_heading(block: Any, i: int, turn: Tensor) -> None:
+    """Mirror q of lane i, together with the body; a rotation of F turns the direction already."""
+    if det(turn) < 0.0:
+        store3(block, swimmers.heading, i, dot_vector(turn, load3(block, swimmers.heading, i)))
+
+
+def leave_wall(block: Any, i: int, n: Vector) -> None:
+    """Mirror the swimmer in lane i at a wall of normal n, unless it swims away from it already."""
+    if inner(direction(load9(block, at.F, i), load3(block, swimmers.heading, i)), n) < 0.0:
+        turn_heading(block, i, mirror_body(block, i, n))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Swimming(Surrounding):
+    """Bodies that swim through the fluid in a direction of their own: ``swimming { speed 20e-6; }``."""
+
+    speed: Annotated[float, Positive, Meaning("speed through the fluid", "m/s")]
+    rotationalDiffusivity: Annotated[
+        float, NonNegative, Meaning("of the direction, besides that by `BrownianMotion`", "1/s")
+    ] = 0.0
+    direction: Annotated[
+        Vector3 | None, Meaning("at the start; other shapes than spheres swim along an axis", "1", "random")
+    ] = None
+    seed: Seed = 1
+
+    rows: ClassVar = SwimmerRows
+    rows_name: ClassVar = "swimmers"
+    update: ClassVar = staticmethod(draw_spin)
+    disturb: ClassVar = staticmethod(swim)
+    mirrors: ClassVar = True
+    measures: ClassVar = ("swimmingDirection",)
+
+    def __post_init__(self) -> None:
+        if self.direction is not None and not 0.0 < norm(self.direction) < math.inf:
+            raise InputError("has a direction of length 0. Allowed: a vector (x y z)")
+
+    def coefficients(self, patches: Sequence[Patch]) -> Any:  # noqa: ARG002
+        """Return the speed, the diffusivity and the seed."""
+        return float(self.speed), float(self.rotationalDiffusivity), np.uint64(self.seed)
+
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
+        """Return the functions by which mirrors and walls change the direction."""
+        return {"turn_along": turn_heading, "bounce_along": leave_wall}
+
+    def begin(self, p: Particles) -> None:
+        """Set the directions of the particles that have none."""
+        new = np.flatnonzero((p.status <= Status.ACTIVE) & (p.heading == 0.0).all(axis=1))
+        if self.direction is None:
+            wanted = random_directions(p.number[new].astype(np.uint64), (np.uint64(self.seed), _START))
+        else:
+            wanted = np.tile(np.array(self.direction) / norm(self.direction), (len(new), 1))
+        F = p.F[new].reshape(-1, 3, 3)
+        p.heading[new] = np.linalg.solve(F, along_axes(p.F[new], wanted)[:, :, None])[:, :, 0]
+
+    def refuses_drops(self) -> str:
+        """Refuse drops, whose shape does not turn with the liquid."""
+        return "swimming holds for solids, not for drops"
+
+    def notes(self, p: Particles, arrays: Any, flow: Flow) -> Sequence[str]:  # noqa: ARG002
+        """Return the distance over which swimmers keep their direction without molecules."""
+        D = self.rotationalDiffusivity
+        return (f"{'persistence length [m]':24s} {self.speed / (2.0 * D):.3g}",) if D > 0.0 else ()
+
+    def warnings(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> Sequence[str]:
+        """Warn of turns that are too large in a step."""
+        return tuple(filter(None, (self.long_step(p, flow, medium, dt),)))
+
+    def long_step(self, p: Particles, flow: Flow, medium: Medium, dt: float) -> str:  # noqa: ARG002
+        """Warn if the direction diffuses far in a step."""
+        turn = self.rotationalDiffusivity * dt
+        if turn <= LARGE_TURN:
+            return ""
+        return (
+            f"swimmers turn at random by sqrt(2 D dt) = {math.sqrt(2.0 * turn):.2g} in a step, which is not "
+            f"small. Use deltaT < {LARGE_TURN / self.rotationalDiffusivity:.2g}."
+        )
