@@ -165,6 +165,7 @@ class AnalyticFlow:
         self.width = width
         self.notes: tuple[str, ...] = ()
         self.span = (-math.inf, math.inf)
+        self.bounds = (np.full(3, -math.inf), np.full(3, math.inf))
 
     def load(self, start: float, end: float) -> float:  # noqa: ARG002
         """Return infinity: the flow is defined at all times."""
@@ -209,6 +210,10 @@ class AnalyticFlow:
             np.stack([c + zeros for c in u], axis=1),
             np.stack([c + zeros for c in gradient], axis=1).reshape(-1, 3, 3),
         )
+
+    def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002
+        """Return no times: the flow is steady."""
+        return ()
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
         """Raise InputError: there are no faces."""

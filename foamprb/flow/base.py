@@ -144,6 +144,8 @@ class Flow(Sampled, Protocol):
     kernels: dict[str, Callable[..., Any]]
     width: float
     """Shortest distance between walls and openings along a coordinate axis, m; infinite without."""
+    bounds: tuple[Floats, Floats]
+    """Smallest and largest coordinates, (3,) each, m."""
     lists_walls: bool
     """True if ``gap`` finds only the walls within the reach given to :meth:`arrays`."""
     notes: tuple[str, ...]
@@ -179,6 +181,9 @@ class Flow(Sampled, Protocol):
 
     def cell_size(self, hosts: Ints) -> Floats:
         """Return the cube root of the volume of each host's cell, m; infinite without cells."""
+
+    def times_within(self, start: float, end: float) -> Sequence[float]:
+        """Return the times between ``start`` and ``end``, s, between which the flow is linear in time."""
 
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch at time t, s; InputError if there is no such patch or no faces."""

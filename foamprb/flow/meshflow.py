@@ -345,6 +345,10 @@ class MeshFlow:
         """Return the cube root of the volume of the hosts' cells, (n,), m."""
         return np.cbrt(self.mesh.volumes[self.cell_of(hosts)])
 
+    def times_within(self, start: float, end: float) -> Sequence[float]:  # noqa: ARG002
+        """Return no times: the flow is steady."""
+        return ()
+
     def patch_faces(self, name: str, t: float) -> PatchFaces:  # noqa: ARG002
         """Return the triangles of a patch; InputError if there is no such patch."""
         names = [patch.name for patch in self.patches]

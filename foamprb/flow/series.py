@@ -389,6 +389,12 @@ class SeriesFlow(MeshFlow):
         self.load(t, t)
         return sample_with(sample, self.arrays(), points, hosts, t)
 
+    def times_within(self, start: float, end: float) -> Sequence[float]:
+        """Return the times of the flow between ``start`` and ``end``, s, those of each period."""
+        levels = range(self._level_before(start), self._level_after(end) + 1)
+        times = [self._time_of(level) for level in levels]
+        return [t for t in times if start + self._slack < t < end - self._slack]
+
     def patch_faces(self, name: str, t: float) -> PatchFaces:
         """Return the triangles of a patch at time t, s; see :meth:`MeshFlow.patch_faces` and :meth:`load`."""
         return with_velocity(super().patch_faces(name, t), self, t)

@@ -9,6 +9,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Literal, NamedTuple, Protocol, TypeAlias
@@ -19,10 +20,12 @@ from numpy.typing import NDArray
 from foamprb.cloud.state import VARIABLES, Particles, empty
 from foamprb.dictionary.constraints import (
     Angle,
+    AtLeastOne,
     Axes,
     Bounds,
     Constant,
     Meaning,
+    NoEffect,
     NonNegative,
     Positive,
     Vector3,
@@ -48,6 +51,8 @@ _U0 = Annotated[
         "the fluid's",
     ),
 ]
+
+_LEAVE_OUT = Annotated[bool, Meaning("leave out positions outside the mesh")]
 
 GIVEN: dict[str, Bounds] = {
     "d": Positive,
@@ -119,7 +124,7 @@ class ManualInjection(Injection):
     positionsFile: Annotated[Path, Meaning("a file in `constant`, see [Positions](#positions)")]
     U0: _U0 = None
     SOI: _SOI = START_OF_FLOW
-    ignoreOutOfBounds: Annotated[bool, Meaning("leave out positions outside the mesh")] = False
+    ignoreOutOfBounds: _LEAVE_OUT = False
 
     def places(self, flow: Flow, _random: np.random.Generator, read: ReadPositions) -> Places:
         """Return the positions of the file, without those outside the flow if ``ignoreOutOfBounds``.
@@ -132,18 +137,7 @@ class ManualInjection(Injection):
         SOI = start_of_injection(self, flow)
         x, given = read(self.positionsFile, GIVEN)
         hosts = flow.locate(x)
-        outside = hosts < 0
-        if outside.any() and not self.ignoreOutOfBounds:
-            first = ", ".join("({:g} {:g} {:g})".format(*row) for row in x[outside][:3])
-            more = ", ..." if outside.sum() > 3 else ""
-            raise InputError(
-                f"{self.positionsFile}: {outside.sum()} of {len(x)} positions lie outside the mesh: "
-                f"{first}{more}. Move them inside, or set ignoreOutOfBounds true to leave them out."
-            )
-        if outside.any():
-            log.warning("%s: %d of %d positions lie outside the mesh and are left out.",
-                        self.positionsFile, outside.sum(), len(x))  # fmt: skip
-        inside = ~outside
+        inside = _inside(x, hosts, self.ignoreOutOfBounds, self.positionsFile)
         t = np.full(np.count_nonzero(inside), SOI)
         columns = {name: column[inside] for name, column in given.items()}
         return Places(x[inside], hosts[inside], t, self.U0, columns)
@@ -178,9 +172,7 @@ class PatchInjection(Injection):
             f"patchInjection on {self.patch}: parcelsPerSecond {self.parcelsPerSecond:g} times "
             f"duration {self.duration:g} s",
         )
-        named = [flow.patches[k].name for k in patches_named(flow.patches, self.patch)] or [self.patch]
-        parts = [flow.patch_faces(name, SOI) for name in named]
-        faces = PatchFaces(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+        faces = _faces_of(self.patch, flow, SOI)
         inflow = np.maximum(np.einsum("tvi,ti->tv", faces.velocity, faces.normals), 0.0)
         flux = inflow.mean(axis=1) * faces.areas
         if not flux.sum() > 0.0:
@@ -188,12 +180,233 @@ class PatchInjection(Injection):
             raise InputError(
                 f"patchInjection on {self.patch}: no fluid enters through this patch at SOI, {SOI:g} s"
                 + ("; it is at rest, as is usual at the first time of a case. " if still else ". ")
-                + "Choose another SOI, another patch or other times of the flow."
+                + "Choose another SOI, another patch or other times of the flow; or the type "
+                "patchFlowRateInjection, which follows the inflow in time."
             )
         chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
         x = _in_triangles(faces.vertices[chosen], inflow[chosen], random)
         t = SOI + np.arange(n) / self.parcelsPerSecond
         return Places(x, faces.hosts[chosen], t, self.U0)
+
+
+_ONE = Constant(1.0)
+_SHARES = 16
+"""Parts of an interval between two times of a flow, in each of which the inflow is linear in time."""
+
+
+@dataclass(frozen=True)
+class PatchFlowRateInjection(Injection):
+    """Particles in proportion to the volume that flows in through a patch, from ``SOI`` on for ``duration``.
+
+    The inflow is that of the velocity at each time of a transient flow, and linear between them.
+    """
+
+    patch: Annotated[
+        str,
+        Meaning("a name, group or regular expression; random places, as the inflow at the time of release"),
+    ]
+    parcelConcentration: Annotated[
+        float, Positive, Meaning("particles in each cubic metre that flows in", "1/m³")
+    ]
+    duration: Annotated[float, Positive, Meaning("of the injection", "s")]
+    concentration: Annotated[Constant, Positive, Meaning("factor of `parcelConcentration`", "1")] = _ONE
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
+    phi: Annotated[str, NoEffect("the inflow is that of the velocity")] = "phi"
+    rho: Annotated[str, NoEffect("the inflow is that of the velocity")] = "rho"
+
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return random places on the patch, as the inflow at the times of release.
+
+        Particle k is released when the volume for k + ½ particles has entered.
+
+        Raises
+        ------
+        InputError
+            If no fluid enters through the patch, or no particle is injected.
+        """
+        start = start_of_injection(self, flow)
+        end = min(start + self.duration, flow.span[1])
+        what = f"patchFlowRateInjection on {self.patch}"
+        rate = self.parcelConcentration * self.concentration
+        number, parts = 0.0, []
+        before = _faces_of(self.patch, flow, start)
+        for t0, t1 in pairwise([start, *flow.times_within(start, end), end]):
+            after = _faces_of(self.patch, flow, t1)
+            # Velocities into the flow at the corners of the triangles.
+            q0, q1 = (np.einsum("tvi,ti->tv", f.velocity, f.normals) for f in (before, after))
+            h = (t1 - t0) / _SHARES
+            for j in range(_SHARES):
+                a, b = (np.maximum(q0 + s / _SHARES * (q1 - q0), 0.0) for s in (j, j + 1))
+                Q0, Q1 = (float((q.mean(axis=1) * before.areas).sum()) for q in (a, b))
+                first, number = number, number + rate * h * 0.5 * (Q0 + Q1)
+                n = math.floor(number + 0.5) - math.floor(first + 0.5)
+                if n == 0:
+                    continue
+                require_room(number, f"{what}: parcelConcentration {rate:g} 1/m3 up to {t1:g} s")
+                mean = (math.floor(first + 0.5) + 0.5 + np.arange(n) - first) / (rate * h)
+                # The share s of the part in which this volume over h enters: Q0 s + (Q1 - Q0) s²/2.
+                s = 2.0 * mean / (Q0 + np.sqrt(np.maximum(Q0**2 + 2.0 * mean * (Q1 - Q0), 0.0)))
+                density = a + b
+                flux = density.mean(axis=1) * before.areas
+                chosen = random.choice(len(flux), size=n, p=flux / flux.sum())
+                x = _in_triangles(before.vertices[chosen], density[chosen], random)
+                parts.append((x, before.hosts[chosen], t0 + h * (j + np.minimum(s, 1.0))))
+            before = after
+        if not parts:
+            raise InputError(
+                f"{what}: fluid for {number:.3g} particles enters from {start:g} to {end:g} s, for none."
+            )
+        x, hosts, t = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+        return Places(x, hosts, t, self.U0)
+
+
+def _faces_of(word: str, flow: Flow, t: float) -> PatchFaces:
+    """Return the triangles of the patches of a name, a group or a pattern at time t, s."""
+    named = [flow.patches[k].name for k in patches_named(flow.patches, word)] or [word]
+    parts = [flow.patch_faces(name, t) for name in named]
+    return PatchFaces(*(np.concatenate(arrays) for arrays in zip(*parts, strict=True)))
+
+
+_NUMBER = Annotated[int, AtLeastOne, Meaning("number of particles")]
+_OVER = Annotated[float, NonNegative, Meaning("of the injection, at even intervals", "s", "0: all at `SOI`")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineInjection(Injection):
+    """Particles at even distances on a line, in random order, from ``SOI`` on for ``duration``."""
+
+    start: Annotated[Vector3, Meaning("first place", "m")]
+    end: Annotated[Vector3, Meaning("last place", "m")]
+    number: _NUMBER
+    duration: _OVER = 0.0
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
+    ignoreOutOfBounds: _LEAVE_OUT = False
+
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return the places on the line, without those outside the flow if ``ignoreOutOfBounds``.
+
+        Raises
+        ------
+        InputError
+            If places lie outside the flow; with their number and the first of them.
+        """
+        n = require_room(self.number, f"lineInjection: number {self.number}")
+        x = np.linspace(self.start, self.end, n)
+        hosts = flow.locate(x)
+        inside = _inside(x, hosts, self.ignoreOutOfBounds, "lineInjection")
+        times = start_of_injection(self, flow) + self.duration * random.permutation(n).astype(float) / n
+        return Places(x[inside], hosts[inside], times[inside], self.U0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxInjection(Injection):
+    """Particles at random in a box, as far as it lies in the mesh, from ``SOI`` on for ``duration``."""
+
+    min: Annotated[Vector3, Meaning("corner of the smallest coordinates", "m")]
+    max: Annotated[Vector3, Meaning("corner of the largest coordinates", "m")]
+    number: _NUMBER
+    duration: _OVER = 0.0
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
+
+    def __post_init__(self) -> None:
+        if any(low > high for low, high in zip(self.min, self.max, strict=True)):
+            raise InputError("has a component of min above that of max")
+
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return random places in the box; see :func:`_in_mesh`."""
+        box = np.array([self.min, self.max])
+        return _in_mesh(self, "boxInjection", flow, random, box, lambda x: np.full(len(x), True))
+
+
+@dataclass(frozen=True, kw_only=True)
+class SphereInjection(Injection):
+    """Particles at random in a sphere, as far as it lies in the mesh, from ``SOI`` on for ``duration``."""
+
+    origin: Annotated[Vector3, Meaning("centre", "m")]
+    radius: Annotated[float, Positive, Meaning("radius", "m")]
+    number: _NUMBER
+    duration: _OVER = 0.0
+    U0: _U0 = None
+    SOI: _SOI = START_OF_FLOW
+
+    def places(self, flow: Flow, random: np.random.Generator, _read: ReadPositions) -> Places:
+        """Return random places in the sphere; see :func:`_in_mesh`."""
+        o, R = np.array(self.origin), self.radius
+        box = np.array([o - R, o + R])
+        return _in_mesh(
+            self, "sphereInjection", flow, random, box, lambda x: np.linalg.norm(x - o, axis=1) <= R
+        )
+
+
+_AT_ONCE = 1 << 16
+"""Most places that are drawn at once."""
+_MOST_DRAWN = 1000
+"""Most places that are drawn for each one in the mesh."""
+
+
+def _in_mesh(
+    model: BoxInjection | SphereInjection,
+    what: str,
+    flow: Flow,
+    random: np.random.Generator,
+    box: Floats,
+    contains: Callable[[Floats], NDArray[np.bool_]],
+) -> Places:
+    """Return random places of a region in the mesh, released at even intervals.
+
+    Parameters
+    ----------
+    box
+        Corners of a box around the region, (2, 3), m; only its part in that of the mesh is searched.
+    contains
+        Returns which points lie in the region.
+
+    Raises
+    ------
+    InputError
+        If less than a thousandth of that part lies in region and mesh.
+    """
+    low, high = np.maximum(box[0], flow.bounds[0]), np.minimum(box[1], flow.bounds[1])
+    n = require_room(model.number, f"{what}: number {model.number}")
+    x, hosts, tried, found = np.empty((n, 3)), np.empty(n, dtype=np.int32), 0, 0
+    while found < n:
+        drawn = low + (high - low) * random.random((min(max(n - found, 1000), _AT_ONCE), 3))
+        tried += len(drawn)
+        drawn = drawn[contains(drawn)]
+        held = flow.locate(drawn)
+        own = np.flatnonzero(held >= 0)[: n - found]
+        x[found : found + len(own)], hosts[found : found + len(own)] = drawn[own], held[own]
+        found += len(own)
+        if (low > high).any() or (found < n and tried > _MOST_DRAWN * (found + 10)):
+            raise InputError(f"{what}: only {found} of {tried} random places lie in the mesh.")
+    times = start_of_injection(model, flow) + model.duration * np.arange(n, dtype=float) / n
+    return Places(x, hosts, times, model.U0)
+
+
+def _inside(x: Floats, hosts: NDArray[np.int32], leave_out: bool, what: object) -> NDArray[np.bool_]:
+    """Return which of the positions lie in the flow.
+
+    Raises
+    ------
+    InputError
+        If some do not and shall not be left out; with their number and the first of them.
+    """
+    outside = hosts < 0
+    if outside.any() and not leave_out:
+        first = ", ".join("({:g} {:g} {:g})".format(*row) for row in x[outside][:3])
+        more = ", ..." if outside.sum() > 3 else ""
+        raise InputError(
+            f"{what}: {outside.sum()} of {len(x)} positions lie outside the mesh: "
+            f"{first}{more}. Move them inside, or set ignoreOutOfBounds true to leave them out."
+        )
+    if outside.any():
+        log.warning(
+            "%s: %d of %d positions lie outside the mesh and are left out.", what, outside.sum(), len(x)
+        )
+    return ~outside
 
 
 @dataclass(frozen=True)
@@ -431,9 +644,13 @@ def given_shear_modulus(
 
 
 INJECTIONS: dict[str, type[Injection]] = {
+    "boxInjection": BoxInjection,
     "cellZoneInjection": CellZoneInjection,
     "coneInjection": ConeInjection,
+    "lineInjection": LineInjection,
     "manualInjection": ManualInjection,
+    "patchFlowRateInjection": PatchFlowRateInjection,
     "patchInjection": PatchInjection,
+    "sphereInjection": SphereInjection,
 }
 """By the word that ``type`` selects."""

@@ -1,4 +1,4 @@
-"""Where particles appear: zones of cells and cones."""
+"""Where and when particles appear."""
 
 from __future__ import annotations
 
@@ -21,10 +21,14 @@ from foamprb.cloud.injection import models
 from foamprb.cloud.injection.models import (
     BYTES,
     GIVEN,
+    BoxInjection,
     CellZoneInjection,
     ConeInjection,
+    LineInjection,
     ManualInjection,
+    PatchFlowRateInjection,
     PatchInjection,
+    SphereInjection,
     given_shear_modulus,
 )
 from foamprb.errors import InputError
@@ -33,6 +37,7 @@ from foamprb.flow.mesh.mesh import build_mesh
 from foamprb.flow.meshflow import MeshFlow
 from foamprb.flow.read.foamfile import read_cell_zones
 from foamprb.flow.read.openfoam import read_case
+from foamprb.flow.series import SeriesFlow
 from foamprb.memory import memory
 
 CONE = {
@@ -382,3 +387,82 @@ class TestPatch:
         p = release(PatchInjection("lid", 40.0, 0.25, SOI=0.5), lid_flow, rng(), no_file)
         assert p.t0 == pytest.approx([0.5 + k / 40.0 for k in range(10)], abs=1e-15)
         assert np.array_equal(p.t, p.t0)
+
+
+class TestRegions:
+    def test_a_box_is_filled_evenly_where_it_lies_in_the_mesh(self, lid_flow):
+        """Half of it lies above the cube."""
+        model = BoxInjection(min=(0.2, 0.1, 0.5), max=(0.6, 0.9, 1.5), number=4000, duration=2.0, SOI=0.5)
+        p = release(model, lid_flow, rng(), no_file)
+        for axis, (low, size) in enumerate(((0.2, 0.4), (0.1, 0.8), (0.5, 0.5))):
+            assert stats.kstest(p.x[:, axis], "uniform", (low, size)).pvalue > 0.01
+        np.testing.assert_array_equal(p.host, lid_flow.locate(p.x))
+        np.testing.assert_allclose(p.t0, 0.5 + 2.0 * np.arange(4000) / 4000, rtol=1e-15)
+
+    def test_a_box_beside_the_mesh_or_upside_down_is_refused(self, lid_flow):
+        with pytest.raises(InputError, match=r"boxInjection: only 0 of 1000 random places lie in the mesh"):
+            release(BoxInjection(min=(2.0,) * 3, max=(3.0,) * 3, number=5), lid_flow, rng(), no_file)
+        with pytest.raises(InputError, match="component of min above that of max"):
+            BoxInjection(min=(0.0, 1.0, 0.0), max=(1.0, 0.0, 1.0), number=5)
+
+    def test_a_sphere_is_filled_evenly(self, lid_flow):
+        model = SphereInjection(origin=(0.5, 0.5, 0.5), radius=0.4, number=4000)
+        p = release(model, lid_flow, rng(), no_file)
+        arms = p.x - 0.5
+        r = np.linalg.norm(arms, axis=1)
+        assert stats.kstest((r / 0.4) ** 3, "uniform").pvalue > 0.01
+        for axis in range(3):
+            assert stats.kstest(arms[:, axis] / r, "uniform", (-1.0, 2.0)).pvalue > 0.01
+        np.testing.assert_array_equal(p.t0, 0.0)
+
+    def test_a_line_is_divided_evenly_and_released_in_any_order(self, lid_flow):
+        ends = {"start": (0.1, 0.2, 0.3), "end": (0.9, 0.8, 0.7)}
+        p = release(LineInjection(**ends, number=5, duration=1.0), lid_flow, rng(), no_file)
+        np.testing.assert_allclose(p.x[:, 0], [0.1, 0.3, 0.5, 0.7, 0.9], rtol=1e-14)
+        np.testing.assert_allclose(sorted(p.t0), [0.0, 0.2, 0.4, 0.6, 0.8], rtol=1e-14)
+        assert (np.diff(p.t0) < 0.0).any()
+
+    def test_places_of_a_line_outside_are_refused_or_left_out(self, lid_flow):
+        ends = {"start": (0.5, 0.5, 0.25), "end": (0.5, 0.5, 1.75), "number": 4}
+        with pytest.raises(InputError, match="lineInjection: 2 of 4 positions lie outside the mesh"):
+            release(LineInjection(**ends), lid_flow, rng(), no_file)
+        p = release(LineInjection(**ends, ignoreOutOfBounds=True), lid_flow, rng(), no_file)
+        np.testing.assert_allclose(p.x[:, 2], [0.25, 0.75])
+
+
+class TestFlowRate:
+    """Through the lid of a unit cube at the speed f x: ½ f m³/s for f > 0."""
+
+    @pytest.fixture
+    def series(self, lid_flow):
+        """At rest at 0, f = 1 at 1 s, 0 at 2 s and −1 at 3 s."""
+        u, l = lid_flow._arrays.nodes[:, 3:6], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
+        return SeriesFlow(lid_flow.mesh, [0.0, 1.0, 3.0], lambda k: ((0.0, 1.0, -1.0)[k] * u, l))
+
+    def test_number_and_times_follow_the_inflow(self, series):
+        p = release(PatchFlowRateInjection("lid", 4000.0, 10.0), series, rng(), no_file)
+        assert p.size == 2000
+        # ¼ t² m³ have entered in the first second.
+        k = np.arange(1000)
+        np.testing.assert_allclose(p.t0[:1000], np.sqrt((k + 0.5) / 1000.0), rtol=1e-12)
+        np.testing.assert_allclose(p.t0[1000:], 2.0 - p.t0[:1000][::-1], rtol=1e-3)
+        assert stats.kstest(p.x[:, 0], lambda x: np.clip(x, 0.0, 1.0) ** 2).pvalue > 0.01
+        assert stats.kstest(p.x[:, 1], "uniform").pvalue > 0.01
+        np.testing.assert_array_equal(p.host, series.locate(p.x - [0.0, 0.0, 1e-9]))
+        assert np.isnan(p.v).all()
+
+    def test_a_steady_inflow_gives_even_times(self, lid_flow):
+        model = PatchFlowRateInjection("lid", 10.0, 2.0, concentration=2.0, SOI=0.5)
+        p = release(model, lid_flow, rng(), no_file)
+        np.testing.assert_allclose(p.t0, 0.5 + (np.arange(20) + 0.5) / 10.0, rtol=1e-13)
+
+    def test_an_outflow_is_refused(self, series):
+        with pytest.raises(InputError, match="fluid for 0 particles enters from 2 to 3 s, for none"):
+            release(PatchFlowRateInjection("lid", 4000.0, 1.0, SOI=2.0), series, rng(), no_file)
+
+    def test_times_of_each_period_count(self, lid_flow):
+        u, l = lid_flow._arrays.nodes[:, 3:6], np.zeros((len(lid_flow.mesh.nodes), 3, 3))
+        flow = SeriesFlow(lid_flow.mesh, [0.0, 1.0], lambda k: (k * u, l), period=2.0)
+        assert flow.times_within(0.5, 4.0) == [1.0, 2.0, 3.0]
+        p = release(PatchFlowRateInjection("lid", 400.0, 4.0), flow, rng(), no_file)
+        np.testing.assert_allclose(p.t0[200:] - 2.0, p.t0[:200], rtol=1e-10)
