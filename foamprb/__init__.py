@@ -44,6 +44,7 @@ Particles in a flow:
     Gravity             a force: weight less buoyancy
     PressureGradient    a force: that of the undisturbed flow's pressure gradient
     VirtualMass         a force: that of the fluid that an accelerating particle accelerates
+    DuctLift            a force: lift by inertia of the fluid on neutral particles in a duct
     FaxenCorrection     the mean over the body of a flow that is curved
     SaffmanMeiLift      lift by inertia of the fluid on a sphere that slips in shear
     WallLift            what walls send back of a soft particle near them

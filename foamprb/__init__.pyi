@@ -7,6 +7,9 @@ from .body.tensor import log_ratio as log_ratio
 from .cloud.block import Medium as Medium
 from .cloud.cloud import Cloud as Cloud
 from .cloud.forces import (
+    DuctLift as DuctLift,
+)
+from .cloud.forces import (
     Gravity as Gravity,
 )
 from .cloud.forces import (
@@ -97,6 +100,7 @@ __all__ = [
     "Cloud",
     "CrossPowerLaw",
     "Division",
+    "DuctLift",
     "Escape",
     "FailedParticlesWarning",
     "FaxenCorrection",

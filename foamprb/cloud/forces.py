@@ -6,21 +6,26 @@ A new force is a class below, which declares its entries and names a plain funct
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
+from itertools import pairwise
 from numbers import Real
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 from foamprb.body.drag import reduced_gravity
-from foamprb.body.tensor import Scalar, Vector, scale_vector
+from foamprb.body.lift import HO_LEAL, balances, duct_coefficient, duct_lift, hinges
+from foamprb.body.tensor import Scalar, Vector, inner, minus, norm, scale_vector
 from foamprb.cloud.block import Medium, at, load3
 from foamprb.cloud.layout import LANES
 from foamprb.compile.link import bound
-from foamprb.dictionary.constraints import Meaning, NonNegative, Only
+from foamprb.dictionary.constraints import Choice, Meaning, NonNegative, Only, Pairs, Positive, Vector3
+from foamprb.errors import InputError
 
 __all__ = [
     "DEFAULT",
     "FORCES",
+    "DuctLift",
     "Force",
     "Gravity",
     "Inputs",
@@ -33,6 +38,9 @@ __all__ = [
 ]
 
 _FLUID_VELOCITY = Only("U", "the flow's velocity")
+_TINY = 1e-300
+_POINTS = len(HO_LEAL)
+"""Largest number of points of a table of ``ductLift``."""
 
 
 class Inputs(NamedTuple):
@@ -49,6 +57,10 @@ class Inputs(NamedTuple):
     Du_Dt: Vector
     """Acceleration of the fluid at the barycentre, ∂u/∂t + l·u, m/s²."""
     medium: Medium
+    x: Vector = (0.0, 0.0, 0.0)
+    """Position of the barycentre at the start of the step, m."""
+    R: Scalar = 0.0
+    """Radius of the sphere of the same volume, m."""
 
 
 def displaced(inputs: Inputs) -> Scalar:
@@ -65,7 +77,7 @@ class Force:
     adds, in masses of the particle."""
 
     @property
-    def coefficients(self) -> tuple[float, ...]:
+    def coefficients(self) -> tuple[Any, ...]:
         """The entries that are numbers, in their order."""
         return tuple(float(value) for value in self._numbers().values())
 
@@ -93,6 +105,75 @@ class Gravity(Force):
     """Gravity, ``constant/g``, less buoyancy: ``gravity;``."""
 
     evaluate: ClassVar = staticmethod(weight)
+
+
+def focusing(
+    inputs: Inputs, origin: Vector, direction: Vector, weights: tuple[Scalar, Scalar],
+    size: Scalar, rate: Scalar, *table: Scalar,
+) -> tuple[Vector, Scalar]:  # fmt: skip
+    """Return C ρ_f γ̇² R⁴ over m, m/s², away from the middle of a duct; no inertia.
+
+    ``weights`` are those of the distance along the direction and of the whole distance: (1, 0) in a channel,
+    (−1, 1) in a pipe.
+    """
+    e, d = direction, minus(inputs.x, origin)
+    along, across = weights
+    f = along * inner(d, e)
+    q = (across * d[0] + f * e[0], across * d[1] + f * e[1], across * d[2] + f * e[2])
+    r = norm(q)
+    a = duct_lift(duct_coefficient(r / size, table), inputs.R, rate, inputs.medium.rho, inputs.rho)
+    return scale_vector(a / (r + _TINY), q), 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class DuctLift(Force):
+    """Lift by inertia of the fluid on neutral particles in a straight pipe or between plane walls."""
+
+    shape: Annotated[str, Choice(("channel", "pipe")), Meaning("of the duct; a channel has plane walls")]
+    origin: Annotated[Vector3, Meaning("a point of the middle plane, or of the axis", "m")]
+    direction: Annotated[Vector3, Meaning("normal of the walls, or direction of the axis")]
+    size: Annotated[float, Positive, Meaning("half the distance of the walls, or the radius", "m")]
+    shearRate: Annotated[float, NonNegative, Meaning("γ̇, shear rate of the flow at the wall", "1/s")]
+    table: Annotated[
+        Pairs | None,
+        Meaning(
+            "pairs (s C): distance from the middle over `size`, and coefficient of the force C ρ_f γ̇² R⁴ "
+            "outwards",
+            "1",
+            "that of Ho and Leal, for a channel",
+        ),
+    ] = None
+
+    evaluate: ClassVar = staticmethod(focusing)
+
+    def __post_init__(self) -> None:
+        if not any(self.direction):
+            raise InputError("has a direction of length 0")
+        if self.table is None and self.shape == "pipe":
+            raise InputError("needs a table of coefficients for a pipe")
+        s = [s for s, _ in self._table]
+        if not 2 <= len(s) <= _POINTS or s[0] < 0.0 or any(b <= a for a, b in pairwise(s)):
+            raise InputError(f"needs a table of 2 to {_POINTS} pairs (s C), s >= 0 and increasing")
+
+    @property
+    def _table(self) -> Pairs:
+        return HO_LEAL if self.table is None else self.table
+
+    @property
+    def coefficients(self) -> tuple[Any, ...]:
+        """The arguments of :func:`focusing`, of the same types for any table."""
+        length = math.hypot(*self.direction)
+        e = tuple(component / length for component in self.direction)
+        weights = (1.0, 0.0) if self.shape == "channel" else (-1.0, 1.0)
+        found = hinges(self._table)
+        unused = (0.0,) * (1 + 2 * _POINTS - len(found))
+        origin = tuple(map(float, self.origin))
+        return origin, e, weights, float(self.size), float(self.shearRate), *found, *unused
+
+    def __str__(self) -> str:
+        """Return the entries for the log."""
+        zeros = ", ".join(f"{s:.3g}" for s in balances(self._table))
+        return f"({self.shape}, size {self.size:g}, shearRate {self.shearRate:g}, C = 0 at {zeros or 'no s'})"
 
 
 def pressure_gradient(inputs: Inputs) -> tuple[Vector, Scalar]:
@@ -126,6 +207,7 @@ class VirtualMass(Force):
 
 
 FORCES: dict[str, type[Force]] = {
+    "ductLift": DuctLift,
     "gravity": Gravity,
     "pressureGradient": PressureGradient,
     "virtualMass": VirtualMass,
@@ -152,9 +234,9 @@ def forces_on(block: Any, i: int, medium: Medium, J: Scalar, Du_Dt: Vector) -> t
     The arguments of :func:`foamprb.body.slip.balanced_slip`.
     """
     inputs = _inputs_of(block, i, medium, J)
-    accelerated = Inputs(inputs.J, inputs.rho, Du_Dt, inputs.medium)
+    accelerated = Inputs(inputs.J, inputs.rho, Du_Dt, inputs.medium, inputs.x, inputs.R)
     f, inertia = sum_of_forces(accelerated, medium.coefficients)
-    still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), inputs.medium)
+    still = Inputs(inputs.J, inputs.rho, scale_vector(0.0, inputs.Du_Dt), inputs.medium, inputs.x, inputs.R)
     steady, _ = sum_of_forces(still, medium.coefficients)
     return steady, f, inertia
 
@@ -176,7 +258,8 @@ def coefficients(forces: Sequence[Force]) -> tuple[Any, ...]:
 
 
 def _inputs_of(block: Any, i: int, medium: Medium, J: Scalar) -> Inputs:
-    return Inputs(J, block[at.rho * LANES + i], load3(block, at.DuDt, i), medium)
+    x, R = load3(block, at.x, i), block[at.R * LANES + i]
+    return Inputs(J, block[at.rho * LANES + i], load3(block, at.DuDt, i), medium, x, R)
 
 
 # Not the constants 0 and 1. Which sums of a stage the compiler contracts depends on its loads: without these,

@@ -37,6 +37,7 @@ __all__ = ["CaseCloud", "braces", "read_case_cloud"]
 
 log = logging.getLogger("foamprb")
 
+_FORCES = {**FORCES, **SURROUNDINGS}
 _NAME = "kinematicCloudProperties"
 _MODULI = ("youngsModulus", "poissonsRatio")
 _MOST_PARTICLES = 100_000
@@ -196,14 +197,12 @@ class _Reader:
         for name, entry in forces.entries.items():
             if name == "gravity":
                 self.cloud.gravity = True
-            elif name in FORCES:
+            elif name in _FORCES:
                 try:
-                    read_entry(forces, name, FORCES[name])
+                    read_entry(forces, name, _FORCES[name])
                     self.cloud.forces += _lines(entry)
                 except InputError as error:
                     self._leave_out(entry, str(error))
-            elif name in SURROUNDINGS:
-                self._leave_out(entry, "it acts with the integrator stokes only")
             elif name != "sphereDrag":
                 self._leave_out(
                     entry, "ellipsoidDrag replaces it" if name.endswith("Drag") else "it is not modelled"

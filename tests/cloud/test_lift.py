@@ -1,14 +1,19 @@
-"""Bodies that settle along a shear flow, with the lift by inertia of the fluid."""
+"""Bodies that settle along a shear flow, and neutral ones in ducts, with the lift by inertia of the fluid."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from types import FunctionType
 
+import numpy as np
 import pytest
 
-from foamprb.body.lift import lift_coefficient
-from foamprb.cloud.block import Medium
+from foamprb.body.lift import HO_LEAL, balances, lift_coefficient
+from foamprb.cloud.block import ROWS, Medium, at
 from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces import DuctLift, Gravity, coefficients, compose, forces_on
+from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import Escape
 from foamprb.cloud.state import spheres
 from foamprb.cloud.surroundings.saffman_mei import SaffmanMeiLift
@@ -18,17 +23,26 @@ from foamprb.flow import analytic
 
 R, RATE, RHO, MU, LOAD = 25e-6, 1000.0, 1000.0, 1e-3, 9.0 * 1e-3 * 1e-3 / (2.0 * 25e-6**2)
 """LOAD is the weight less buoyancy by which a sphere settles at 1 mm/s, N/m³."""
+HEIGHT = 1e-4
+CHANNEL = DuctLift(
+    shape="channel", origin=(0.0, 0.0, HEIGHT / 2), direction=(0.0, 0.0, -2.0), size=HEIGHT / 2, shearRate=6e4
+)
 
 
-def advance(integrator="stokes", sign=1.0):
+LEAST = replace(CHANNEL, shearRate=0.0)
+"""No lift, in the loop that is compiled for both."""
+
+
+def advance(sign=1.0, integrator="stokes", dt=1e-9, steps=1, rho=1e-6, rate=RATE):
+    """Return the slip of a sphere that settles along a shear flow, m/s."""
     # Without inertia of the body: light, in a strong field of gravity.
-    p = spheres([(0.0, 0.0, 0.0)], d=2.0 * R, rho=1e-6, mu=1e5, poissons_ratio=0.4999)
-    flow = analytic.shear(RATE)
-    water = Medium(MU, RHO, (-sign * LOAD / RHO, 0.0, 0.0))
-    models = Models(integrator=integrator, surroundings=(SaffmanMeiLift(),))
-    cloud = Cloud(p, flow, water, [Escape()] * len(flow.patches), 1e-9, models, threads=1)
-    cloud.advance(1)
-    return p.v[0]
+    p = spheres([(0.0, 0.0, 0.0)], d=2.0 * R, rho=rho, mu=1e5, poissons_ratio=0.4999)
+    flow = analytic.shear(rate)
+    water = Medium(MU, RHO, (-sign * LOAD / (RHO - rho), 0.0, 0.0))
+    models = Models(integrator=integrator, forces=(Gravity(), LEAST), surroundings=(SaffmanMeiLift(),))
+    cloud = Cloud(p, flow, water, [Escape()] * len(flow.patches), dt, models, threads=1)
+    cloud.advance(steps)
+    return p.v[0] - (rate * p.x[0, 1], 0.0, 0.0)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -42,6 +56,82 @@ def test_a_leading_sphere_drifts_to_the_slower_fluid(sign):
     assert v[0] == pytest.approx(sign * 1e-3 / (1.0 + (lift / drag) ** 2), rel=1e-4)
 
 
-def test_integrators_with_inertia_are_refused():
-    with pytest.raises(InputError, match="acts in the slip of the integrator stokes, not in rosenbrock"):
-        advance("rosenbrock")
+def test_a_sphere_with_inertia_comes_to_the_same_slip():
+    """Also in steps of 14 times its relaxation time, and where the lift is as large as the drag.
+
+    Inertia changes it by a share γ̇ τ = 1e-3 of the slip.
+    """
+    for rate in (RATE, 1e4):
+        v, w = (advance(integrator=i, dt=2e-6, steps=5, rho=1.0, rate=rate) for i in ("rosenbrock", "stokes"))
+        np.testing.assert_allclose(v, w, atol=1.5e-6)
+
+
+def force_at(lift, x, radius=R, rho=1500.0):
+    """Return the force of a lift on a sphere, N, as the integrators add it up."""
+    block = np.zeros(ROWS * LANES)
+    block[at.rho * LANES], block[at.R * LANES] = rho, radius
+    for k in range(3):
+        block[(at.x + k) * LANES] = x[k]
+    medium = Medium(MU, RHO, (0.0, 0.0, 0.0), coefficients((lift,)))
+    bound = FunctionType(forces_on.__code__, forces_on.__globals__ | compose((lift,)))
+    steady, push, inertia = bound(block, 0, medium, 1.0, (0.0, 0.0, 0.0))
+    assert steady == push
+    assert inertia == 1.0
+    return np.array(push) * 4.0 / 3.0 * math.pi * radius**3 * rho
+
+
+def test_lift_in_a_channel_is_that_of_ho_and_leal():
+    """16 ρ_f (U R²/H)² s (s G₁ − G₂) away from the wall, at s = 0.2 with G₁ = 0.4077 and G₂ = 1.012."""
+    radius, U = 3e-6, 6e4 * HEIGHT / 4.0
+    expected = -16.0 * RHO * (U * radius**2 / HEIGHT) ** 2 * 0.2 * (0.2 * 0.4077 - 1.012)
+    for sign in (1.0, -1.0):
+        found = force_at(CHANNEL, (5.0, 7.0, HEIGHT / 2 * (1.0 + 0.2 * sign)), radius)
+        np.testing.assert_allclose(found, (0.0, 0.0, sign * expected), rtol=1e-9)
+    assert not force_at(CHANNEL, (5.0, 7.0, HEIGHT / 2)).any()
+
+
+def test_a_neutral_sphere_drifts_by_the_lift_in_a_channel():
+    p = spheres([(0.0, 0.0, 0.6 * HEIGHT)], d=6e-6, rho=RHO, mu=1e5, poissons_ratio=0.4999)
+    models = Models(integrator="stokes", forces=(Gravity(), CHANNEL), surroundings=(SaffmanMeiLift(),))
+    Cloud(p, analytic.shear(RATE), Medium(MU, RHO, (9.81, 0.0, 0.0)), [], 1e-6, models, threads=1).advance(1)
+    speed = force_at(CHANNEL, (0.0, 0.0, 0.6 * HEIGHT), 3e-6)[2] / (6.0 * math.pi * MU * 3e-6)
+    np.testing.assert_allclose(p.v[0], (0.0, 0.0, speed), rtol=2e-4, atol=1e-6 * speed)
+
+
+def test_neutral_particles_gather_at_six_tenths():
+    assert balances(HO_LEAL) == pytest.approx([0.6], abs=0.01)
+    assert "C = 0 at 0.594" in str(CHANNEL)
+
+
+def test_lift_in_a_pipe_follows_the_given_table():
+    """C ρ_f γ̇² R⁴ from the axis outwards: 0.3 half-way between 0.2 and 0.4, −1 beyond the last point."""
+    table = ((0.0, 0.0), (0.5, 0.2), (0.6, 0.4), (0.9, -1.0))
+    pipe = DuctLift(
+        shape="pipe",
+        origin=(1.0, 2.0, 3.0),
+        direction=(0.0, 0.0, 5.0),
+        size=1e-4,
+        shearRate=RATE,
+        table=table,
+    )
+    unit = RHO * RATE**2 * R**4
+    across = np.array((0.6, 0.8, 0.0))
+    for s, C in ((0.55, 0.3), (0.95, -1.0)):
+        found = force_at(pipe, np.array((1.0, 2.0, 9.0)) + s * 1e-4 * across)
+        np.testing.assert_allclose(found, C * unit * across, rtol=1e-9, atol=1e-12 * unit)
+    assert balances(table) == pytest.approx([0.6 + 0.3 * 0.4 / 1.4])
+
+
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ({"direction": (0.0, 0.0, 0.0)}, "has a direction of length 0"),
+        ({"shape": "pipe"}, "needs a table of coefficients for a pipe"),
+        ({"table": ((0.0, 0.0),)}, "needs a table of 2 to 50 pairs"),
+        ({"table": ((0.0, 0.0), (0.5, 1.0), (0.5, 2.0))}, "increasing"),
+    ],
+)
+def test_wrong_ducts_are_refused(entries, message):
+    given = {name: getattr(CHANNEL, name) for name in ("shape", "origin", "direction", "size", "shearRate")}
+    with pytest.raises(InputError, match=message):
+        DuctLift(**{**given, **entries})

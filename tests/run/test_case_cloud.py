@@ -64,7 +64,6 @@ LEFT_OUT = [
     "constantProperties/T0 300 (it is not modelled)",
     "subModels/particleForces/WenYuDrag (ellipsoidDrag replaces it)",
     "subModels/particleForces/paramagnetic (it is not modelled)",
-    "subModels/particleForces/SaffmanMeiLiftForce (it acts with the integrator stokes only)",
     "injectionModels/many/massTotal 40 (particles are single, not parcels: their mass",
     "injectionModels/many/nParticle 5 (particles are single, not parcels)",
     "subModels/injectionModels/zone (",

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from foamprb.body.tensor import Scalar, Vector
 from foamprb.cloud.block import Medium, Scratch
 from foamprb.cloud.layout import LANES, Layout
 from foamprb.cloud.motion import PatchTable
@@ -27,6 +28,7 @@ from foamprb.cloud.state import Particles
 __all__ = [
     "Integrator",
     "apply_surroundings",
+    "lifted",
     "no_disturbance",
     "no_update",
     "track_share",
@@ -102,6 +104,17 @@ def no_update(
 
 def no_disturbance(_block: Any, _medium: Medium, _share: float, _coefficients: Any) -> None:
     """No-op: u and l are those of the flow."""
+
+
+def lifted(
+    _block: Any, _i: int, _medium: Medium, a: Vector, _v: Vector, _rate: Vector, _inertia: Scalar
+) -> Vector:
+    """Return the acceleration by all forces but drag as it is: no lift by inertia of the fluid, m/s².
+
+    The arguments are a, the velocity of the body, the rates of drag μ_f K_a/m, 1/s, and the inertia of body
+    and virtual mass over that of the body, by which a and the rates are divided.
+    """
+    return a
 
 
 update_all: Any = no_update

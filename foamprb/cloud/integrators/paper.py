@@ -39,7 +39,7 @@ from foamprb.cloud.block import (
     viscosity_at,
 )
 from foamprb.cloud.forces import acceleration
-from foamprb.cloud.integrators.base import Integrator, apply_surroundings, update_surroundings
+from foamprb.cloud.integrators.base import Integrator, apply_surroundings, lifted, update_surroundings
 from foamprb.cloud.layout import LANES, layout
 from foamprb.cloud.motion import (
     ACTIVE,
@@ -115,6 +115,7 @@ def barycentre_stage(block: Any, medium: Medium) -> None:
         c = c / inertia
         rate = (c * k[0], c * k[1], c * k[2])
         v, u, Q = load3(block, at.v, i), load3(block, at.u, i), load9(block, at.Q, i)
+        a = lifted(block, i, medium, a, v, rate, inertia)
         store3(block, at.new_v, i, implicit_euler(v, u, Q, rate, a, block[at.dt * LANES + i]))
 
 

@@ -93,7 +93,7 @@ from foamprb.cloud.integrators.adaptive import (
     track_adaptive,
     update_discount,
 )
-from foamprb.cloud.integrators.base import Integrator
+from foamprb.cloud.integrators.base import Integrator, lifted
 from foamprb.cloud.layout import LANES, Row, layout, offsets
 from foamprb.cloud.motion import STOPS_AT_CONTACT
 from foamprb.compile.link import traced
@@ -453,6 +453,7 @@ def _acceleration(block: Any, i: int, medium: Medium, v: Vector) -> tuple[Vector
     rate = (f * r[0], f * r[1], f * r[2])
     w = dot_vector(Q, (u[0] - v[0], u[1] - v[1], u[2] - v[2]))
     a_D = vector_dot(resist(block, i, rate, w), Q)
+    a = lifted(block, i, medium, a, v, rate, inertia)
     return (a[0] + a_D[0], a[1] + a_D[1], a[2] + a_D[2]), rate
 
 

@@ -1,4 +1,4 @@
-"""Lift by inertia of the fluid, in the slip of bodies without inertia of their own.
+"""Lift by inertia of the fluid, in the slip or, with inertia of the body, in its acceleration.
 
 The formulas are those of :mod:`foamprb.body.lift`.
 """
@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
 from foamprb.body.drag import oberbeck as drag
-from foamprb.body.lift import lifted_slip
+from foamprb.body.lift import lift_force, lifted_slip, vorticity
 from foamprb.body.slip import balanced_slip
-from foamprb.body.tensor import Tensor, Vector, scale_vector
+from foamprb.body.tensor import Scalar, Tensor, Vector, dot_vector, minus, plus, scale_vector, vector_dot
 from foamprb.cloud.block import Medium, at, load3, load9, load_integrals, viscosity_at
 from foamprb.cloud.forces import forces_on
 from foamprb.cloud.integrators.adaptive import drag_rate
 from foamprb.cloud.integrators.base import no_disturbance, no_update
 from foamprb.cloud.layout import LANES
-from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.base import Surrounding, volume_at_rest
 from foamprb.dictionary.constraints import Only
 
 __all__ = ["SaffmanMeiLift"]
@@ -30,8 +30,30 @@ def slip_with_lift(block: Any, i: int, medium: Medium, l_f: Tensor, Du_Dt: Vecto
     steady, f, inertia = forces_on(block, i, medium, 1.0, Du_Dt)
     Q, R = load9(block, at.Q, i), block[at.R * LANES + i]
     w = balanced_slip(Q, drag_rate(block, i, mu, k), steady, f, inertia, Du_Dt, l_f)
-    omega = (l_f[7] - l_f[5], l_f[2] - l_f[6], l_f[3] - l_f[1])
-    return lifted_slip(w, Q, scale_vector(R, k), omega, R, medium.rho, mu)
+    return lifted_slip(w, Q, scale_vector(R, k), vorticity(l_f), R, medium.rho, mu)
+
+
+def acceleration_with_lift(
+    block: Any, i: int, medium: Medium, a: Vector, v: Vector, rate: Vector, inertia: Scalar
+) -> Vector:
+    """Return the acceleration with that by lift, m/s²; see :func:`foamprb.cloud.integrators.base.lifted`.
+
+    In steps that are long against the relaxation by drag, the lift is that of the slip at which drag balances
+    it, since the lift of an explicit slip would be unstable there.
+    """
+    Q, u = load9(block, at.Q, i), load3(block, at.u, i)
+    R, mu, omega = block[at.R * LANES + i], viscosity_at(block, i, medium), vorticity(load9(block, at.l, i))
+    mass = volume_at_rest(block, i) * block[at.rho * LANES + i] * inertia
+    K = scale_vector(mass / mu, rate)
+    load = dot_vector(Q, minus(a, load3(block, at.DuDt, i)))
+    w0 = vector_dot((load[0] / rate[0], load[1] / rate[1], load[2] / rate[2]), Q)
+    balanced = lifted_slip(w0, Q, K, omega, R, medium.rho, mu)
+    y = block[at.dt * LANES + i] * (rate[0] + rate[1] + rate[2]) * (1.0 / 3.0)
+    y = y * y
+    share = y * y / (1.0 + y * y)
+    w = minus(v, u)
+    w = plus(w, scale_vector(share, minus(balanced, w)))
+    return plus(a, scale_vector(1.0 / mass, lift_force(w, omega, R, medium.rho, mu)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,18 +65,9 @@ class SaffmanMeiLift(Surrounding):
     update: ClassVar = staticmethod(no_update)
     disturb: ClassVar = staticmethod(no_disturbance)
 
-    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:  # noqa: ARG002
-        """Return the slip of the integrator without inertia."""
-        return {"_slip": slip_with_lift}
-
-    def refuses(self, inertia: bool, integrator: str) -> str:
-        """Refuse integrators with inertia, whose drag and lift would not be in balance."""
-        if inertia:
-            return (
-                f"SaffmanMeiLiftForce acts in the slip of the integrator stokes, not in {integrator}: set "
-                "integrationSchemes/shape stokes, or leave the force out"
-            )
-        return ""
+    def bindings(self, inertia: bool) -> Mapping[str, Callable[..., Any]]:
+        """Return the acceleration, or the slip without inertia."""
+        return {"lifted": acceleration_with_lift} if inertia else {"_slip": slip_with_lift}
 
     def refuses_drops(self) -> str:
         """Refuse drops, inside which the fluid moves."""

@@ -1,0 +1,112 @@
+"""Lift by inertia of the fluid and by walls in a plane channel (beyond the paper)."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from foamprb.body.lift import HO_LEAL, balances
+from foamprb.cloud.block import Medium
+from foamprb.cloud.cloud import Cloud
+from foamprb.cloud.forces import DuctLift
+from foamprb.cloud.patches import Stick
+from foamprb.cloud.state import spheres
+from foamprb.cloud.surroundings.wall_lift import WallLift
+from foamprb.cloud.tracker import Models
+from foamprb.flow import analytic
+from validation.case import Curve, Figure, Floats, Outcome, Panel, Row, worst
+from validation.runs import advance_to
+
+MU, RHO, RADIUS, HEIGHT = 1e-3, 1000.0, 5e-6, 1e-4
+STARTS = np.array([0.15, 0.25, 0.35, 0.45])
+"""Distances from the lower wall over the height."""
+
+
+def _paths(Ca: float, rate: float, inertia: bool, times: Floats) -> Floats:
+    """Return distances from the lower wall over the height, (m, n), of neutral bodies at times (m,), s.
+
+    ``rate`` is the shear rate at the walls, 1/s.
+    """
+    flow = analytic.slit(HEIGHT, rate * HEIGHT / 6.0)
+    x = np.zeros((len(STARTS), 3))
+    x[:, 2] = HEIGHT * STARTS
+    p = spheres(x, d=2.0 * RADIUS, rho=RHO, mu=MU * rate / Ca, poissons_ratio=0.4999)
+    middle = (0.0, 0.0, 0.5 * HEIGHT)
+    lift = DuctLift(
+        shape="channel", origin=middle, direction=(0.0, 0.0, 1.0), size=middle[2],
+        shearRate=rate if inertia else 0.0,
+    )  # fmt: skip
+    models = Models(
+        integrator="stokes", forces=(lift,), surroundings=(WallLift(cutOff=25.0, mobility=False),), stride=20
+    )
+    cloud = Cloud(p, flow, Medium(MU, RHO, (0.0, 0.0, 0.0)), [Stick(), Stick()], 1e-4, models, threads=1)
+    found = []
+    for t in times:
+        advance_to(cloud, float(t))
+        found.append(p.x[:, 2] / HEIGHT)
+    return np.array(found)
+
+
+def _own(rate: float, times: Floats) -> Floats:
+    """Return the paths of rigid spheres, 6π μ_f R dz/dt = C ρ_f γ̇² R⁴."""
+    s, C = np.transpose(HO_LEAL)
+    scale = RHO * (rate * RADIUS) ** 2 * RADIUS / (6.0 * np.pi * MU * HEIGHT)
+
+    def speed(_t: float, z: Floats) -> Floats:
+        return np.asarray(scale * np.sign(z - 0.5) * np.interp(np.abs(2.0 * z - 1.0), s, C))
+
+    answer = solve_ivp(speed, (0.0, float(times[-1])), STARTS, "LSODA", times, rtol=1e-9, atol=1e-12)
+    return np.asarray(answer.y.T)
+
+
+def focusing(quick: bool) -> Outcome:
+    """Focusing in a plane channel."""
+    (place,) = balances(HO_LEAL)
+    source = "about 0.6 (Segré & Silberberg 1962; Anand & Subramanian 2023)"
+    rows = [Row("distance from the middle over H/2 at which C = 0", place, 0.6, source, 0.01)]
+    if quick:
+        return Outcome(rows, [], [])
+    rate, times = 1e4, np.linspace(0.0, 0.1, 41)[1:]
+    ours, own = _paths(1e-4, rate, True, times), _own(rate, times)
+    for k, start in enumerate(STARTS):
+        name = f"rigid, from {start:g} H: distance from the wall over H, worst of all times"
+        rows.append(worst(name, ours[:, k], own[:, k], "6π μ_f R v = C ρ_f γ̇² R⁴ by LSODA", 1e-3))
+    for Ca in (0.01, 0.1, 0.3):
+        end = _paths(Ca, rate, True, np.array([5.0]))[0]
+        rows.append(Row(f"Ca = {Ca:g} at the wall, both lifts: the same", float(end.mean()), None, "–"))
+        rows.append(Row(f"Ca = {Ca:g}: spread over the starts", float(np.ptp(end)), 0.0, "one place", 1e-4))
+    late = np.linspace(0.0, 20.0, 41)
+    alone = _paths(0.2, 1e3, False, late[1:])
+    rising = float(np.diff(np.vstack([STARTS, alone]), axis=0).min())
+    rows.append(Row("Ca = 0.2, wallLift alone: smallest rise in 0.5 s", max(0.0, -rising), 0.0, "sign", 1e-9))
+    rows.append(
+        Row("the same: distance from the wall after 20 s, from 0.15 H", float(alone[-1, 0]), None, "–")
+    )
+    figure = Figure(
+        "ductLift",
+        "Neutral bodies of 10 µm in a channel of 100 µm: rigid ones with ductLift (10⁴ 1/s at the walls; "
+        "markers: LSODA), and soft ones with wallLift alone (10³ 1/s).",
+        [
+            Panel(
+                "t [s]",
+                "z/H",
+                [Curve(times, ours[:, k], "foamprb" if k == 0 else "", colour=k) for k in range(len(STARTS))]
+                + [Curve(times[::4], own[::4, k], "", "reference", k) for k in range(len(STARTS))],
+            ),
+            Panel(
+                "t [s]",
+                "z/H",
+                [
+                    Curve(late, np.append(start, alone[:, k]), "Ca = 0.2" if k == 0 else "", colour=k)
+                    for k, start in enumerate(STARTS)
+                ],
+            ),
+        ],
+    )
+    return Outcome(rows, [figure], [_REMARK])
+
+
+_REMARK = (
+    "Soft bodies gather nearer to the middle than rigid ones, as both lifts act. There is no reference for "
+    "the sum of the two lifts."
+)
