@@ -7,7 +7,7 @@ the order xx, yy, zz, xy, xz, yz.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from foamprb.body.tensor import Vector, inner, norm
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
-from foamprb.flow.mesh.lists import Index, Mask
+from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
 
 # Directions of the six second derivatives.
@@ -27,6 +27,16 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 PAIR_OF = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
 # Number of cells per chunk: the temporary arrays then stay in the cache.
 CHUNK = 1 << 15
+
+
+def in_chunks(n: int, part: Callable[[int, int], Any]) -> None:
+    """Call ``part(begin, end)`` for chunks of 0 to n, in threads."""
+
+    def run(begin: int, end: int) -> None:
+        for low in range(begin, end, CHUNK):
+            part(low, min(low + CHUNK, end))
+
+    share(n, run)
 
 
 class LeastSquaresGradient:
@@ -45,13 +55,21 @@ class LeastSquaresGradient:
     """
 
     def __init__(self, sites: Floats, around: tuple[Ints, Ints], least: float = 1e-6) -> None:
-        self._n, self._sites, self._kernel = len(around[0]) - 1, sites, link(sum_differences)
-        self._around, self._least = around, least
-        self._inverse = np.empty((self._n, 6))
-        for low, matrix in self._matrices():
-            inverse = invert(matrix, least)
+        self._n, self._sites = len(around[0]) - 1, sites
+        self._around = around
+        self._inverse, open_ = np.empty((self._n, 6)), np.empty(self._n, dtype=bool)
+
+        def part(low: int, high: int) -> None:
+            # The matrices Σ e ⊗ e of the normal equations.
+            matrix = np.empty((high - low, 3, 3))
+            self._sum(sites, np.empty((0, 3, 6)), low, matrix)
+            inverse, open_[low:high] = invert(matrix, least)
             for pair, (j, k) in enumerate(PAIRS):
-                self._inverse[low : low + len(matrix), pair] = inverse[:, j, k]
+                self._inverse[low:high, pair] = inverse[:, j, k]
+
+        in_chunks(self._n, part)
+        self.open = np.flatnonzero(open_)
+        """Cells with a direction in which the gradient is zero."""
 
     @classmethod
     def over_faces(
@@ -67,47 +85,51 @@ class LeastSquaresGradient:
             Boundary faces (n,), and the index of the site beyond each.
         """
         n, inner, neighbour = mesh.n_cells, mesh.owner[: mesh.n_internal], mesh.neighbour
-        around = grouped(
-            np.concatenate([inner, neighbour, mesh.owner[mesh.n_internal + faces]]),
-            np.concatenate([neighbour, inner, numbers]),
-            n,
-        )
+        beyond = np.full(len(mesh.owner) - mesh.n_internal, -1, dtype=np.int32)
+        beyond[faces] = numbers
+        around = np.empty(n + 1, dtype=np.int32), np.empty(len(mesh.cell_faces), dtype=np.int32)
+        of_cells = mesh.cell_face_start, mesh.cell_faces
+        end = link(list_around)(*of_cells, mesh.owner, neighbour, beyond, *around)
+        around = around[0], around[1][:end]
         gradient = cls(sites, around, least)
-        poor = np.concatenate(
-            [low + np.flatnonzero(_nearly_singular(m, least)) for low, m in gradient._matrices()]
-        )
-        if len(poor) == 0:
+        if len(gradient.open) == 0:
             return gradient
-        more = _second_neighbours(inner, neighbour, n, poor)
+        more = _second_neighbours(inner, neighbour, n, gradient.open)
         rows = np.repeat(np.arange(n), np.diff(around[0]))
         return cls(
             sites, grouped(np.concatenate([rows, more[0]]), np.concatenate([around[1], more[1]]), n), least
         )
 
-    def _matrices(self) -> Iterator[tuple[int, Floats]]:
-        """Yield the first cell of each chunk, and the matrices Σ e ⊗ e (n, 3, 3) of the normal equations."""
-        for low in range(0, self._n, CHUNK):
-            matrix = np.empty((min(CHUNK, self._n - low), 3, 3))
-            self._sums(self._sites, matrix, low)
-            yield low, matrix
-
-    def __call__(self, values: Floats, gradients: Floats, low: int = 0, bends: Floats | None = None) -> None:
-        """Write the gradients of m fields at n cells from ``low`` on into ``gradients`` (n, m, 3).
+    def __call__(self, values: Floats, gradients: Floats, bends: Floats | None = None) -> None:
+        """Write the gradients of m fields at the cells into ``gradients`` (n_cells, m, 3).
 
         ``values`` (n_sites, m) are those at the sites; the contribution of the second derivatives ``bends``
         (n_cells, m, 6) is subtracted from their differences.
         """
-        self._sums(values, gradients, low, bends)
-        for first in range(0, len(gradients), CHUNK):
-            part = gradients[first : first + CHUNK]
-            part[:] = part @ self._inverse[low + first : low + first + len(part)][:, PAIR_OF]
+        given = np.empty((0, values.shape[1], 6)) if bends is None else bends
 
-    def _sums(self, values: Floats, sums: Floats, low: int = 0, bends: Floats | None = None) -> None:
+        def part(low: int, high: int) -> None:
+            self._sum(values, given, low, gradients[low:high])
+            link(turn_rows)(self._inverse[low:high], gradients[low:high])
+
+        in_chunks(self._n, part)
+
+    def bends(self, l: Floats, h: Floats) -> None:
+        """Write the second derivatives (n_cells, 3, 6) from gradients at the sites (n_sites, 3, 3)."""
+        values, nothing = l.reshape(-1, 9), np.empty((0, 9, 6))
+
+        def part(low: int, high: int) -> None:
+            second = np.empty((high - low, 9, 3))
+            self._sum(values, nothing, low, second)
+            link(turn_rows)(self._inverse[low:high], second)
+            link(symmetrise)(second, h[low:high])
+
+        in_chunks(self._n, part)
+
+    def _sum(self, values: Floats, bends: Floats, low: int, sums: Floats) -> None:
         """Write the right side (n, m, 3) of the normal equations into ``sums``."""
-        if bends is None:
-            bends = np.empty((0, values.shape[1], 6))
         sums[:] = 0.0
-        self._kernel(self._sites, *self._around, values, bends, low, sums)
+        link(sum_differences)(self._sites, *self._around, values, bends, low, sums)
 
 
 class PointGradient:
@@ -117,20 +139,20 @@ class PointGradient:
         self._points_of = mesh.cell_point_start, mesh.cell_points
         self._n, self._sites = mesh.n_cells, np.concatenate([np.empty((mesh.n_cells, 3)), mesh.points])
         link(average)(*self._points_of, mesh.points, self._sites[: self._n])
-        self._fit = LeastSquaresGradient(self._sites, (mesh.cell_point_start, self._n + mesh.cell_points))
+        around = mesh.cell_point_start, self._n + mesh.cell_points
+        self.fit = LeastSquaresGradient(self._sites, around)
 
     @property
     def middles(self) -> Floats:
         """Return the means of the points of the cells (n_cells, 3), m."""
         return self._sites[: self._n]
 
-    def __call__(self, values: Floats, gradients: Floats) -> Floats:
-        """Write the gradients of m fields (n_cells, m, 3); return the means of the values in the cells.
+    def average(self, values: Floats) -> Floats:
+        """Write the means of m fields in the cells into the first rows of ``values`` (n_cells + n_points, m).
 
-        The first rows of ``values`` (n_cells + n_points, m) are overwritten by these means.
+        Returns these rows; the other rows are the values at the points. ``fit`` makes gradients of all.
         """
         link(average)(*self._points_of, values[self._n :], values[: self._n])
-        self._fit(values, gradients)
         return values[: self._n]
 
 
@@ -165,8 +187,11 @@ def _nearly_singular(matrix: Floats, least: float) -> Mask:
     return suspect
 
 
-def invert(matrix: Floats, least: float) -> Floats:
-    """Invert symmetric positive semidefinite matrices (n, 3, 3); nearly singular ones are pseudo-inverted."""
+def invert(matrix: Floats, least: float) -> tuple[Floats, Mask]:
+    """Invert symmetric positive semidefinite matrices (n, 3, 3); nearly singular ones are pseudo-inverted.
+
+    Returns the inverses, and True for the nearly singular ones.
+    """
     poor = _nearly_singular(matrix, least)
     safe = np.where(poor[:, None, None], np.eye(3), matrix)
     result = np.stack(tensor.inverse(_components(safe)), axis=1).reshape(-1, 3, 3)
@@ -174,7 +199,7 @@ def invert(matrix: Floats, least: float) -> Floats:
     used = values > least * values[:, -1:]
     scaled = np.where(used, 1.0 / np.where(used, values, 1.0), 0.0)
     result[poor] = np.einsum("nij,nj,nkj->nik", vectors, scaled, vectors)
-    return result
+    return result, poor
 
 
 def _components(matrix: Floats) -> tensor.Tensor:
@@ -200,6 +225,43 @@ def group(keys: Ints, values: Ints, start: Ints, grouped: Ints) -> None:
     for k in range(n, 0, -1):
         start[k] = start[k - 1]
     start[0] = 0
+
+
+def list_around(
+    first: Ints, of_cell: Ints, owner: Ints, neighbour: Ints, beyond: Ints, start: Ints, columns: Ints
+) -> int:
+    """List the sites across the faces of each cell: larger cells, smaller cells, and sites at the boundary.
+
+    Parameters
+    ----------
+    first, of_cell, owner, neighbour
+        The faces of each cell, and the cells of each face.
+    beyond
+        (n_boundary,) site beyond each boundary face, −1 for none.
+    start, columns
+        Results: the start of each cell's list (n_cells + 1,), and the lists.
+
+    Returns
+    -------
+    The number of entries in ``columns``.
+    """
+    at, n_internal = 0, neighbour.shape[0]
+    for c in range(start.shape[0] - 1):
+        start[c] = at
+        for kind in range(3):
+            for h in range(first[c], first[c + 1]):
+                f, site = of_cell[h], -1
+                if f >= n_internal:
+                    site = beyond[f - n_internal] if kind == 2 else -1
+                elif owner[f] == c:
+                    site = neighbour[f] if kind == 0 else -1
+                else:
+                    site = owner[f] if kind == 1 else -1
+                if site >= 0:
+                    columns[at] = site
+                    at += 1
+    start[start.shape[0] - 1] = at
+    return at
 
 
 def sum_differences(
@@ -230,6 +292,32 @@ def sum_differences(
                     difference -= _half_bend(bends, c, f, d)
                 for j in range(3):
                     sums[i, f, j] += weight * difference * d[j]
+
+
+def turn_rows(inverse: Floats, sums: Floats) -> None:
+    """Multiply ``sums`` (n, m, 3) by symmetric matrices (n, 6) from the right, in place."""
+    for i in range(sums.shape[0]):
+        xx, yy, zz = inverse[i, 0], inverse[i, 1], inverse[i, 2]
+        xy, xz, yz = inverse[i, 3], inverse[i, 4], inverse[i, 5]
+        for f in range(sums.shape[1]):
+            x, y, z = sums[i, f, 0], sums[i, f, 1], sums[i, f, 2]
+            sums[i, f, 0] = x * xx + y * xy + z * xz
+            sums[i, f, 1] = x * xy + y * yy + z * yz
+            sums[i, f, 2] = x * xz + y * yz + z * zz
+
+
+def symmetrise(second: Floats, h: Floats) -> None:
+    """Write derivatives (n, 9, 3) of the components of gradients as second derivatives (n, 3, 6)."""
+    for c in range(h.shape[0]):
+        for i in range(3):
+            h[c, i, 0], h[c, i, 1], h[c, i, 2] = (
+                second[c, 3 * i, 0],
+                second[c, 3 * i + 1, 1],
+                second[c, 3 * i + 2, 2],
+            )
+            h[c, i, 3] = 0.5 * (second[c, 3 * i, 1] + second[c, 3 * i + 1, 0])
+            h[c, i, 4] = 0.5 * (second[c, 3 * i, 2] + second[c, 3 * i + 2, 0])
+            h[c, i, 5] = 0.5 * (second[c, 3 * i + 1, 2] + second[c, 3 * i + 2, 1])
 
 
 def mean_series(

@@ -15,11 +15,20 @@ image (:mod:`foamprb.flow.images`) with known values, which counts as a neighbou
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from foamprb.compile.link import link
 from foamprb.flow.base import WALLS, Floats, Ints
-from foamprb.flow.gradient import PAIR_OF, PAIRS, LeastSquaresGradient, PointGradient, grouped, mean_series
+from foamprb.flow.gradient import (
+    PAIR_OF,
+    PAIRS,
+    LeastSquaresGradient,
+    PointGradient,
+    grouped,
+    mean_series,
+)
 from foamprb.flow.images import Images, points_of_faces
 from foamprb.flow.mesh.lists import Index, Mask, share
 from foamprb.flow.mesh.mesh import Mesh
@@ -76,7 +85,6 @@ class Reconstruction:
         self._across = LeastSquaresGradient.over_faces(
             mesh, self._sites, faces[imaged:], numbers[imaged:], least=0.01
         )
-        self._inside = PointGradient(mesh)
         regular = (np.diff(mesh.cell_point_start) == 8) & (np.diff(mesh.cell_face_start) == 6)
         regular[self._owner[self._walls]] = True
         # Their neighbours lie evenly around hexahedra; beside a wall the errors of a finite-volume solution
@@ -219,35 +227,29 @@ class Reconstruction:
         else:
             slopes[:n] = given
         self._beyond(u, slopes, bends, own)
-        for number in range(1 if len(self._settled) == n else 1 + _MOST_PASSES):
+        passes = 1 if len(self._settled) == n else 1 + _MOST_PASSES
+        for number in range(passes):
             if number == 0:
-                self._bend_by_faces(slopes, bends[:n])
+                self._across.bends(slopes, bends[:n])
             else:
                 self._average(u, slopes, bends, nothing, around[n:])
                 self._images.agree(around[n:])
                 kept = bends[self._settled]
-                self._bend_by_points(around, bends[:n])
+                self._inside.average(around.reshape(-1, 9))
+                self._inside.fit.bends(around, bends[:n])
                 bends[self._settled] = kept
+            before = slopes[:n].copy() if given is None and passes > 1 else slopes[:0]
             if given is None:
-                before = slopes[:n].copy()
                 self._gradient(u, slopes[:n], bends=bends[:n])
-                before -= slopes[:n]
             self._beyond(u, slopes, bends, own)
-            if given is not None or np.linalg.norm(before) <= _CHANGE * np.linalg.norm(slopes[:n]):
+            before -= slopes[: len(before)]
+            if np.linalg.norm(before) <= _CHANGE * np.linalg.norm(slopes[:n]):
                 break
         return slopes, bends
 
-    def _bend_by_faces(self, l: Floats, h: Floats) -> None:
-        """Write the second derivatives (n_cells, 3, 6) from the gradients at the cells and images."""
-        second = np.empty((len(h), 9, 3))
-        self._across(l.reshape(-1, 9), second)
-        _symmetric(second, h)
-
-    def _bend_by_points(self, l: Floats, h: Floats) -> None:
-        """Write the second derivatives (n_cells, 3, 6) from the gradients at the points."""
-        second = np.empty((len(h), 9, 3))
-        self._inside(l.reshape(-1, 9), second)
-        _symmetric(second, h)
+    @cached_property
+    def _inside(self) -> PointGradient:
+        return PointGradient(self.mesh)
 
     def _beyond(self, u: Floats, l: Floats, h: Floats, own: Index) -> None:
         """Continue derivatives from the cells beyond the boundary, and values to boundary faces ``own``."""
@@ -307,13 +309,6 @@ class Reconstruction:
                 u_points[on_wall[row]] -= np.linalg.lstsq(normals[own], excess, rcond=0.1)[0]
 
 
-def _symmetric(second: Floats, h: Floats) -> None:
-    """Write derivatives (n, 9, 3) of the components of gradients as second derivatives (n, 3, 6)."""
-    second = second.reshape(-1, 3, 3, 3)
-    for pair, (j, k) in enumerate(PAIRS):
-        h[:, :, pair] = 0.5 * (second[:, :, j, k] + second[:, :, k, j])
-
-
 def _continued(
     points: Floats, sites: Floats, around: tuple[Ints, Ints], u: Floats, l: Floats
 ) -> tuple[Floats, Floats]:
@@ -331,7 +326,9 @@ def from_points(mesh: Mesh, points: Floats) -> tuple[Floats, Floats]:
     """
     n, fit = mesh.n_cells, PointGradient(mesh)
     l = np.empty((n, 3, 3))
-    mean = fit(np.concatenate([np.empty((n, 3)), points]), l)
+    values = np.concatenate([np.empty((n, 3)), points])
+    mean = fit.average(values)
+    fit.fit(values, l)
     u = mean + np.einsum("nij,nj->ni", l, mesh.centres - fit.middles)
     columns = np.repeat(np.arange(n, dtype=np.int32), np.diff(mesh.cell_point_start))
     # Without second derivatives the Taylor series average the gradients of the cells.
