@@ -14,9 +14,10 @@ from foamprb.errors import InputError, suggestion
 from foamprb.flow.base import WALLS, Caveat, Floats, Ints, PatchFaces, Tetrahedra
 from foamprb.flow.fields import FieldColumns, Fields, fields_on
 from foamprb.flow.fluxes import free_nodes
-from foamprb.flow.mesh.arrays import FREE, MeshArrays, no_mesh
+from foamprb.flow.mesh.arrays import MeshArrays, no_mesh
 from foamprb.flow.mesh.folds import FOLDED, grade, is_in_mesh, nearby, trace
 from foamprb.flow.mesh.interfaces import motions_of_patches, triangles_across
+from foamprb.flow.mesh.lists import share
 from foamprb.flow.mesh.locator import cell_boxes, locate, seek
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import Tree, build_tree, pairs_near
@@ -159,11 +160,11 @@ class MeshFlow:
             )
         self.bounds = (mesh.points.min(axis=0), mesh.points.max(axis=0))
         self.width = _width(mesh)
-        nodes = np.zeros((len(u), 16))
-        nodes[: mesh.n_points, :3], nodes[mesh.n_points :, :3] = mesh.points, mesh.centres
-        nodes[:, 3:6] = u
-        nodes[:, 6:15] = l.reshape(-1, 9)
-        nodes[:, FREE] = free_nodes(mesh)
+        nodes, columns = np.empty((len(u), 16)), (mesh.nodes, u, l.reshape(-1, 9), free_nodes(mesh)[:, None])
+        share(
+            len(u),
+            lambda low, high: np.concatenate([a[low:high] for a in columns], axis=1, out=nodes[low:high]),
+        )
         self.span = (-np.inf, np.inf)
         self._near: tuple[Any, MeshArrays] | None = None
         boxes = cell_boxes(mesh)

@@ -17,14 +17,12 @@ from foamprb.flow.mesh.arrays import arm, point
 __all__ = [
     "OPEN",
     "TWISTED",
-    "add_at",
-    "add_pyramids",
-    "bound",
     "choose_bases",
     "gather_faces",
     "group_faces",
     "list_faces",
     "list_points",
+    "measure_cells",
     "measure_faces",
     "number_tetrahedra",
     "pair_faces",
@@ -297,42 +295,59 @@ def _edge(points: Floats, p: int, q: int, origins: Floats, o: int) -> tuple[Vect
     return plus(a, b), vector_product(a, b)
 
 
-def add_at(cells: Ints, values: Floats, sums: Floats) -> None:
-    """Add the rows of ``values`` (n, m) to rows ``cells`` of ``sums`` (n_cells, m)."""
-    for i in range(cells.shape[0]):
-        for k in range(sums.shape[1]):
-            sums[cells[i], k] += values[i, k]
-
-
-def add_pyramids(
-    cells: Ints,
-    sign: float,
-    centres: Floats,
-    areas: Floats,
+def measure_cells(
+    begin: int,
+    end: int,
+    first: Ints,
+    of_cell: Ints,
+    owner: Ints,
+    face_centres: Floats,
+    face_areas: Floats,
     middles: Floats,
+    centres: Floats,
     volumes: Floats,
-    moments: Floats,
 ) -> None:
-    """Add the pyramids over faces to the volumes (n_cells,) and first moments (n_cells, 3) about the middles.
+    """Compute the mean of the face centres of cells from ``begin`` on, and their centres and volumes.
 
-    ``sign`` is −1 where the faces turn inwards.
+    The centre and the volume are those of the pyramids over the faces about that mean. A centre outside the
+    box of the face centres, as where the volume is round-off, is replaced by their mean.
     """
-    for f in range(cells.shape[0]):
-        c = cells[f]
-        volume = 0.0
+    for c in range(begin, end):
+        n, x, y, z = 0, 0.0, 0.0, 0.0
+        for owned in (True, False):
+            for h in range(first[c], first[c + 1]):
+                f = of_cell[h]
+                if (owner[f] == c) == owned:
+                    n += 1
+                    x, y, z = x + face_centres[f, 0], y + face_centres[f, 1], z + face_centres[f, 2]
+        middle = x / n, y / n, z / n
+        middles[c, 0], middles[c, 1], middles[c, 2] = middle
+        volume, x, y, z, size = 0.0, 0.0, 0.0, 0.0, 0.0
+        for owned in (True, False):
+            for h in range(first[c], first[c + 1]):
+                f = of_cell[h]
+                if (owner[f] == c) == owned:
+                    d = arm(face_centres, f, middle)
+                    pyramid = inner(point(face_areas, f), d) / (3.0 if owned else -3.0)
+                    volume += pyramid
+                    x, y, z = x + 0.75 * pyramid * d[0], y + 0.75 * pyramid * d[1], z + 0.75 * pyramid * d[2]
+        moment = x, y, z
+        volumes[c] = volume
+        inside = volume != 0.0
         for i in range(3):
-            volume += sign / 3.0 * areas[f, i] * (centres[f, i] - middles[c, i])
-        volumes[c] += volume
+            low, high = np.inf, -np.inf
+            for h in range(first[c], first[c + 1]):
+                low, high = min(low, face_centres[of_cell[h], i]), max(high, face_centres[of_cell[h], i])
+            size = max(size, high - low)
         for i in range(3):
-            moments[c, i] += 0.75 * volume * (centres[f, i] - middles[c, i])
-
-
-def bound(cells: Ints, values: Floats, low: Floats, high: Floats) -> None:
-    """Extend the boxes of the cells, ``low`` and ``high`` (n_cells, 3), to the rows of ``values`` (n, 3)."""
-    for f in range(cells.shape[0]):
-        c = cells[f]
-        for i in range(3):
-            low[c, i], high[c, i] = min(low[c, i], values[f, i]), max(high[c, i], values[f, i])
+            low, high = np.inf, -np.inf
+            for h in range(first[c], first[c + 1]):
+                low, high = min(low, face_centres[of_cell[h], i]), max(high, face_centres[of_cell[h], i])
+            centres[c, i] = middle[i] + moment[i] / volume if volume != 0.0 else middle[i]
+            # Tolerance for round-off.
+            inside &= low - 1e-9 * size <= centres[c, i] <= high + 1e-9 * size
+        if not inside:
+            centres[c, 0], centres[c, 1], centres[c, 2] = middle
 
 
 # Quality by which a fan must exceed the one from the point of the smallest label; of coordinates in single

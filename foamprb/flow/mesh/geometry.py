@@ -10,16 +10,14 @@ from foamprb.body.tensor import vector_product
 from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.faces import (
-    add_at,
-    add_pyramids,
-    bound,
     choose_bases,
     gather_faces,
     group_faces,
     list_points,
+    measure_cells,
     measure_faces,
 )
-from foamprb.flow.mesh.lists import Index, ragged, share, starts, together
+from foamprb.flow.mesh.lists import Index, ragged, share, starts
 
 
 class HalfFaces(NamedTuple):
@@ -77,7 +75,7 @@ def order_faces(points: Floats, half: HalfFaces, mate: Ints) -> Faces:
     link(gather_faces)(*half, mate, start, lists, owner, neighbour, of_cell)
     faces = Faces(start, lists, owner, neighbour, half.first, of_cell)
     centres, areas = measured(points, faces)
-    middles = cell_middles(faces, centres)
+    middles, *_ = cell_geometry(faces, centres, areas)
     ahead = centres - middles[owner]
     ahead[:n_internal] = middles[neighbour] - middles[owner[:n_internal]]
     faces.turn(np.flatnonzero(np.einsum("fi,fi->f", areas, ahead) < 0.0))
@@ -132,36 +130,13 @@ def measured(points: Floats, faces: Faces) -> tuple[Floats, Floats]:
     return centres, areas
 
 
-def cell_middles(faces: Faces, centres: Floats) -> Floats:
-    """Return the mean of the face centres of each cell."""
-    middles, add = np.zeros((len(faces.first) - 1, 3)), link(add_at)
-    for cells in (faces.owner, faces.neighbour):
-        add(cells, centres, middles)
-    middles /= np.diff(faces.first)[:, None]
-    return middles
-
-
-def cell_geometry(faces: Faces, centres: Floats, areas: Floats) -> tuple[Floats, Floats]:
-    """Return cell centres and volumes, by pyramids about the means of the face centres.
-
-    A centre outside the box of the face centres, as where the volume is round-off, is replaced by their mean.
-    """
-    add, widen = link(add_pyramids), link(bound)
-    middles = cell_middles(faces, centres)
-    moments, volumes = np.zeros((len(middles), 3)), np.zeros(len(middles))
-    low, high = np.full((len(middles), 3), np.inf), np.full((len(middles), 3), -np.inf)
-    sides = (faces.owner, 1.0), (faces.neighbour, -1.0)
-    together(
-        lambda: [add(cells, sign, centres, areas, middles, volumes, moments) for cells, sign in sides],
-        lambda: [widen(cells, centres, low, high) for cells, _ in sides],
-    )
-    moments /= np.where(volumes == 0.0, np.inf, volumes)[:, None]
-    moments += middles
-    # Tolerance for round-off.
-    room = 1e-9 * (high - low).max(axis=1)[:, None]
-    astray = ~((low - room <= moments) & (moments <= high + room)).all(axis=1)
-    moments[astray] = middles[astray]
-    return moments, volumes
+def cell_geometry(faces: Faces, centres: Floats, areas: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the means of the face centres of the cells, their centres and volumes; see `measure_cells`."""
+    n, measure = len(faces.first) - 1, link(measure_cells)
+    middles, found, volumes = np.empty((n, 3)), np.empty((n, 3)), np.empty(n)
+    given = faces.first, faces.of_cell, faces.owner, centres, areas
+    share(n, lambda begin, end: measure(begin, end, *given, middles, found, volumes))
+    return middles, found, volumes
 
 
 def inward_normals(points: Floats, triangles: Ints, areas: Floats) -> Floats:

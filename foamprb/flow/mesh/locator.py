@@ -9,6 +9,7 @@ from foamprb.compile.link import link
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.mesh.arrays import TOLERANCE, MeshArrays, frame, weights
 from foamprb.flow.mesh.folds import SOUND, is_in_mesh
+from foamprb.flow.mesh.lists import share
 from foamprb.flow.mesh.mesh import Mesh
 from foamprb.flow.mesh.tree import holds_point, next_node
 
@@ -18,8 +19,13 @@ def cell_boxes(mesh: Mesh) -> Floats:
 
     They hold the cells' tetrahedra and are larger by the tolerance of :func:`locate`.
     """
-    boxes = np.empty((mesh.n_cells, 6))
-    link(_bound)(mesh.points, mesh.centres, mesh.cell_point_start, mesh.cell_points, boxes)
+    boxes, start, bound = np.empty((mesh.n_cells, 6)), mesh.cell_point_start, link(_bound)
+
+    def part(low: int, high: int) -> None:
+        own = mesh.centres[low:high], start[low : high + 1], mesh.cell_points
+        bound(mesh.points, *own, boxes[low:high])
+
+    share(mesh.n_cells, part)
     return boxes
 
 

@@ -183,7 +183,7 @@ def _assemble(poly: PolyMesh, cells: tuple[Ints, Ints], source: str) -> tuple[Me
         [Patch(patch.name, patch.type, patch.neighbour, patch.groups) for patch in surfaces],
         *(patch_start, boundary_centres, boundary_areas, surfaces, source),
     )
-    centres, volumes = cell_geometry(faces, face_centres, face_areas)
+    _, centres, volumes = cell_geometry(faces, face_centres, face_areas)
     del face_centres, face_areas
     inverted = rotate_faces(points, centres, faces)
 

@@ -93,27 +93,36 @@ def build_tree(boxes: Floats) -> Tree:
         halve(centres, order, depth)
     else:
         halve(centres, order, 1)
-        together(*(partial(halve, centres, half, depth - 1) for half in (order[:middle], order[middle:])))
+        halves = (centres[:middle], order[:middle]), (centres[middle:], order[middle:])
+        together(*(partial(halve, *half, depth - 1) for half in halves))
     order = np.sort(order.reshape(n_leaves, size), axis=1)
     leaves = np.where(order < n, order, np.int32(-1))
 
     tree = np.empty((2 * n_leaves, 6))
-    empty = np.array([np.inf] * 3 + [-np.inf] * 3)
-    tree[0] = empty
-    padded = boxes[leaves]
-    padded[leaves < 0] = empty
-    tree[n_leaves:, :3] = padded[:, :, :3].min(axis=1)
-    tree[n_leaves:, 3:] = padded[:, :, 3:].max(axis=1)
-    for level in reversed(range(depth)):
-        first = 1 << level
-        children = tree[2 * first : 4 * first].reshape(first, 2, 6)
-        tree[first : 2 * first, :3] = children[:, :, :3].min(axis=1)
-        tree[first : 2 * first, 3:] = children[:, :, 3:].max(axis=1)
+    link(_bound)(boxes, leaves, tree)
     return Tree(tree, leaves)
 
 
+def _bound(boxes: Floats, leaves: Ints, tree: Floats) -> None:
+    """Write the box of each node of the tree, and an empty one in row 0."""
+    n_leaves = leaves.shape[0]
+    for node in range(2 * n_leaves - 1, -1, -1):
+        for i in range(3):
+            low, high = np.inf, -np.inf
+            for k in range(leaves.shape[1] if node >= n_leaves else 0):
+                cell = leaves[node - n_leaves, k]
+                if cell >= 0:
+                    low, high = min(low, boxes[cell, i]), max(high, boxes[cell, i + 3])
+            for child in range(2 * node, 2 * node + 2 if 0 < node < n_leaves else 0):
+                low, high = min(low, tree[child, i]), max(high, tree[child, i + 3])
+            tree[node, i], tree[node, i + 3] = low, high
+
+
 def _halve(centres: Floats, order: Ints, depth: int) -> None:
-    """Put the lower half of each group along its longest axis before the upper, on each level of the tree."""
+    """Put the lower half of each group along its longest axis before the upper, on each level of the tree.
+
+    The rows of ``centres`` (n, 3) and of ``order`` (n,) are moved together.
+    """
     for level in range(depth):
         size = order.shape[0] >> level
         for begin in range(0, order.shape[0], size):
@@ -121,7 +130,7 @@ def _halve(centres: Floats, order: Ints, depth: int) -> None:
             for j in range(3):
                 low, high = np.inf, -np.inf
                 for k in range(begin, begin + size):
-                    x = centres[order[k], j]
+                    x = centres[k, j]
                     low, high = min(low, x), max(high, x if x < np.inf else high)
                 if high - low > longest:
                     axis, longest = j, high - low
@@ -131,15 +140,17 @@ def _halve(centres: Floats, order: Ints, depth: int) -> None:
 def _partition(centres: Floats, axis: int, order: Ints, first: int, last: int, middle: int) -> None:
     """Sort partially, so that no entry before ``middle`` lies above one behind it (Hoare's selection)."""
     while first < last:
-        pivot = centres[order[(first + last) // 2], axis]
+        pivot = centres[(first + last) // 2, axis]
         i, j = first, last
         while i <= j:
-            while centres[order[i], axis] < pivot:
+            while centres[i, axis] < pivot:
                 i += 1
-            while centres[order[j], axis] > pivot:
+            while centres[j, axis] > pivot:
                 j -= 1
             if i <= j:
                 order[i], order[j] = order[j], order[i]
+                for k in range(3):
+                    centres[i, k], centres[j, k] = centres[j, k], centres[i, k]
                 i += 1
                 j -= 1
         if middle <= j:
