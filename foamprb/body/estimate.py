@@ -6,6 +6,9 @@ from math import cbrt, exp, inf, pi, sqrt
 from typing import NamedTuple
 
 from foamprb.body.brownian import BOLTZMANN
+from foamprb.body.lift import HO_LEAL, duct_coefficient, hinges
+from foamprb.body.lift import lift_coefficient as slip_lift_coefficient
+from foamprb.body.morphology import drop_breakup, recovery_of_drop
 
 
 class SoftSphere(NamedTuple):
@@ -67,6 +70,34 @@ class Estimate(NamedTuple):
     """Height h at which lift balances weight, √(k γ̇ R³/v_settling), m; infinite without weight."""
 
 
+class AcrossForces(NamedTuple):
+    """Forces across the flow, N, positive away from the wall; see :func:`across_forces`."""
+
+    duct_lift: float
+    """By inertia of the fluid, C ρ_f γ̇_w² R⁴ of a rigid sphere in a plane channel; 0 without a channel."""
+    wall_lift: float
+    """6π μ_f R times the speed of lift by the wall."""
+    slip_lift: float
+    """Saffman's and Mei's, if the sphere settles along the flow; without sign."""
+    weight: float
+    """Weight less buoyancy; without sign."""
+
+
+class Drop(NamedTuple):
+    """Numbers of a drop in simple shear; see :func:`estimate_drop`."""
+
+    ratio: float
+    """λ, viscosity over that of the fluid."""
+    capillary_number: float
+    """μ_f γ̇ R/σ."""
+    deformation: float
+    """Taylor's D = (19λ + 16)/(16λ + 16) Ca of small deformation."""
+    breakup: float
+    """Capillary number beyond which it breaks up; infinite if there is none."""
+    relaxation_time: float
+    """μ_f R/(σ f₁), s."""
+
+
 def shear_modulus(capillary_number: float, mu_f: float, shear_rate: float) -> float:
     """Return μ_s = μ_f γ̇/Ca, Pa."""
     return mu_f * shear_rate / capillary_number
@@ -110,6 +141,36 @@ def estimate(sphere: SoftSphere, around: Surroundings, residence_time: float) ->
         diffusion_length=sqrt(2.0 * D * residence_time),
         lift_height=sqrt(lift / abs(settling)) if settling else inf,
     )
+
+
+def across_forces(sphere: SoftSphere, around: Surroundings, width: float = inf) -> AcrossForces:
+    """Return the forces across the flow on a sphere.
+
+    Parameters
+    ----------
+    sphere, around
+        The sphere, and the fluid and flow at it.
+    width
+        Distance of the walls of a plane channel with Poiseuille flow, m, more than twice that of the sphere
+        from the nearer wall.
+    """
+    R, e = 0.5 * sphere.d, estimate(sphere, around, 0.0)
+    w, duct = abs(e.settling_speed), 0.0
+    if width < inf:
+        s = 1.0 - 2.0 * around.wall_distance / width
+        at_wall = around.shear_rate / s
+        duct = -float(duct_coefficient(s, hinges(HO_LEAL))) * around.rho * (at_wall * R * R) ** 2
+    slip = slip_lift_coefficient(w, around.shear_rate, R, around.rho, around.mu) * around.shear_rate * w
+    drag = 6.0 * pi * around.mu * R
+    return AcrossForces(duct, drag * e.lift_speed, float(slip), drag * w)
+
+
+def estimate_drop(R: float, sigma: float, eta: float, around: Surroundings) -> Drop:
+    """Return the numbers of a drop with radius R, m, surface tension σ, N/m, and viscosity η, Pa s."""
+    ratio, time = eta / around.mu, around.mu * R / sigma
+    Ca = time * around.shear_rate
+    D = (19.0 * ratio + 16.0) / (16.0 * ratio + 16.0) * Ca
+    return Drop(ratio, Ca, D, drop_breakup(ratio), time / recovery_of_drop(ratio))
 
 
 def _delayed(t: float, tau: float) -> float:

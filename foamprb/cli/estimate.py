@@ -4,28 +4,41 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from foamprb.errors import InputError
 
 if TYPE_CHECKING:
+    from foamprb.body.estimate import AcrossForces, Surroundings
     from foamprb.parallel.ranks import Ranks
+
+Fact: TypeAlias = tuple[str, float, str]
+"""Name, value and remark of a line."""
 
 PURPOSE = "estimate from a few numbers which effects matter to a particle"
 
 _NUMBERS = (
     ("-d", "diameter", "D", "diameter, m", None),
     ("--rho0", "rho0", "RHO", "density of the particle, kg/m3", None),
-    ("--mu", "mu", "MU", "viscosity of the fluid, Pa s", None),
+    ("--mu", "mu", "MU", "viscosity of the fluid at this shear rate, Pa s", None),
     ("--rhoInf", "rhoInf", "RHO", "density of the fluid, kg/m3", None),
     ("--shearRate", "shearRate", "RATE", "shear rate of the flow at the particle, 1/s", None),
     ("--residenceTime", "residenceTime", "T", "residence time in the flow, s", None),
     ("--wallDistance", "wallDistance", "H", "distance of its centre from a wall, m [no wall]", math.inf),
+    ("--channelWidth", "channelWidth", "W", "distance of the walls of a plane channel, m", math.inf),
     ("--temperature", "temperature", "T", "temperature, K [293.15]", 293.15),
     ("--gravity", "gravity", "G", "gravity, m/s2 [9.81]", 9.81),
     ("--epsilon", "epsilon", "EPS", "turbulent dissipation, m2/s3 [0, laminar]", 0.0),
+    ("--viscosity", "viscosity", "ETA", "viscosity of a drop's liquid, Pa s [that of the fluid]", 0.0),
+    ("--surfacePoissonsRatio", "surfacePoissonsRatio", "NU", "of a capsule's membrane [0.5]", 0.5),
 )
-_MAY_VANISH = ("gravity", "epsilon")
+_MAY_VANISH = ("gravity", "epsilon", "viscosity")
+_STIFFNESS = (
+    ("--Ca", "Ca", "CA", "capillary number, mu*rate/modulus"),
+    ("--shearModulus", "shearModulus", "G", "shear modulus of the particle, Pa"),
+    ("--surfaceShearModulus", "surfaceShearModulus", "GS", "that of a capsule's membrane, N/m"),
+    ("--surfaceTension", "surfaceTension", "SIGMA", "surface tension of a drop, N/m"),
+)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -36,10 +49,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
             required=default is None,
         )  # fmt: skip
     stiffness = parser.add_mutually_exclusive_group(required=True)
-    stiffness.add_argument("--Ca", type=float, metavar="CA", help="capillary number, mu*rate/modulus")
-    stiffness.add_argument(
-        "--shearModulus", type=float, metavar="G", help="shear modulus of the particle, Pa"
-    )
+    for option, name, metavar, text in _STIFFNESS:
+        stiffness.add_argument(option, dest=name, type=float, metavar=metavar, help=text)
+    parser.add_argument("--blood", action="store_true", help="also the haemolysis of red cells")
 
 
 def execute(arguments: argparse.Namespace, _ranks: Ranks | None) -> int:
@@ -57,54 +69,131 @@ def lines(arguments: argparse.Namespace) -> list[str]:
         If a number is not positive.
     """
     # Slow imports, which other commands do not need.
-    from foamprb.body.estimate import SoftSphere, Surroundings, estimate, shear_modulus
-    from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
+    from foamprb.body.estimate import SoftSphere, Surroundings, across_forces, estimate, shear_modulus
+    from foamprb.body.material import modulus_of_capsule
 
     given = vars(arguments)
-    for name in (*(name for _, name, *_ in _NUMBERS), "Ca", "shearModulus"):
+    names = (*(name for _, name, *_ in _NUMBERS), *(name for _, name, *_ in _STIFFNESS))
+    for name in names:
         value = given[name]
         if value is not None and not (value > 0.0 or (value == 0.0 and name in _MAY_VANISH)):
             raise InputError(f"{name} is {value:g}. Allowed: a number > 0.")
-    d, h = given["diameter"], given["wallDistance"]
+    d, h, width = given["diameter"], given["wallDistance"], given["channelWidth"]
     if h < 0.5 * d:
         raise InputError(f"wallDistance is {h:g}. Allowed: at least half the diameter, {0.5 * d:g}.")
-    modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
+    if width < math.inf and not h < 0.5 * width:
+        raise InputError(f"wallDistance is {h:g}. Allowed: less than half of channelWidth, {0.5 * width:g}.")
     around = Surroundings(
         given["mu"], given["rhoInf"], given["shearRate"], h, given["temperature"], given["gravity"]
     )
-    e = estimate(SoftSphere(d, given["rho0"], modulus), around, given["residenceTime"])
-    facts = [
-        ("shear modulus [Pa]", modulus, ""),
-        ("capillary number", e.capillary_number, "below 1e-3 a rigid sphere suffices"),
+    membrane, sigma = given["surfaceShearModulus"], given["surfaceTension"]
+    if membrane:
+        modulus = modulus_of_capsule(membrane, given["surfacePoissonsRatio"], 0.5 * d)
+    elif sigma:
+        modulus = 2.0 * sigma / d
+    else:
+        modulus = given["shearModulus"] or shear_modulus(given["Ca"], given["mu"], given["shearRate"])
+    sphere = SoftSphere(d, given["rho0"], modulus)
+    e = estimate(sphere, around, given["residenceTime"])
+    facts = _drop(given, around) if sigma else [
+        ("shear modulus [Pa]", modulus, "of the solid in place of the capsule" if membrane else ""),
         (
-            "Reynolds number",
-            e.reynolds_number,
-            "above 0.01 to 0.1 fluid inertia causes lift, which is not modelled",
+            "capillary number",
+            e.capillary_number,
+            "above 0.25 a capsule is stiffer than its solid" if membrane
+            else "below 1e-3 a rigid sphere suffices",
         ),
+    ]  # fmt: skip
+    facts += [
+        ("shear stress [Pa]", given["mu"] * given["shearRate"], "of the fluid"),
+        ("Reynolds number", e.reynolds_number, "above 0.01 to 0.1 fluid inertia lifts: see -channelWidth"),
         ("Stokes number", e.stokes_number, "below 0.01 the particle follows the flow"),
         ("Peclet number", e.peclet_number, "below 10 BrownianMotion turns and moves it"),
-        ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
-        ("settling speed [m/s]", e.settling_speed, ""),
-        ("its Reynolds number", e.settling_reynolds_number, "above 0.1 it is slower: drag exceeds Stokes'"),
-        ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
-        ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
-        ("settling length [m]", e.settling_length, "in the residence time; so are the next two"),
-        ("lift length [m]", e.lift_length, ""),
-        ("diffusion length [m]", e.diffusion_length, ""),
         (
-            "lift-off height [m]",
-            e.lift_height,
-            "where lift balances weight"
-            if e.lift_height > 0.5 * d
-            else "within the particle: it does not lift off",
+            "settling speed [m/s]",
+            e.settling_speed,
+            "of a solid; a drop is faster, 1.5 times at most" if sigma else "",
         ),
+        ("its Reynolds number", e.settling_reynolds_number, "above 0.1 it is slower: drag exceeds Stokes'"),
+        ("diffusivity [m2/s]", e.diffusion_coefficient, ""),
+        ("settling length [m]", e.settling_length, "in the residence time; so is the next"),
+        ("diffusion length [m]", e.diffusion_length, ""),
     ]
-    if given["epsilon"] > 0.0:
-        nu = given["mu"] / given["rhoInf"]
-        rate, length = kolmogorov_rate(given["epsilon"], nu), kolmogorov_length(given["epsilon"], nu)
+    if not sigma:
+        lift_off = "within the particle: it does not lift off"
         facts += [
-            ("eddies' shear [1/s]", rate, "of the smallest eddies; not in dispersionModel"),
-            ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform the particle"),
-            ("their size over d", length / d, "below 1 the particle is not small against them"),
+            ("thermal strain", e.thermal_strain, "by Brownian motion of the shape"),
+            ("lift speed [m/s]", e.lift_speed, "by the wall: wallLift"),
+            ("lift length [m]", e.lift_length, "in the residence time"),
+            (
+                "lift-off height [m]",
+                e.lift_height,
+                "where lift balances weight" if e.lift_height > 0.5 * d else lift_off,
+            ),
         ]
+    across = across_forces(sphere, around, width)
+    if sigma:
+        across = across._replace(wall_lift=0.0, slip_lift=0.0)
+    facts += _across(across)
+    if given["blood"]:
+        facts += _haemolysis(given)
+    if given["epsilon"] > 0.0:
+        facts += _eddies(given, modulus)
     return [f"{name:22s} {value:<12.4g} {text}".rstrip() for name, value, text in facts]
+
+
+def _drop(given: dict[str, Any], around: Surroundings) -> list[Fact]:
+    """Return the facts of a drop."""
+    from foamprb.body.estimate import estimate_drop
+
+    eta = given["viscosity"] or given["mu"]
+    drop = estimate_drop(0.5 * given["diameter"], given["surfaceTension"], eta, around)
+    more = (
+        "never breaks up in shear" if drop.breakup == math.inf else "at it and beyond it breaks up in shear"
+    )
+    return [
+        ("viscosity ratio", drop.ratio, "of the drop over the fluid"),
+        ("capillary number", drop.capillary_number, "mu*rate*R/sigma; below 1e-3 it stays round"),
+        ("Taylor's D", drop.deformation, "for small deformation"),
+        ("breakup number", drop.breakup, more),
+        ("relaxation time [s]", drop.relaxation_time, ""),
+    ]
+
+
+def _across(forces: AcrossForces) -> list[Fact]:
+    """Return the forces across the flow and which is the largest."""
+    texts = {
+        "duct_lift": ("inertial lift [N]", "of a neutral rigid sphere: ductLift; away from the wall"),
+        "wall_lift": ("wall lift [N]", "of the soft particle: wallLift; away from the wall"),
+        "slip_lift": ("slip lift [N]", "if it settles along the flow: SaffmanMeiLiftForce"),
+        "weight": ("weight [N]", "less buoyancy"),
+    }
+    values = {name: value for name, value in forces._asdict().items() if value}
+    largest = max(values, key=lambda name: abs(values[name]), default="")
+    return [
+        (texts[name][0], value, texts[name][1] + ("; the largest" if name == largest else ""))
+        for name, value in values.items()
+    ]
+
+
+def _haemolysis(given: dict[str, Any]) -> list[Fact]:
+    """Return the haemolysis in a steady shear for the residence time."""
+    from foamprb.cloudfunctions.haemolysis import POWER_LAWS
+
+    law, tau, t = POWER_LAWS["Giersiepen"], given["mu"] * given["shearRate"], given["residenceTime"]
+    beyond = tau > law.most or t > law.longest
+    text = "by the fluid's stress (Giersiepen); less with memory" + (", out of range" if beyond else "")
+    return [("haemolysis [%]", law.A * tau**law.alpha * t**law.beta, text)]
+
+
+def _eddies(given: dict[str, Any], modulus: float) -> list[Fact]:
+    """Return the facts of the smallest eddies of a turbulent flow."""
+    from foamprb.body.turbulence import kolmogorov_length, kolmogorov_rate
+
+    nu = given["mu"] / given["rhoInf"]
+    rate, length = kolmogorov_rate(given["epsilon"], nu), kolmogorov_length(given["epsilon"], nu)
+    return [
+        ("eddies' shear [1/s]", rate, "of the smallest eddies; not in dispersionModel"),
+        ("their Ca", given["mu"] * rate / modulus, "below 1e-3 they do not deform the particle"),
+        ("their size over d", length / given["diameter"], "below 1 the particle is not small against them"),
+    ]

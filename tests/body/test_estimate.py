@@ -5,7 +5,15 @@ from math import inf, pi
 import pytest
 from scipy.integrate import solve_ivp
 
-from foamprb.body.estimate import SoftSphere, Surroundings, estimate, lift_coefficient, shear_modulus
+from foamprb.body.estimate import (
+    SoftSphere,
+    Surroundings,
+    across_forces,
+    estimate,
+    estimate_drop,
+    lift_coefficient,
+    shear_modulus,
+)
 
 WATER = Surroundings(mu=1e-3, rho=1000.0, shear_rate=100.0, wall_distance=20e-6, temperature=300.0)
 BEAD = SoftSphere(d=5e-6, rho=1050.0, mu=1.0)
@@ -77,3 +85,29 @@ def test_a_light_sphere_rises():
 def test_the_modulus_from_a_capillary_number():
     mu = shear_modulus(0.1, WATER.mu, WATER.shear_rate)
     assert estimate(BEAD._replace(mu=mu), WATER, 1.0).capillary_number == pytest.approx(0.1)
+
+
+def test_forces_across_the_flow_of_a_channel():
+    """At 0.4 of its width: C = s (G₂ − s G₁) at s = 0.2 outwards, with 100/s 1/s at the walls."""
+    f, e = across_forces(BEAD, WATER, 50e-6), estimate(BEAD, WATER, 1.0)
+    C = 0.2 * (1.012 - 0.2 * 0.4077)
+    assert f.duct_lift == pytest.approx(-C * 1000.0 * 500.0**2 * 2.5e-6**4)
+    drag = 6.0 * pi * 1e-3 * 2.5e-6
+    assert f.wall_lift == pytest.approx(drag * e.lift_speed)
+    assert f.weight == pytest.approx(4.0 / 3.0 * pi * 2.5e-6**3 * 50.0 * 9.81)
+    saffman = 6.46 * 1e-3 * 2.5e-6**2 * (1000.0 * 100.0 / 1e-3) ** 0.5 * e.settling_speed
+    assert f.slip_lift == pytest.approx(saffman, rel=2e-3)
+    assert across_forces(BEAD, WATER).duct_lift == 0.0
+    # Away from the wall nearer to it than 0.2 of the width.
+    assert across_forces(BEAD, WATER._replace(wall_distance=9e-6), 50e-6).duct_lift > 0.0
+
+
+@pytest.mark.parametrize(("ratio", "breakup"), [(0.1, 0.51909), (1.0, 0.59795), (3.0, 1.80346), (4.0, inf)])
+def test_numbers_of_a_drop(ratio, breakup):
+    drop = estimate_drop(2.5e-6, 1e-5, ratio * 1e-3, WATER)
+    assert drop.ratio == pytest.approx(ratio)
+    assert drop.capillary_number == pytest.approx(0.025)
+    assert drop.deformation == pytest.approx(0.025 * (19 * ratio + 16) / (16 * ratio + 16))
+    assert drop.breakup == pytest.approx(breakup, rel=1e-4)
+    f1 = 40.0 * (ratio + 1.0) / ((2.0 * ratio + 3.0) * (19.0 * ratio + 16.0))
+    assert drop.relaxation_time == pytest.approx(2.5e-4 / f1)
