@@ -43,13 +43,18 @@ def require_sizes(path: Path) -> None:
         order = {"LittleEndian": "<", "BigEndian": ">"}.get(root.get("byte_order", ""))
         word = {"UInt32": "I", "UInt64": "Q"}.get(root.get("header_type", ""))
         pieces = root.findall("PolyData/Piece")
-        if order is None or word is None or len(pieces) != 1:
+        if order is None or word is None or not pieces:
             raise ValueError("its header cannot be read")
         end = path.stat().st_size
-        counts = {name: int(pieces[0].get(f"NumberOf{name}", "0")) for name in ("Points", *_CELLS)}
-        counts |= {"PointData": counts["Points"], "CellData": sum(counts[name] for name in _CELLS)}
+        sections: list[tuple[ElementTree.Element, dict[str, int]]] = [
+            (section, {}) for section in root.findall("PolyData/FieldData")
+        ]
+        for piece in pieces:
+            counts = {name: int(piece.get(f"NumberOf{name}", "0")) for name in ("Points", *_CELLS)}
+            counts |= {"PointData": counts["Points"], "CellData": sum(counts[name] for name in _CELLS)}
+            sections += [(section, counts) for section in piece]
         places = []
-        for section in (*root.findall("PolyData/FieldData"), *pieces[0]):
+        for section, counts in sections:
             for array in (*section.iter("DataArray"), *section.iter("Array")):
                 name, kind, at = (array.get(key, "") for key in ("Name", "type", "offset"))
                 size, packed = _blocks(file, first + int(at), end, order + word)
