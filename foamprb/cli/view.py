@@ -43,7 +43,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     add("--enlargement", type=float, metavar="S", help="draw the bodies S times larger [automatic]")
     add("--slice", metavar="PLANE", help="show the flow on a plane: x, z=0.01 or '(point) (normal)'")
     add("--flowTime", default="latestTime", metavar="TIME", help="time of the flow on the plane [latest]")
-    add("--bodies", type=int, metavar="N", help="at most N bodies, evenly spread [all]")
+    add("--bodies", type=int, metavar="N", help="at most N bodies, evenly spread [100000]")
     add("--maxSize", type=float, default=30.0, metavar="MB",
         help="largest page; arrays and times that do not fit are left out [30]")  # fmt: skip
     add("--size", default="1600x900", metavar="WxH",

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ Mask = NDArray[np.bool_]
 LARGEST_STRETCH = 128.0
 """Bodies with a larger component of F belong to failed particles and are not drawn."""
 
+_MOST_VALUES = 4_000_000
+"""Values that decide the limits of colours, at most."""
 SHAPE_ARRAYS = frozenset({"glyph", "deformationGradient", "orientation", "origId", "active"})
 """Point arrays that hold the shape or the number of the body, or repeat another array."""
 
@@ -122,25 +125,7 @@ class Bodies:
     @property
     def shown(self) -> Mask:
         """Bodies in the flow or on a wall, (m, n)."""
-        inside = [k for k, name in enumerate(self.status.meanings) if name in ("active", "stuck")]
-        return self.present & np.isin(self.status.codes, inside)
-
-    def at(self, frames: NDArray[np.int64]) -> Bodies:
-        """Return the same bodies at some of the times."""
-
-        def some(values: NDArray[Any]) -> NDArray[Any]:
-            return values if len(values) == 1 else values[frames]
-
-        return replace(
-            self,
-            times=self.times[frames],
-            x=self.x[frames],
-            F=self.F[frames],
-            present=self.present[frames],
-            status=self.status._replace(codes=some(self.status.codes)),
-            fields={name: field._replace(values=some(field.values)) for name, field in self.fields.items()},
-            codes={name: codes._replace(codes=some(codes.codes)) for name, codes in self.codes.items()},
-        )
+        return self.present & _inside(self.status.codes, self.status.meanings)
 
 
 def colourable(run: Run) -> tuple[str, ...]:
@@ -185,8 +170,10 @@ def label_of(name: str) -> str:
     return _LABELS.get(name) or re.sub(r"(?<=[a-z0-9])([A-Z])", lambda m: f" {m[1].lower()}", name)
 
 
-def gather(run: Run, frames: Sequence[int], most: int | None = None) -> Bodies:
-    """Read the bodies of some of the times.
+def gather(
+    run: Run, frames: Sequence[int], most: int | None = None, arrays: Collection[str] | None = None
+) -> Bodies:
+    """Read the bodies of some of the times, one after the other.
 
     Parameters
     ----------
@@ -196,73 +183,119 @@ def gather(run: Run, frames: Sequence[int], most: int | None = None) -> Bodies:
         Indices of the times, rising.
     most
         Largest number of bodies; if there are more, a selection that is evenly spread over their numbers.
+    arrays
+        Names of the :func:`colourable` arrays to read; by default all of them.
 
     Raises
     ------
     InputError
         If a file is damaged or contains a particle twice.
     """
-    names = colourable(run)
-    clouds = [run.cloud(k, dict.fromkeys((*NEEDED, *names))) for k in frames]
-    numbers = [cloud.arrays["origId"].astype(np.int64) for cloud in clouds]
-    ids = np.unique(np.concatenate(numbers))
+    names = [name for name in colourable(run) if arrays is None or name in arrays]
+    ids = reduce(np.union1d, (_numbers(run, k) for k in frames))
     if most is not None and len(ids) > most:
         ids = ids[np.arange(most) * len(ids) // most]
     m, n = len(frames), len(ids)
-    rows = np.full((m, n), -1)
-    for t, own in enumerate(numbers):
-        if len(np.unique(own)) < len(own):
-            file = run.folder / run.entries[frames[t]].file
-            raise InputError(f"{file}: a particle is in it twice. Run the particles again: foamprb run.")
-        place = np.searchsorted(ids, own)
-        known = np.isin(own, ids)
-        rows[t, place[known]] = np.flatnonzero(known)
-    in_file = rows >= 0
-
-    def table(arrays: Sequence[NDArray[Any]], k: int, dtype: type = np.float32) -> NDArray[Any]:
-        """Return an array of k components of the bodies at all times, (m, n, k); NaN without a body."""
-        values: NDArray[Any] = np.full((m, n, k), np.nan, dtype=dtype)
-        for t, array in enumerate(arrays):
+    coded = [name for name in names if name in run.names]
+    valued = {name: run.components[name] for name in names if name not in coded}
+    x, F, radius = np.zeros((m, n, 3)), np.zeros((m, n, 3, 3), dtype=np.float32), np.zeros(n)
+    present, status = np.zeros((m, n), dtype=bool), np.full((m, n), UNNAMED, dtype=np.uint8)
+    codes = {name: np.full((m, n), UNNAMED, dtype=np.uint8) for name in coded}
+    values = {name: np.full((m, n, k), np.nan, dtype=np.float32) for name, k in valued.items()}
+    kept: list[NDArray[Any]] = [x, F, *codes.values(), *values.values()]
+    met = np.zeros(n, dtype=bool)
+    for t, frame in enumerate(frames):
+        cloud = run.cloud(frame, dict.fromkeys((*NEEDED, *names)))
+        rows, places = _selected(cloud.arrays["origId"].astype(np.int64), ids)
+        own = {name: array[rows] for name, array in cloud.arrays.items()}
+        points, d = cloud.points[rows], own["d"].astype(np.float64)
+        del cloud
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            # glyph holds the columns of R F, one after the other.
+            shape = own["glyph"].reshape(-1, 3, 3).swapaxes(1, 2) / (0.5 * d[:, None, None])
+            sound = np.isfinite(points).all(axis=1) & (np.abs(shape) <= LARGEST_STRETCH).all(axis=(1, 2))
+        sound &= d > 0.0
+        status[t, places] = _known(own["status"], run.names.get("status", ()))
+        if t:
+            for array in kept:
+                array[t] = array[t - 1]
+        places = places[sound]
+        present[t, places] = True
+        x[t, places], F[t, places] = points[sound], shape[sound]
+        for name, array in codes.items():
+            array[t, places] = _known(own[name][sound], run.names[name])
+        for name, array in values.items():
             with np.errstate(over="ignore", invalid="ignore"):
-                values[t, in_file[t]] = array.reshape(len(array), k)[rows[t, in_file[t]]]
-        return values
-
-    def named(name: str, k: int, dtype: type = np.float32) -> NDArray[Any]:
-        return table([cloud.arrays[name] for cloud in clouds], k, dtype)
-
-    x = table([cloud.points for cloud in clouds], 3, np.float64)
-    d = named("d", 1, np.float64)[:, :, 0]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        # glyph holds the columns of R F, one after the other.
-        F = named("glyph", 9).reshape(m, n, 3, 3).swapaxes(2, 3) / (0.5 * d[:, :, None, None])
-        sound = np.isfinite(x).all(axis=2) & (np.abs(F) <= LARGEST_STRETCH).all(axis=(2, 3)) & (d > 0.0)
-    present = in_file & sound
-    nearest = _nearest_present(present), np.arange(n)
-    meanings = run.names.get("status", ())
-    status = Codes("status", label_of("status"), meanings, _known(named("status", 1, np.float64), meanings))
-    fields: dict[str, Quantity] = {}
-    codes: dict[str, Codes] = {}
-    for name in names:
-        if name in run.names:
-            values = _known(named(name, 1, np.float64), run.names[name])
-            codes[name] = Codes(name, label_of(name), run.names[name], _once(values[nearest]))
-        else:
-            unit, k = run.units.get(name, ""), run.components[name]
-            held = named(name, k)[nearest]
-            held[~np.isfinite(held)] = np.nan
-            parts = components_of(name, k)
-            fields[name] = Quantity(name, label_of(name), "" if unit == "1" else unit, parts, _once(held))
+                found = own[name][sound].reshape(-1, valued[name]).astype(np.float32)
+            found[~np.isfinite(found)] = np.nan
+            array[t, places] = found
+        first = places[~met[places]]
+        radius[first] = 0.5 * d[sound][~met[places]]
+        met[first] = True
+        # Before its release a body is where it will be released.
+        for array in kept if t else ():
+            array[:t, first] = array[t, first]
     return Bodies(
-        times=np.array([cloud.time for cloud in clouds]),
+        times=run.times[np.array(frames)],
         ids=ids,
-        radius=np.nan_to_num(0.5 * d[nearest][0]),
-        x=np.nan_to_num(x[nearest]),
-        F=np.nan_to_num(F[nearest]).astype(np.float32),
+        radius=radius,
+        x=x,
+        F=F,
         present=present,
-        status=status,
-        fields=fields,
-        codes=codes,
+        status=Codes("status", label_of("status"), run.names.get("status", ()), status),
+        fields={name: _quantity(run, name, array) for name, array in values.items()},
+        codes={
+            name: Codes(name, label_of(name), run.names[name], _once(array)) for name, array in codes.items()
+        },
     )
+
+
+def survey(run: Run, name: str, part: str) -> tuple[NDArray[np.int64], Singles | None]:
+    """Return the number of shown bodies at each time, and the finite values of an array at these bodies.
+
+    Of very many bodies some are taken, evenly spread. The values are None for an array that is no number of
+    the clouds.
+    """
+    valued = name in run.components and name not in run.names
+    stride = 1 + len(run.entries) * len(run.cloud(-1, ("origId",)).points) // _MOST_VALUES
+    counts, found = [], [np.zeros(0, dtype=np.float32)]
+    for frame in range(len(run.entries)):
+        arrays = run.cloud(frame, ("status", *([name] if valued else ()))).arrays
+        shown = np.flatnonzero(_inside(arrays["status"], run.names.get("status", ())))
+        counts.append(len(shown))
+        if valued:
+            values = arrays[name][shown[::stride]].astype(np.float32)
+            channel = _quantity(run, name, values.reshape(1, -1, run.components[name])).channel(part)
+            found.append(channel[np.isfinite(channel)])
+    return np.array(counts), np.concatenate(found) if valued else None
+
+
+def _inside(codes: NDArray[Any], meanings: Sequence[str]) -> Mask:
+    """Return whether bodies are in the flow or on a wall."""
+    inside = [k for k, name in enumerate(meanings) if name in ("active", "stuck")]
+    return np.isin(codes, inside)
+
+
+def _numbers(run: Run, frame: int) -> NDArray[np.int64]:
+    """Return the numbers of the particles at a time; InputError if one is there twice."""
+    numbers = run.cloud(frame, ("origId",)).arrays["origId"].astype(np.int64)
+    if len(np.unique(numbers)) < len(numbers):
+        file = run.folder / run.entries[frame].file
+        raise InputError(f"{file}: a particle is in it twice. Run the particles again: foamprb run.")
+    return numbers
+
+
+def _selected(numbers: NDArray[np.int64], ids: NDArray[np.int64]) -> tuple[NDArray[np.int64], ...]:
+    """Return the rows of a file with chosen bodies, and their places among these."""
+    places = np.minimum(np.searchsorted(ids, numbers), max(len(ids) - 1, 0))
+    rows = np.flatnonzero(ids[places] == numbers) if len(ids) else np.zeros(0, dtype=np.int64)
+    return rows, places[rows]
+
+
+def _quantity(run: Run, name: str, values: Singles) -> Quantity:
+    unit = run.units.get(name, "")
+    parts = components_of(name, run.components[name])
+    return Quantity(name, label_of(name), "" if unit == "1" else unit, parts, _once(values))
 
 
 def fields_of_fates(bodies: Bodies, fates: Table) -> dict[str, Quantity]:
@@ -308,15 +341,8 @@ def _fate(status: str, patch: str) -> str:
     return f"{_JOINED[status]} {patch}" if patch and status in _JOINED else status
 
 
-def _nearest_present(present: Mask) -> NDArray[np.int64]:
-    """Return the time at which each body was last present, or is first if it has not been yet, (m, n)."""
-    last = np.maximum.accumulate(np.where(present, np.arange(len(present))[:, None], -1), axis=0)
-    return np.where(last < 0, np.argmax(present, axis=0), last)
-
-
-def _known(values: Floats, meanings: Sequence[str]) -> NDArray[np.uint8]:
-    """Return codes (m, n) from numbers (m, n, 1); :data:`UNNAMED` without a meaning."""
-    values = values[:, :, 0]
+def _known(values: NDArray[Any], meanings: Sequence[str]) -> NDArray[np.uint8]:
+    """Return codes from numbers; :data:`UNNAMED` without a meaning."""
     known = (values >= 0) & (values < min(len(meanings), UNNAMED))
     return np.where(known, values, UNNAMED).astype(np.uint8)
 

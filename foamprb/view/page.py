@@ -7,7 +7,7 @@ import hashlib
 import html
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -41,9 +41,10 @@ _NOTES, _DESCRIPTION = 400, 2000
 
 
 class Page:
-    """Packed parts of a page; :meth:`write` returns the text of the file.
+    """Packed parts of a page; :meth:`parts` yields the text of the file.
 
-    ``needed`` is its size without optional arrays, bytes, and ``left_out`` names the arrays that do not fit.
+    ``needed`` is its size without optional arrays, and ``wanted`` with all of them, bytes; ``of_bodies`` is
+    the part of the latter that grows with the bodies. ``left_out`` names the arrays that do not fit.
 
     Parameters
     ----------
@@ -55,13 +56,18 @@ class Page:
         Names of arrays by priority; other arrays follow.
     version
         Version of foamprb.
+    notes
+        Sentences about what is left out, which the page shows.
     """
 
-    def __init__(self, scene: Scene, most_bytes: int, order: Sequence[str], version: str) -> None:
+    def __init__(
+        self, scene: Scene, most_bytes: int, order: Sequence[str], version: str, notes: Sequence[str] = ()
+    ) -> None:
         self.left_out: list[str] = []
+        self._notes = list(notes)
         self._sections: list[str] = []
         self._version = version
-        self._scene = scene
+        self.scene = scene
         bodies, geometry = scene.bodies, scene.geometry
         shown = [geometry.points] if geometry is not None else []
         shown += [bodies.x[bodies.present]]
@@ -70,47 +76,56 @@ class Page:
         # The coordinates of the page: the origin is the middle of the box, the unit its longest side.
         self._middle, self._size = 0.5 * (low + high), float((high - low).max()) or 1.0
         grid = encode.grid_of(*shown)
-        self._header = self._described(0.5 * (high - low)) | self._bodies(grid) | self._surroundings(grid)
+        self._header = self._described(0.5 * (high - low)) | self._bodies(grid)
+        self.of_bodies = sum(map(len, self._sections))
+        self._header |= self._surroundings(grid)
         fields = self._header["fields"] = {}
         chosen = scene.colour[0]
         if chosen in bodies.fields:
             fields[chosen] = self._field(chosen, encode.pack_field(bodies.fields[chosen]))
-        self.needed = len(self.write().encode("utf-8"))
+        self.needed = self.wanted = sum(len(part.encode()) for part in self.parts())
+        self.of_bodies += sum(len(self._sections[own["section"]]) for own in fields.values())
         room = most_bytes - self.needed - _NOTES
         others = [name for name in bodies.fields if name not in fields]
         for name in sorted(others, key=lambda name: order.index(name) if name in order else len(order)):
             column = encode.pack_field(bodies.fields[name])
             size = len(column.data) + _DESCRIPTION
+            self.wanted += size
+            self.of_bodies += len(column.data)
             if size > room:
                 self.left_out.append(name)
             else:
                 room -= size
                 fields[name] = self._field(name, column)
 
-    def write(self) -> str:
-        """Return the text of the file."""
-        notes = [f"Left out for lack of room: {', '.join(self.left_out)}."] if self.left_out else []
-        header = json.dumps(self._header | {"notes": notes}, ensure_ascii=False, separators=(",", ":"))
+    def parts(self) -> Iterator[str]:
+        """Yield the text of the file, piece by piece."""
+        left = [f"Left out for lack of room: {', '.join(self.left_out)}."] if self.left_out else []
+        notes = {"notes": [*self._notes, *left]}
+        header = json.dumps(self._header | notes, ensure_ascii=False, separators=(",", ":"))
         script, style = _text("bundle.js"), _text("page.css")
-        parts = {
+        texts = {
             "policy": f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
             "img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'",
             "version": self._version,
-            "title": html.escape(f"{self._scene.title} – {self._scene.subtitle}"),
+            "title": html.escape(f"{self.scene.title} – {self.scene.subtitle}"),
             "style": style,
             "licence": html.escape(_text("LICENSE.three"), quote=False),
             # Only this character could end a script element.
             "scene": header.replace("<", "\\u003c"),
-            "sections": "\n".join(
-                f'<script type="text/plain" id="section-{k}">{data}</script>'
-                for k, data in enumerate(self._sections)
-            ),
             "script": script,
         }
-        return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _text("page.html"))
+        for number, piece in enumerate(re.split(r"\{\{(\w+)\}\}", _text("page.html"))):
+            if number % 2 == 0:
+                yield piece
+            elif piece == "sections":
+                for k, data in enumerate(self._sections):
+                    yield f'<script type="text/plain" id="section-{k}">{data}</script>\n'
+            else:
+                yield texts[piece]
 
     def _described(self, halves: NDArray[np.float64]) -> dict[str, Any]:
-        scene = self._scene
+        scene = self.scene
         return {
             "title": scene.title,
             "subtitle": scene.subtitle,
@@ -148,9 +163,9 @@ class Page:
         }
 
     def _bodies(self, grid: Grid) -> dict[str, Any]:
-        bodies, chosen = self._scene.bodies, self._scene.colour[0]
+        bodies, chosen = self.scene.bodies, self.scene.colour[0]
         useful = {name: own for name, own in bodies.codes.items() if _has_names(own) or name == chosen}
-        codes = {"status": bodies.status} | useful | {"fate": self._scene.fate}
+        codes = {"status": bodies.status} | useful | {"fate": self.scene.fate}
         return {
             "bodies": {
                 "ids": self._add(encode.pack(bodies.ids)),
@@ -167,7 +182,7 @@ class Page:
         }
 
     def _surroundings(self, grid: Grid) -> dict[str, Any]:
-        scene, geometry = self._scene, self._scene.geometry
+        scene, geometry = self.scene, self.scene.geometry
         surfaces = geometry.surfaces if geometry is not None else ()
         edges = geometry.edges.reshape(-1, 3) if geometry is not None else np.zeros((0, 3))
         return {
@@ -181,7 +196,7 @@ class Page:
         return {
             "name": surface.name,
             "type": surface.type,
-            "anchor": self._inside(anchor(surface, self._scene.camera)),
+            "anchor": self._inside(anchor(surface, self.scene.camera)),
             "points": self._add(encode.pack_points(surface.points, grid)),
             "triangles": self._add(encode.pack(surface.triangles)),
         }
@@ -200,7 +215,7 @@ class Page:
         }
 
     def _paths(self, grid: Grid) -> dict[str, Any] | None:
-        paths, ids = self._scene.paths, self._scene.bodies.ids
+        paths, ids = self.scene.paths, self.scene.bodies.ids
         if paths is None or len(ids) == 0:
             return None
         numbers = paths.tracks["origId"]
@@ -215,13 +230,13 @@ class Page:
         }
 
     def _field(self, name: str, column: Column) -> dict[str, Any]:
-        bodies = self._scene.bodies
+        bodies = self.scene.bodies
         field = bodies.fields[name]
         ranges = {}
         for part in field.parts:
             whole = limits_of(bodies, name, part)
             found = {
-                "usual": limits_of(bodies, name, part, self._scene.percentiles),
+                "usual": limits_of(bodies, name, part, self.scene.percentiles),
                 "whole": whole,
                 "extremes": extremes_of(bodies, name, part) or whole,
             }

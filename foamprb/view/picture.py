@@ -54,7 +54,7 @@ Ints = NDArray[np.int64]
 PAGE_HEIGHT = 900.0
 """Height of a picture in which texts are as large as on the page."""
 # Largest number of bodies, and steps around and from pole to pole of their spheres.
-_SPHERES = ((300, 48, 24), (5_000, 24, 12), (math.inf, 12, 7))
+_SPHERES = ((300, 48, 24), (5_000, 24, 12), (20_000, 12, 7), (math.inf, 6, 4))
 _MOST_MARKED = 500
 _MARK_WIDTH, _SPOT_WIDTH, _MARK_STEPS = 0.04, 0.3, 72
 _BAR = 280.0
@@ -571,10 +571,12 @@ def draw(shape: Triangles, place: Floats, F: Floats, size: Floats, colours: Tabl
         (n, 3).
     """
     n, v = len(place), len(shape.points)
-    points = place[:, None, :] + size[:, None, None] * (shape.points @ F.transpose(0, 2, 1))
-    normals = shape.points @ np.linalg.inv(F)
+    # Graphics have single precision; places may lie far from the origin.
+    sphere = shape.points.astype(np.float32)
+    points = place[:, None, :] + sphere @ (size[:, None, None] * F).astype(np.float32).transpose(0, 2, 1)
+    normals = sphere @ np.linalg.inv(F).astype(np.float32)
     normals /= np.linalg.norm(normals, axis=2, keepdims=True)
-    faces = shape.triangles[None] + (v * np.arange(n))[:, None, None]
+    faces = shape.triangles.astype(np.int32)[None] + (v * np.arange(n, dtype=np.int32))[:, None, None]
     mesh = pyvista.PolyData.from_regular_faces(points.reshape(-1, 3), faces.reshape(-1, 3))
     mesh.point_data["Normals"] = normals.reshape(-1, 3)
     mesh.point_data.active_normals_name = "Normals"

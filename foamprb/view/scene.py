@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -185,7 +185,11 @@ def limits_of(
     percentiles
         Values beyond are left out, unless the values between them are all equal.
     """
-    values = _values(bodies, name, part)
+    return limits_of_values(_values(bodies, name, part), percentiles)
+
+
+def limits_of_values(values: NDArray[Any], percentiles: tuple[float, float] = ALL) -> tuple[float, float]:
+    """Return round limits of finite values; see :func:`limits_of`."""
     if not values.size:
         return 0.0, 1.0
     shares = np.array(percentiles) / 100.0

@@ -14,19 +14,21 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from foamprb.errors import InputError
 from foamprb.flow.read.flows import read_flow, read_mesh
 from foamprb.flow.read.source import FlowSource
 from foamprb.results.atomic import atomic_write, refuse_other_kind
+from foamprb.results.vtk import Tracks
 from foamprb.settings.fluid import read_gravity
-from foamprb.view.bodies import fates_of, fields_of_fates, gather, require_array
+from foamprb.view.bodies import Bodies, fates_of, fields_of_fates, gather, require_array, survey
 from foamprb.view.colours import DARK, LIGHT
 from foamprb.view.geometry import Geometry, Slice, boundary, cut, read_plane
 from foamprb.view.page import Page
 from foamprb.view.paraview import write_state
 from foamprb.view.picture import film, has_display, picture, require_graphics, window
-from foamprb.view.results import Run, open_run
+from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import (
     PERCENTILES,
     Scene,
@@ -34,10 +36,13 @@ from foamprb.view.scene import (
     box,
     busiest,
     camera_for,
+    limits_of_values,
     main_direction,
 )
 
 log = logging.getLogger("foamprb")
+
+Floats = NDArray[np.float64]
 
 LATEST = "latestTime"
 DEFAULT_COLOUR = "taylorDeformation"
@@ -47,6 +52,10 @@ ORDER = ("taylorDeformation", "shearRate", "U", "Ca", "t0", "t1", "d", "rho", "a
 
 _BYTES_PER_STATE = 8
 """Least size of a body at one time in a page."""
+MOST_DRAWN = 100_000
+"""Largest number of bodies in a page or a picture, unless -bodies requests more."""
+_SAMPLE, _ESTIMATES = 500, 2
+"""Bodies in an estimate of the size of a page, and the number of estimates."""
 _TIMES_TOLERANCE = 1e-9
 PAGE_BEGINS = b"<!doctype html"
 
@@ -67,7 +76,7 @@ class Request:
     enlargement: float | None = None
     slice: str | None = None
     bodies: int | None = None
-    """Largest number of bodies."""
+    """Largest number of bodies; by default :data:`MOST_DRAWN`."""
     percentiles: tuple[float, float] = PERCENTILES
     """Percentiles of all values that limit the colours without a range."""
     results: Path | None = None
@@ -84,7 +93,7 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
     path
         The file; by default ``<cloud>.html`` beside the results.
     megabytes
-        Largest size. Arrays that do not fit are left out, then times, evenly.
+        Largest size. Times that do not fit are left out, evenly, and then arrays.
     version
         Version of foamprb.
 
@@ -105,19 +114,28 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         raise InputError(f"-maxSize {megabytes:g}: at least 1 (MB) is needed.")
     most = int(megabytes * 1e6)
     run = _run_of(request)
-    written = len(run.entries)
-    known = len(run.cloud(-1, ("origId",)).points)
-    known = min(known, request.bodies or known)
-    fitting = max(1, math.ceil(most / max(1, known * _BYTES_PER_STATE)))
-    scene = make_scene(request, run, spread(written, fitting))
-    page = Page(scene, most, ORDER, version)
-    m = len(scene.bodies.times)
-    while page.needed > most and m > 1:
-        chosen = np.array(spread(m, max(1, min(m - 1, int(0.98 * m * most / page.needed)))))
-        first = int(np.argmin(np.abs(chosen - scene.first)))
-        scene = replace(scene, bodies=scene.bodies.at(chosen), first=first)
-        page = Page(scene, most, ORDER, version)
-        m = len(chosen)
+    background = _background(request, run)
+    written, released = len(run.entries), len(run.cloud(-1, ("origId",)).points)
+    known = min(released, request.bodies or MOST_DRAWN)
+
+    def pack(m: int, bodies: int) -> Page:
+        scene = background.scene(gather(run, spread(written, m), bodies))
+        notes = [f"{len(scene.bodies.ids)} of {released} bodies are shown."] if known < released else []
+        notes += [f"{m} of {written} times are shown."] if m < written else []
+        return Page(scene, most, ORDER, version, notes)
+
+    m = written
+    for _ in range(_ESTIMATES if known * written * _BYTES_PER_STATE > most else 0):
+        page = pack(m, min(known, _SAMPLE))
+        sample = page.of_bodies / max(1, len(page.scene.bodies.ids))
+        fitting = int(m * (most - page.wanted + page.of_bodies) / max(1.0, sample * known))
+        if fitting >= m:
+            break
+        m = max(1, fitting)
+    while (page := pack(m, known)).wanted > most and m > 1:
+        m = max(1, min(m - 1, int(0.98 * m * most / page.wanted)))
+    if known < released and request.bodies is None:
+        log.warning("%d of %d bodies, evenly spread. -bodies N takes another number.", known, released)
     if page.needed > most:
         log.warning("-maxSize %g: even one time takes %.1f MB. -bodies N takes fewer bodies.", megabytes,
                     page.needed / 1e6)  # fmt: skip
@@ -129,10 +147,11 @@ def write_page(request: Request, path: Path | None, megabytes: float, version: s
         log.warning("%s: left out, there is no room in %g MB. -maxSize allows more.",
                     ", ".join(page.left_out), megabytes)  # fmt: skip
     target = path or run.results.page
-    text = page.write().encode("utf-8")
-    with atomic_write(target) as temporary:
-        temporary.write_bytes(text)
-    log.info("%d bodies at %d times, %.1f MB: %s", len(scene.bodies.ids), m, len(text) / 1e6, target)
+    size = 0
+    with atomic_write(target) as temporary, temporary.open("wb") as file:
+        for part in page.parts():
+            size += file.write(part.encode("utf-8"))
+    log.info("%d bodies at %d times, %.1f MB: %s", len(page.scene.bodies.ids), m, size / 1e6, target)
     return target
 
 
@@ -143,7 +162,51 @@ def spread(count: int, most: int) -> list[int]:
     return sorted({count - 1 - (k * count) // most for k in range(most)})
 
 
-def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
+@dataclass(frozen=True)
+class _Background:
+    """Everything of a scene but its bodies."""
+
+    request: Request
+    run: Run
+    colour: tuple[str, str]
+    fates: Table | None
+    geometry: Geometry | None
+    slice: Slice | None
+    paths: Tracks | None
+    flow: Floats
+    gravity: Floats
+
+    def scene(self, bodies: Bodies) -> Scene:
+        """Return the scene of some bodies."""
+        request, geometry, g = self.request, self.geometry, self.gravity
+        if self.fates is not None:
+            bodies.fields.update(fields_of_fates(bodies, self.fates))
+        first, time = busiest(bodies), request.time
+        if time is not None:
+            first = int(np.argmin(np.abs(bodies.times - time)))
+            if not math.isclose(bodies.times[first], time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15):
+                log.warning("-time %g s was not written; the nearest is %g s.", time, bodies.times[first])
+        corners = box(geometry, bodies)
+        return Scene(
+            title=title_of(request.case),
+            subtitle=self.run.name,
+            bodies=bodies,
+            fate=fates_of(bodies, self.run, self.fates),
+            geometry=geometry,
+            slice=self.slice,
+            paths=self.paths,
+            camera=camera_for(geometry, bodies, first, g),
+            enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
+            colour=self.colour,
+            range=request.range,
+            first=first,
+            percentiles=request.percentiles,
+            flow=self.flow,
+            gravity=g / (float(np.linalg.norm(g)) or 1.0),
+        )
+
+
+def make_scene(request: Request, run: Run, frames: Sequence[int], *, drawn: bool = False) -> Scene:
     """Read bodies, geometry and flow, and arrange them for drawing.
 
     Parameters
@@ -154,6 +217,8 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         Results of the cloud.
     frames
         Indices of the times.
+    drawn
+        Read no other arrays than the one to colour by.
 
     Raises
     ------
@@ -161,6 +226,36 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
         If files are missing or damaged, an array is unknown, the plane is not valid, or a number is out of
         range.
     """
+    background = _background(request, run)
+    arrays = (background.colour[0], "patch") if drawn else None
+    return background.scene(gather(run, frames, request.bodies, arrays))
+
+
+def make_still(request: Request, run: Run, most: int = MOST_DRAWN) -> Scene:
+    """Return the scene of one time, by default that with most bodies; its colours are those of all times.
+
+    Without ``request.bodies`` it has at most ``most`` bodies, evenly spread over their numbers.
+
+    Raises
+    ------
+    InputError
+        See :func:`make_scene`.
+    """
+    name, part = require_array(run, request.colour)
+    shown, values = survey(run, name, part)
+    frame = (
+        len(shown) - 1 - int(np.argmax(shown[::-1])) if request.time is None else run.nearest(request.time)
+    )
+    if request.bodies is None and shown[frame] > most:
+        request = replace(request, bodies=most)
+        log.info("The picture has %d of %d bodies.", most, shown[frame])
+    scene = make_scene(request, run, [frame], drawn=True)
+    if values is None:
+        return scene
+    return replace(scene, range=request.range or limits_of_values(values, request.percentiles))
+
+
+def _background(request: Request, run: Run) -> _Background:
     if request.bodies is not None and request.bodies < 1:
         raise InputError(f"-bodies {request.bodies}: a number >= 1 is needed.")
     if request.enlargement is not None and not 0.0 < request.enlargement < math.inf:
@@ -175,42 +270,18 @@ def make_scene(request: Request, run: Run, frames: Sequence[int]) -> Scene:
             f"-percentiles {low:g} {high:g}: two numbers from 0 to 100 are needed, the second the larger one."
         )
     colour = require_array(run, request.colour)
-    bodies = gather(run, frames, request.bodies)
     fates = run.fates()
-    if fates is not None:
-        bodies.fields.update(fields_of_fates(bodies, fates))
     geometry, plane = _surroundings(request, run)
-    first, time = busiest(bodies), request.time
-    if time is not None:
-        first = int(np.argmin(np.abs(bodies.times - time)))
-        if not math.isclose(bodies.times[first], time, rel_tol=_TIMES_TOLERANCE, abs_tol=1e-15):
-            log.warning("-time %g s was not written; the nearest is %g s.", time, bodies.times[first])
     g = np.zeros(3)
     with suppress(InputError):
         g = np.array(read_gravity(request.case, run.results.region))
-    corners = box(geometry, bodies)
     try:
         flow = run.record.get("flow")
     except InputError as error:
         log.warning("The direction of the flow is not shown: %s", error)
         flow = None
-    return Scene(
-        title=title_of(request.case),
-        subtitle=run.name,
-        bodies=bodies,
-        fate=fates_of(bodies, run, fates),
-        geometry=geometry,
-        slice=plane,
-        paths=run.paths(),
-        camera=camera_for(geometry, bodies, first, g),
-        enlargement=request.enlargement or automatic_enlargement(bodies, corners[1] - corners[0]),
-        colour=colour,
-        range=request.range,
-        first=first,
-        percentiles=request.percentiles,
-        flow=main_direction(flow.get("direction") if isinstance(flow, dict) else None),
-        gravity=g / (float(np.linalg.norm(g)) or 1.0),
-    )
+    direction = main_direction(flow.get("direction") if isinstance(flow, dict) else None)
+    return _Background(request, run, colour, fates, geometry, plane, run.paths(), direction, g)
 
 
 def title_of(case: Path) -> str:
@@ -262,15 +333,19 @@ def picture_of(
         )
     require_graphics()
     run = _run_of(request)
-    scene = make_scene(request, run, range(len(run.entries)))
     if png is not None:
+        scene = make_still(request, run)
         picture(scene, png, size, style)
-    elif movie is not None:
+        log.info("%d bodies: %s", len(scene.bodies.ids), png)
+        return
+    request = replace(request, bodies=request.bodies or MOST_DRAWN)
+    scene = make_scene(request, run, range(len(run.entries)), drawn=True)
+    if movie is not None:
         film(scene, movie, size, style)
     else:
         window(scene, size, style)
         return
-    log.info("%d bodies: %s", len(scene.bodies.ids), png or movie)
+    log.info("%d bodies: %s", len(scene.bodies.ids), movie)
 
 
 def start_paraview(case: Path, cloud: str | None, region: str, results: Path | None = None) -> int:
@@ -285,7 +360,7 @@ def start_paraview(case: Path, cloud: str | None, region: str, results: Path | N
     """
     request = Request(case, cloud, FlowSource(region=region) if region else None, results=results)
     run = _run_of(request)
-    write_state(run.results, make_scene(request, run, range(len(run.entries))))
+    write_state(run.results, make_still(request, run))
     state = run.results.state
     log.info("State: %s", state)
     program = shutil.which("paraview")

@@ -125,12 +125,14 @@ def test_some_of_the_bodies(case, moved):
 
 
 def test_some_of_the_times(case):
-    whole = gather(open_run(case), range(M))
-    some = whole.at(np.array([0, 3, 6]))
-    read = gather(open_run(case), [0, 3, 6])
-    np.testing.assert_array_equal(some.x[some.present], read.x[read.present])
-    np.testing.assert_array_equal(some.present, read.present)
+    whole, some = (gather(open_run(case), frames) for frames in (range(M), [0, 3, 6]))
+    np.testing.assert_array_equal(whole.x[[0, 3, 6]][some.present], some.x[some.present])
+    np.testing.assert_array_equal(whole.present[[0, 3, 6]], some.present)
     assert some.fields["d"].values.shape == (1, N, 1)
+
+
+def test_some_of_the_arrays(case):
+    assert set(gather(open_run(case), range(M), arrays=("U",)).fields) == {"U"}
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from view_run import motion, write_run
 
 import foamprb.view
 from foamprb.cli import main
+from foamprb.view import show
 from foamprb.view.colours import DARK, LIGHT, rgb
 from foamprb.view.encode import POSITION_BITS, SHAPE_STEP
 from foamprb.view.show import Request, write_page
@@ -189,24 +190,38 @@ class TestSize:
         own = sum(map(len, re.findall(r'id="section-\d+">([^<]*)<', page.text)))
         assert path.stat().st_size - own + 5 * own < 30e6
 
-    def test_arrays_give_way_first_and_then_times(self, tmp_path, capsys):
-        write_run(tmp_path, motion(2000, 20), mesh=False)
-        sizes = {}
-        for limit in (30.0, 1.7, 1.2):
-            path = tmp_path / f"{limit}.html"
-            assert main(["view", "-case", str(tmp_path), "-output", str(path), "-maxSize", str(limit)]) == 0
-            page = PageReader(path.read_text(encoding="utf-8"))
-            sizes[limit] = (len(page.scene["times"]), len(page.scene["fields"]))
-            assert path.stat().st_size <= limit * 1e6
-            assert page.scene["times"][-1] == pytest.approx(1.9)
-            assert "taylorDeformation" in page.scene["fields"]
-        assert sizes[30.0] == (20, 6)
-        assert sizes[1.7][0] == 20
-        assert sizes[1.7][1] < 6
-        assert sizes[1.2][0] < 20
-        out = capsys.readouterr().out
-        assert "left out, there is no room in 1.7 MB" in out
-        assert "of 20 times fit in 1.2 MB" in out
+    @pytest.mark.parametrize(
+        ("bodies", "times", "limit", "notes"),
+        [
+            (2000, 20, 30.0, r""),
+            (2000, 20, 1.7, r"\d+ of 20 times are shown\."),
+            (8000, 2, 1.0, r"1 of 2 times are shown\. Left out for lack of room: .+\."),
+        ],
+    )
+    def test_times_give_way_first_and_then_arrays(self, tmp_path, capsys, bodies, times, limit, notes):
+        write_run(tmp_path, motion(bodies, times), mesh=False)
+        path = tmp_path / "page.html"
+        assert main(["view", "-case", str(tmp_path), "-output", str(path), "-maxSize", str(limit)]) == 0
+        assert path.stat().st_size <= limit * 1e6
+        scene = PageReader(path.read_text(encoding="utf-8")).scene
+        said = " ".join(scene["notes"])
+        assert re.fullmatch(notes, said)
+        assert ("times fit in" in capsys.readouterr().out) == (limit < 30.0)
+        assert scene["times"][-1] == pytest.approx(0.1 * (times - 1))
+        assert "taylorDeformation" in scene["fields"]
+        assert (len(scene["fields"]) < 6) == ("Left out" in said)
+
+    def test_the_size_of_a_large_page_is_estimated_from_some_of_its_bodies(self, tmp_path, monkeypatch):
+        write_run(tmp_path, motion(5000, 40), mesh=False)
+        read = []
+        gathered = show.gather
+        monkeypatch.setattr(show, "gather", lambda *given: read.append(gathered(*given)) or read[-1])
+        path = write_page(Request(tmp_path, bodies=4900), None, 1.5, "")
+        assert len(PageReader(path.read_text(encoding="utf-8")).scene["times"]) < 40
+        assert 1.2e6 < path.stat().st_size <= 1.5e6
+        whole = [bodies for bodies in read if len(bodies.ids) == 4900]
+        assert len(whole) <= 2
+        assert max(len(bodies.times) for bodies in whole) < 30
 
 
 class TestCommand:

@@ -35,7 +35,7 @@ def image(path):
 
 class TestMeshes:
     def test_a_body_is_the_unit_sphere_under_F(self, random):
-        """Points and normals: x = c + s F X, and n is at right angles to the images of the tangents."""
+        """Points and normals, in single precision: x = c + s F X; n ⊥ the images of the tangents."""
         sphere = sphere_for(1)
         F = np.eye(3) + 0.4 * random.standard_normal((2, 3, 3))
         place, size = random.standard_normal((2, 3)), np.array([0.5, 2.0])
@@ -47,8 +47,8 @@ class TestMeshes:
             expected = place[k] + size[k] * sphere.points @ F[k].T
             np.testing.assert_allclose(points[k], expected, atol=1e-6)
             tangents = np.cross(sphere.points, random.standard_normal(3)) @ F[k].T
-            assert np.abs(np.einsum("ij,ij->i", normals[k], tangents)).max() < 1e-9
-        np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1.0, rtol=1e-9)
+            assert np.abs(np.einsum("ij,ij->i", normals[k], tangents)).max() < 1e-5
+        np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1.0, rtol=1e-6)
 
     def test_the_sphere_is_round_and_coarser_for_more(self):
         sizes = [len(sphere_for(n).points) for n in (10, 10_000, 100_000)]

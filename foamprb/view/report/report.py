@@ -29,7 +29,7 @@ from foamprb.view.report.deposits import deposits
 from foamprb.view.report.page import PageSection, figure, grid, image, page, table
 from foamprb.view.results import Run, Table, open_run
 from foamprb.view.scene import Scene
-from foamprb.view.show import PAGE_BEGINS, Request, make_scene, spread, title_of
+from foamprb.view.show import PAGE_BEGINS, Request, make_still, spread, title_of
 
 __all__ = ["write_report"]
 
@@ -40,6 +40,8 @@ Floats = NDArray[np.float64]
 _PICTURE = (1600, 900)
 _MOST_TIMES = 120
 """Largest number of times read for curves over all particles."""
+_MOST_BODIES = 30_000
+"""Largest number of bodies in the picture."""
 _PATHS = 6
 _MOST_WALLS = 6
 """Largest number of walls that are drawn unrolled."""
@@ -100,7 +102,7 @@ def write_report(
         raise InputError(f"{run.folder}: no fates, the run has not ended. To continue: foamprb run -resume.")
     scene: Scene | InputError
     try:
-        scene = make_scene(Request(case, cloud, source), run, range(len(run.entries)))
+        scene = make_still(Request(case, cloud, source, results=results), run, _MOST_BODIES)
         geometry = scene.geometry
     except InputError as error:
         scene, geometry = error, _geometry(case, source)
