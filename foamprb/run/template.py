@@ -36,6 +36,7 @@ from foamprb.flow.read.fluid import (
     phases_of,
     read_density,
     read_viscosity,
+    surface_tension,
 )
 from foamprb.flow.read.mrf import read_rotations
 from foamprb.flow.read.processors import Processors
@@ -62,6 +63,8 @@ _RIGID = 1e-6
 """Capillary number of a body that is as good as rigid."""
 _PATHS, _MOVES, _MOVE = 200, 400, 0.5
 """Number of paths, of moves along each, and length of a move in cells."""
+_BLOOD_DENSITY, _BLOOD_VISCOSITY = (1020.0, 1100.0), (2.5e-3, 0.06)
+"""Ranges of whole blood, kg/m³ and Pa s."""
 _TEMPERATURE, _PRESSURE = 300.0, 1e5
 """Temperature of a fluid, K, and its pressure, Pa, if they matter and the case does not have them."""
 
@@ -170,7 +173,7 @@ constantProperties
     solid
     {{
         type neoHooke; // all types: foamprb help solid
-{_lines(_stiffness(flow, scales, rho * nu, own), 8)}    }}
+{_lines(_stiffness(flow, scales, rho * nu, own) + _drops(case, source, scales.shear), 8)}    }}
 }}
 
 subModels
@@ -197,7 +200,7 @@ cloudFunctions
         maxTracks 200;
     }}
     // exposure {{ type particleHistogram; }} // of each particle to shear; slow with more than 1e5 particles
-{_lines(own.functions if own else ())}}}
+{_lines(_blood(rho, rho * nu))}{_lines(own.functions if own else ())}}}
 """
     return re.sub(r"^( *)(\w+)(?: ([^{}\n]*?))?;(?: // (.*))?$", _aligned, text, flags=re.MULTILINE)
 
@@ -432,9 +435,21 @@ def _pressure(case: Path, region: str) -> float:
 
 
 def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, list[str]] | None:
-    """Return the result of :func:`_fluid` for one of several phases; the others are in comments.
+    """Return the result of :func:`_fluid` for one of several phases; the others are in comments."""
+    known = _known_phases(case, source, rate)
+    if not known:
+        return None
+    lines = []
+    for index, (name, nu, rho) in enumerate(known):
+        start, why = ("// ", "") if index else ("", ", in which the particles move")
+        lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
+    return known[0][2], known[0][1], lines
 
-    It is the phase of the velocity, such as ``U.air``, or else the first.
+
+def _known_phases(case: Path, source: FlowSource, rate: float) -> list[tuple[str, float, float]]:
+    """Return name, viscosity, m²/s, and density, kg/m³, of each of several phases.
+
+    The phase of the velocity, such as ``U.air``, or else the first goes first.
     """
     known = []
     try:
@@ -444,16 +459,27 @@ def _phases(case: Path, source: FlowSource, rate: float) -> tuple[float, float, 
             if nu is not None and rho is not None:
                 known.append((name, float(f"{nu:.4g}"), float(f"{rho:.4g}")))
     except InputError:
-        return None
-    if not known:
-        return None
+        return []
     own = source.velocity.partition(".")[2]
-    known.sort(key=lambda phase: phase[0] != own)
-    lines = []
-    for index, (name, nu, rho) in enumerate(known):
-        start, why = ("// ", "") if index else ("", ", in which the particles move")
-        lines += [f"{start}nu {nu:g}; // m2/s, of {name}{why}", f"{start}rhoInf {rho:g}; // kg/m3, of {name}"]
-    return known[0][2], known[0][1], lines
+    return sorted(known, key=lambda phase: phase[0] != own)
+
+
+def _drops(case: Path, source: FlowSource, rate: float) -> list[str]:
+    """Return comments with the entries of drops of the second of two liquid or gaseous phases."""
+    sigma, known = surface_tension(case, source.region), _known_phases(case, source, rate)
+    if sigma is None or len(known) != 2:
+        return []
+    name, nu, rho = known[1]
+    return [f"// type drop; surfaceTension {sigma:g}; viscosity {nu * rho:.4g}; // instead: drops of {name}"]
+
+
+def _blood(rho: float, mu: float) -> list[str]:
+    """Return a comment with the damage to red cells if a fluid, kg/m³ and Pa s, is like blood."""
+    ranges = (_BLOOD_DENSITY, rho), (_BLOOD_VISCOSITY, mu)
+    if not all(low <= value <= high for (low, high), value in ranges):
+        return []
+    function = "damage { type haemolysis; constants Giersiepen; stress KelvinVoigt; }"
+    return [f"// {function} // the fluid is like blood"]
 
 
 def _viscosity_of_model(file: Path, case: Path, rate: float, T: float) -> tuple[float, str]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from foamprb.flow.base import Floats, Ints
 from foamprb.flow.read.boundary import PatchInfo
+from foamprb.flow.read.fluid import describe_viscosity
 from foamprb.flow.read.meshfile import open_file
 from foamprb.flow.read.openfoam import Case
 from foamprb.flow.read.source import Division
@@ -40,6 +41,8 @@ class CaseInfo:
     """Region that is described."""
     regions: tuple[str, ...] = ()
     """All regions."""
+    viscosity: tuple[str, ...] = ()
+    """Lines about the viscosity of the fluid."""
 
     def lines(self) -> list[str]:
         """Return the contents as lines of text."""
@@ -51,6 +54,10 @@ class CaseInfo:
             *_lines_of_mesh(self.points, self.cells, self.bounds),
             *(f"    {patch.name:20s} {patch.faces:10d} faces  {patch.type}" for patch in self.patches),
             "",
+            *(
+                ["Viscosity of the fluid", *(f"    {line}" for line in self.viscosity), ""]
+                * bool(self.viscosity)
+            ),
             "Times and fields",
             *(
                 f"    {time.name:20s} " + ", ".join(f"{name} ({kind})" for name, kind in time.fields.items())
@@ -72,7 +79,10 @@ def describe(case: Case) -> CaseInfo:
     (points, faces, *_), patches, _ = case.poly(names[-1] if names else None)
     kinds = _kinds(faces.start, faces.owner, faces.neighbour, len(faces.first) - 1)
     bounds = points.min(axis=0), points.max(axis=0)
-    return CaseInfo(case.root, times, patches, len(points), kinds, bounds, case.region, case.regions())
+    viscosity = describe_viscosity(case.root, case.region, times[-1].fields if times else ())
+    return CaseInfo(
+        case.root, times, patches, len(points), kinds, bounds, case.region, case.regions(), tuple(viscosity)
+    )
 
 
 def describe_file(path: Path, velocity: str = "U", division: Division | None = None) -> list[str]:

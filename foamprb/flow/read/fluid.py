@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple, TypeVar
@@ -143,6 +144,31 @@ def read_viscosity(
             "constantProperties of the cloud."
         )
     return CaseViscosity(None, None, law=_law_of(root, model, {}), origin=f"{model} of {root.source}")
+
+
+def describe_viscosity(case: Path, region: str, fields: Collection[str]) -> list[str]:
+    """Return lines of text about the viscosity of the fluid of a case; none if the case has no dictionary.
+
+    ``fields`` are the names of the fields at the last time. None is read.
+    """
+    file = fluid_file(case, region)
+    if file is None:
+        return []
+    try:
+        if phases := phases_of(case, region):
+            return [f"phases {', '.join(phases)}: see {file.name}"]
+        found = read_viscosity(file, case, None, region)
+    except InputError:
+        with suppress(InputError):
+            if law := _transport(read_dictionary(file, case)):
+                local = ", at the local T" if "T" in fields else ""
+                return [f"{law} of {file.name}{local}"]
+        return [f"{file.name} has none that is read"]
+    if found.law is None:
+        return [f"nu {found.nu:g} m2/s" if found.nu is not None else f"mu {found.mu:g} Pa s"]
+    numbers = ", ".join(f"{name} {value:g}" for name, value in found.law.coefficients.items())
+    written = ["the written field nu takes its place"] if "nu" in fields else []
+    return [f"{found.origin}: {numbers}", *written]
 
 
 def _nu_of(root: Dictionary) -> float:
@@ -444,6 +470,14 @@ def phases_of(case: Path, region: str) -> dict[str, Dictionary]:
     own = {key: find_dictionary(case, region, f"{_MIXTURE_FILE}.{key}") for key in names}
     phases = {key: own[key] or entries.get(key) for key in names}
     return {key: phase for key, phase in phases.items() if isinstance(phase, Dictionary)}
+
+
+def surface_tension(case: Path, region: str) -> float | None:
+    """Return ``sigma`` of two phases, N/m; None if the case has none."""
+    for file in (fluid_file(case, region), find_file(case, region, "phaseProperties")):
+        if file is not None and (sigma := _number(read_dictionary(file, case), "sigma")):
+            return sigma
+    return None
 
 
 def phase_values(phase: Dictionary, rate: float, p: float, T: float) -> tuple[float | None, float | None]:

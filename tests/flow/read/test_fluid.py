@@ -12,7 +12,13 @@ from transient_case import SETTINGS
 
 from foamprb.body.viscosity import bird_carreau
 from foamprb.errors import InputError
-from foamprb.flow.read.fluid import fluid_file, mean_density, read_density, read_viscosity
+from foamprb.flow.read.fluid import (
+    describe_viscosity,
+    fluid_file,
+    mean_density,
+    read_density,
+    read_viscosity,
+)
 from foamprb.settings.settings import read_settings
 
 AIR = """
@@ -224,6 +230,37 @@ def test_wrong_units_are_refused(text, tmp_path):
 
 
 BLOOD = "transportModel BirdCarreau; BirdCarreauCoeffs { nu0 5.28e-5; nuInf 3.25e-6; k 3.313; n 0.3568; }"
+
+
+@pytest.mark.parametrize(
+    ("text", "fields", "lines"),
+    [
+        ("transportModel Newtonian; nu 1e-6;", (), ["nu 1e-06 m2/s"]),
+        (
+            BLOOD,
+            ("U", "nu"),
+            [
+                "BirdCarreau of constant/transportProperties: "
+                "nu0 5.28e-05, nuInf 3.25e-06, k 3.313, n 0.3568, a 2",
+                "the written field nu takes its place",
+            ],
+        ),
+        (
+            "phases (water air); water { nu 1; } air { nu 1; }",
+            (),
+            ["phases water, air: see transportProperties"],
+        ),
+        (
+            "thermoType { transport sutherland; } mixture { }",
+            ("T",),
+            ["sutherland of transportProperties, at the local T"],
+        ),
+        ("transportModel odd;", (), ["transportProperties has none that is read"]),
+    ],
+)
+def test_the_viscosity_is_described(text, fields, lines, tmp_path):
+    write(tmp_path, "constant/transportProperties", text)
+    assert describe_viscosity(tmp_path, "", fields) == lines
 
 
 def test_a_law_of_the_shear_rate(tmp_path):
