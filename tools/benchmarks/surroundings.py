@@ -1,6 +1,8 @@
-"""Cost of models of a particle's surroundings: walls near and far, molecules, curved flows."""
+"""Cost of models: walls near and far, molecules, curved flows; carriers that thin, lift, drops."""
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,13 +10,36 @@ import foamprb
 from benchmarks import pipe
 from benchmarks.records import Options, Row, cpu_of, interleaved, rows
 
-STEP = 1e-4
+STEP, MU = 1e-4, pipe.RHO * pipe.NU
+
+
+class Model(NamedTuple):
+    """What is chosen beside the defaults."""
+
+    surroundings: tuple = ()
+    forces: tuple = (foamprb.Gravity(),)
+    mu: object = MU
+    material: str = "neoHooke"
+
+
+DUCT = foamprb.DuctLift(
+    shape="pipe", origin=(0.0, 0.0, 0.0), direction=(1.0, 0.0, 0.0), size=pipe.RADIUS,
+    shearRate=pipe.WALL_RATE, table=((0.0, 0.0), (0.5, 0.1), (0.6, 0.0), (0.9, -0.5)),
+)  # fmt: skip
 MODELS = {
-    "without": (),
-    "wallLift": (foamprb.WallLift(),),
-    "BrownianMotion": (foamprb.BrownianMotion(T=293.15),),
-    "faxenCorrection": (foamprb.FaxenCorrection(),),
+    "without": Model(),
+    "wallLift": Model((foamprb.WallLift(),)),
+    "BrownianMotion": Model((foamprb.BrownianMotion(T=293.15),)),
+    "faxenCorrection": Model((foamprb.FaxenCorrection(),)),
 }
+FAR = {
+    "SaffmanMeiLiftForce": Model((foamprb.SaffmanMeiLift(),)),
+    "ductLift": Model((), (foamprb.Gravity(), DUCT)),
+    "powerLaw": Model(mu=foamprb.PowerLaw(k=10.0 * MU, n=0.7)),
+    "BirdCarreau": Model(mu=foamprb.BirdCarreau(mu0=10.0 * MU, muInf=MU, k=0.1, n=0.4)),
+    "drops": Model(material="drop"),
+}
+"""Models without walls, measured far from them only."""
 PLACES = {
     "far from walls": (pipe.D, 0.0, 0.9),
     "within 10 radii of the wall": (pipe.D, 1.0 - 5.0 * pipe.D / pipe.RADIUS, 1.0 - pipe.D / pipe.RADIUS),
@@ -23,13 +48,17 @@ PLACES = {
 """Diameters, m, and between which distances from the axis particles begin, over the pipe's radius."""
 
 
-def particles(n: int, d: float, low: float, high: float) -> foamprb.Particles:
+def particles(n: int, d: float, low: float, high: float, material: str) -> foamprb.Particles:
     """Return n stiff particles of the fluid's density in the first third of the pipe."""
     random = np.random.default_rng(0)
     r = pipe.RADIUS * np.sqrt(low**2 + (high**2 - low**2) * random.random(n))
     angle, x = 2.0 * np.pi * random.random(n), pipe.LENGTH / 3.0 * (0.01 + 0.99 * random.random(n))
     places = np.stack([x, r * np.cos(angle), r * np.sin(angle)], axis=1)
-    p = foamprb.spheres(places, d=d, rho=pipe.RHO, mu=pipe.RHO * pipe.NU * pipe.WALL_RATE / 0.01)
+    mu = MU * pipe.WALL_RATE / 0.01
+    if material == "drop":
+        p = foamprb.drops(places, d=d, rho=pipe.RHO, gamma=0.5 * d * mu, eta=MU)
+    else:
+        p = foamprb.spheres(places, d=d, rho=pipe.RHO, mu=mu)
     p.v[:] = pipe.poiseuille(places)
     return p
 
@@ -37,10 +66,12 @@ def particles(n: int, d: float, low: float, high: float) -> foamprb.Particles:
 class Contestant:
     """A cloud with one of the models, ready to go."""
 
-    def __init__(self, flow, p: foamprb.Particles, models: tuple, steps: int) -> None:
-        medium = foamprb.Medium(pipe.RHO * pipe.NU, pipe.RHO, (0.0, 0.0, 0.0))
+    def __init__(self, flow, p: foamprb.Particles, model: Model, steps: int) -> None:
+        medium = foamprb.Medium(model.mu, pipe.RHO, (0.0, 0.0, 0.0))
         rules = [foamprb.Rebound() if patch.type == "wall" else foamprb.Escape() for patch in flow.patches]
-        chosen = foamprb.Models(integrator="stokes", surroundings=models)
+        chosen = foamprb.Models(
+            material=model.material, integrator="stokes", forces=model.forces, surroundings=model.surroundings
+        )
         self.cloud, self.steps = foamprb.Cloud(p, flow, medium, rules, STEP, chosen, 1), steps
         self.cloud.advance(3)
 
@@ -58,9 +89,10 @@ def measure(options: Options) -> list[Row]:
     flow = foamprb.read_case(pipe.case("40k"))
     found = []
     for place, (d, low, high) in PLACES.items():
+        models = MODELS | FAR if place == "far from walls" else MODELS
         clocks = {
-            name: Contestant(flow, particles(n, d, low, high), models, steps).cost
-            for name, models in MODELS.items()
+            name: Contestant(flow, particles(n, d, low, high, model.material), model, steps).cost
+            for name, model in models.items()
         }
         costs = interleaved(clocks, repeats)
         ratios = {name: cost / costs["without"] for name, cost in costs.items() if name != "without"}
