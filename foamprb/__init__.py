@@ -28,7 +28,7 @@ Particles in a flow:
     drops               drops at rest, for the material ``drop``
     set_rest_shape      make ellipsoids at rest of them
     Particles           the arrays of all particles
-    Status              what a particle is doing: pending, active, stuck, escaped or failed
+    Status              what a particle is doing, or its fate: active, stuck, escaped, failed, ...
     Cloud               particles, the flow that carries them, and the models that act on them
     Medium              viscosity and density of the fluid, and gravity
     PowerLaw            a viscosity by the shear rate, for a medium: OpenFOAM's powerLaw
@@ -50,6 +50,8 @@ Particles in a flow:
     WallLift            what walls send back of a soft particle near them
     BrownianMotion      push by the fluid's molecules
     Swimming            swimming of bodies in a direction of their own
+    Fates               limits at which bodies rupture or release their contents
+    FateLimits          such limits: of a stretch, a stress or a dose
     StochasticDispersion  eddies of a turbulent flow, of random velocity
     GradientDispersion  eddies that go from where they are strong to where they are weak
     Stick               a patch that holds the particles that touch it

@@ -46,6 +46,12 @@ from .cloud.surroundings.dispersion import (
 from .cloud.surroundings.dispersion import (
     StochasticDispersion as StochasticDispersion,
 )
+from .cloud.surroundings.fates import (
+    FateLimits as FateLimits,
+)
+from .cloud.surroundings.fates import (
+    Fates as Fates,
+)
 from .cloud.surroundings.faxen import FaxenCorrection as FaxenCorrection
 from .cloud.surroundings.saffman_mei import SaffmanMeiLift as SaffmanMeiLift
 from .cloud.surroundings.swimming import Swimming as Swimming

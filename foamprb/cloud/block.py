@@ -31,7 +31,7 @@ from foamprb.compile.link import traced
 (
     LOST, NOT_FINITE, VOLUME_RATIO, NOT_CONVERGED, STEP_TOO_SMALL,
     FLOW_NOT_FINITE, STRETCHED, TOO_LARGE, WALLS_TOO_MANY, SUB_STEPS, CELLS_TOO_MANY,
-) = (int(reason) for reason in Reason if reason)  # fmt: skip
+) = (int(reason) for reason in Reason if Reason.NONE < reason <= Reason.CELLS_TOO_MANY)  # fmt: skip
 
 
 class Rows(NamedTuple):
@@ -384,6 +384,11 @@ def limit_next_step(_block: Any, _i: int, _tolerance: float) -> None:
     """No-op for integrators without step control."""
 
 
+def judge(_block: Any, _i: int, verdict: Scalar) -> Scalar:
+    """Return the verdict on a step; a model of the surroundings binds its own function."""
+    return verdict
+
+
 @traced
 def accept_stage(block: Any, tolerance: float) -> None:
     """Judge the new shapes and velocities of the moving lanes, and accept the sound ones."""
@@ -402,6 +407,7 @@ def accept_stage(block: Any, tolerance: float) -> None:
         verdict = select(stretch <= block[at.maxStretch * LANES + i], verdict, float(STRETCHED))
         verdict = select((J >= _MIN_J) & (J <= _MAX_J), verdict, float(VOLUME_RATIO))
         verdict = select(abs(total) < np.inf, verdict, float(NOT_FINITE))
+        verdict = judge(block, i, verdict)
         block[at.verdict * LANES + i] = verdict
         limit_next_step(block, i, tolerance)
         sound = (verdict == 0.0) & (block[at.moving * LANES + i] > 0.0)

@@ -44,7 +44,7 @@ from foamprb.cloud.block import (
 from foamprb.cloud.contact import first_contact, note, on_cubic, slope_on_cubic
 from foamprb.cloud.layout import LANES
 from foamprb.cloud.patches import CYCLIC, ESCAPE, MIRROR, REBOUND, STICK, rebound_velocity
-from foamprb.cloud.state import Particles, Status
+from foamprb.cloud.state import Particles, Reason, Status
 from foamprb.flow.analytic import cell_volume_free as cell_volume
 from foamprb.flow.analytic import cross_free as cross
 from foamprb.flow.analytic import gap_free as gap
@@ -54,7 +54,7 @@ from foamprb.flow.analytic import sample_linear as sample
 from foamprb.flow.analytic import walk_free as walk
 from foamprb.flow.base import NEAR
 
-PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status)
+PENDING, ACTIVE, STUCK, ESCAPED, FAILED = (int(status) for status in Status if status <= Status.FAILED)
 
 SEEN = 1.0 + NEAR
 """Distance from a body's centre, in semi-axes, beyond which walls do not matter."""
@@ -97,6 +97,20 @@ def fail(s: Scratch, i: int, reason: int) -> None:
         # Distinguish a failure of the particle from one of the flow.
         own = are_finite(s.block, i, at.x, at.x + 24)
         s.reason[i] = FLOW_NOT_FINITE if own else NOT_FINITE
+
+
+_CODE = 16
+"""Factor of a status in the code of an outcome, above all reasons."""
+
+
+def outcome_code(status: Status, reason: Reason) -> int:
+    """Return the verdict that ends a particle with another status than failed."""
+    return _CODE * int(status) + int(reason)
+
+
+def conclude(s: Scratch, i: int, code: int) -> None:
+    """End the particle in lane i with the status and the reason of a code."""
+    s.status[i], s.reason[i] = code // _CODE, code % _CODE
 
 
 def are_finite(block: Any, i: int, row: int, end: int) -> bool:
@@ -597,9 +611,11 @@ def release(flow: Any, patches: PatchTable, s: Scratch, i: int) -> None:
 
 
 def is_sound(s: Scratch, i: int) -> bool:
-    """Return True if the new shape in lane i was accepted; else let the particle fail."""
+    """Return True if the new shape in lane i was accepted; else end the particle."""
     verdict = int(s.block[at.verdict * LANES + i])
-    if verdict:
+    if verdict >= _CODE:
+        conclude(s, i, verdict)
+    elif verdict:
         fail(s, i, verdict)
     return verdict == 0
 

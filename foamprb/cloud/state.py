@@ -27,10 +27,12 @@ class Status(IntEnum):
     STUCK = 2
     ESCAPED = 3
     FAILED = 4
+    RUPTURED = 5
+    RELEASED = 6
 
 
 class Reason(IntEnum):
-    """Reason of a failure."""
+    """Reason of a failure, a rupture or a release; below 16."""
 
     NONE = 0
     LOST = 1
@@ -44,6 +46,10 @@ class Reason(IntEnum):
     WALLS_TOO_MANY = 9
     SUB_STEPS = 10
     CELLS_TOO_MANY = 11
+    STRETCH_REACHED = 12
+    STRESS_REACHED = 13
+    SHEAR_REACHED = 14
+    DOSE_REACHED = 15
 
 
 REASONS: dict[Reason, str] = {
@@ -59,6 +65,10 @@ REASONS: dict[Reason, str] = {
     Reason.WALLS_TOO_MANY: "it is so many cells long that the walls near it cannot be listed",
     Reason.SUB_STEPS: "it needs more than maxSubSteps time steps in one tracking step",
     Reason.CELLS_TOO_MANY: "its longest semi-axis is beyond maxCells of the cell that holds its centre",
+    Reason.STRETCH_REACHED: "its stretch has reached the limit",
+    Reason.STRESS_REACHED: "its elastic stress has reached the limit",
+    Reason.SHEAR_REACHED: "the fluid's shear stress has reached the limit",
+    Reason.DOSE_REACHED: "its dose of the fluid's shear stress has reached the limit",
 }
 """Reasons in words, as the end of a sentence about a particle."""
 
@@ -72,6 +82,8 @@ class Variable(NamedTuple):
     meaning: str
     fixed: bool = False
     """Whether steps leave it unchanged."""
+    optional: bool = False
+    """Whether only some models set it: without them it takes no memory of the machine and is not copied."""
 
 
 class Particles(NamedTuple):
@@ -111,16 +123,28 @@ class Particles(NamedTuple):
         Array,
         Variable((), "f8", "1", "time steps per tracking step, repeated ones included, in its last stretch"),
     ]
-    status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped or failed")]
-    reason: Annotated[Array, Variable((), "i1", "", "why it failed")]
+    status: Annotated[Array, Variable((), "i1", "", "pending, active, stuck, escaped, …")]
+    reason: Annotated[Array, Variable((), "i1", "", "why it failed, or reached its fate")]
     patch: Annotated[Array, Variable((), "i4", "", "patch where it stuck or left, else -1")]
     host: Annotated[Array, Variable((), "i4", "", "tetrahedron of the flow that holds it")]
     number: Annotated[Array, Variable((), "i8", "", "number in the whole cloud", fixed=True)]
-    close: Annotated[Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted")]
-    eddy: Annotated[Array, Variable((3,), "f8", "m/s", "velocity of its eddy, if there are eddies")]
-    eddyTime: Annotated[Array, Variable((), "f8", "s", "remaining life of this eddy, or its age")]
+    close: Annotated[
+        Array, Variable((), "i8", "", "steps begun within two radii of a wall, if counted", optional=True)
+    ]
+    eddy: Annotated[
+        Array, Variable((3,), "f8", "m/s", "velocity of its eddy, if there are eddies", optional=True)
+    ]
+    eddyTime: Annotated[
+        Array, Variable((), "f8", "s", "remaining life of this eddy, or its age", optional=True)
+    ]
     injector: Annotated[Array, Variable((), "i4", "", "injection model that released it", fixed=True)]
-    heading: Annotated[Array, Variable((3,), "f8", "1", "q of a swimmer's direction F·q/|F·q|, else 0")]
+    dose: Annotated[
+        Array,
+        Variable((), "f8", "Pa s", "dose of the fluid's shear stress, if there are fates", optional=True),
+    ]
+    heading: Annotated[
+        Array, Variable((3,), "f8", "1", "q of a swimmer's direction F·q/|F·q|, else 0", optional=True)
+    ]
 
     @property
     def size(self) -> int:

@@ -37,6 +37,7 @@ from foamprb.cloud.patches import MIRROR, Interaction, Rebound
 from foamprb.cloud.state import Particles, Status, empty
 from foamprb.cloud.surroundings import registry as surroundings
 from foamprb.cloud.surroundings.base import Surrounding
+from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.viscosity import model_of
 from foamprb.compile.link import compile_part, is_compiled, link, linked, read_by
 from foamprb.errors import InputError, closest
@@ -104,6 +105,11 @@ class Models:
     stride: int = 1
     """Longest step of ``stokes`` or ``rosenbrock`` where its error allows it, in tracking steps Δt. No step
     goes beyond the end of a call of :meth:`foamprb.cloud.cloud.Cloud.advance`."""
+
+    @property
+    def has_fates(self) -> bool:
+        """Whether particles may rupture or be released."""
+        return any(isinstance(model, Fates) for model in self.surroundings)
 
 
 class Tracker:

@@ -83,6 +83,7 @@ def describe(settings: Settings, cloud: Cloud, steps: int) -> dict[str, Any]:
             "forces": _written(settings.forces),
             "surroundings": _written(settings.surroundings),
             "dispersion": _written(settings.dispersion),
+            "fates": _written(settings.fates),
             "solid": models.material,
             "integrator": models.integrator,
             "integratorDescription": INTEGRATORS[models.integrator].description,

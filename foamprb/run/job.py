@@ -247,7 +247,7 @@ def _models(settings: Settings, integrator: str, rotating: bool = False) -> Mode
         integrator,
         tolerance,
         forces,
-        (*frames, *settings.dispersion.values(), *settings.surroundings.values()),
+        (*frames, *settings.dispersion.values(), *settings.surroundings.values(), *settings.fates.values()),
         stride=settings.solution.stride,
     )
 

@@ -70,6 +70,8 @@ def log_description(job: Job) -> None:
         log.info("    steps of up to %d deltaT where the error allows it", models["longestStep"])
     for name, own in models["dispersion"].items():
         log.info("Selecting dispersionModel %s %s", name, own)
+    for name, own in models["fates"].items():
+        log.info("Selecting %s %s", name, own)
     for line in models["notes"]:
         log.info("    %s", line)
     log.info(
@@ -128,6 +130,9 @@ class RunLog:
         log.info("    injected                        = %d", cloud.particles.size - counts[Status.PENDING])
         log.info("    stuck, escaped, failed          = %d, %d, %d",
                  counts[Status.STUCK], counts[Status.ESCAPED], counts[Status.FAILED])  # fmt: skip
+        if cloud.models.has_fates:
+            log.info("    ruptured, released              = %d, %d",
+                     counts[Status.RUPTURED], counts[Status.RELEASED])  # fmt: skip
         self._log_steps()
         self._log_clocks()
         self._log_failures()
@@ -199,7 +204,9 @@ class RunLog:
         counts = p.counts()
         log.info("Fate of the particles")
         log.info("    %-24s %10d", "injected", p.size - counts[Status.PENDING])
-        for status in (Status.ACTIVE, Status.STUCK, Status.ESCAPED, Status.FAILED):
+        for status in tuple(Status)[Status.ACTIVE :]:
+            if status > Status.FAILED and not job.cloud.models.has_fates:
+                continue
             log.info("    %-24s %10d", status.name.lower(), counts[status])
             for index, name in enumerate(job.patch_names):
                 at = np.count_nonzero((p.status == status) & (p.patch == index))

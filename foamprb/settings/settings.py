@@ -13,6 +13,7 @@ from foamprb.body.traction import TRACTIONS
 from foamprb.cloud.forces import FORCES, Force
 from foamprb.cloud.surroundings.base import Surrounding
 from foamprb.cloud.surroundings.dispersion import DISPERSIONS
+from foamprb.cloud.surroundings.fates import Fates
 from foamprb.cloud.surroundings.registry import SURROUNDINGS
 from foamprb.cloudfunctions.base import CloudFunction
 from foamprb.cloudfunctions.registry import FUNCTIONS
@@ -84,6 +85,10 @@ class SubModels:
             "of the model are optional"
         ),
     ] = "none"
+    fates: Annotated[
+        Fates | None,
+        Meaning("[limits](models/fates.md) at which bodies rupture or are released", default="none"),
+    ] = None
     heatTransferModel: Annotated[str, Only("none", "particles have no temperature")] = "none"
     surfaceFilmModel: Annotated[str, Only("none", "there is no film on the walls")] = "none"
     collisionModel: Annotated[str, _DILUTE] = "none"
@@ -140,6 +145,8 @@ class Settings:
     surroundings: Mapping[str, Surrounding]
     dispersion: Mapping[str, Surrounding] = field(default_factory=dict)
     """The dispersionModel by its name; empty without one."""
+    fates: Mapping[str, Surrounding] = field(default_factory=dict)
+    """The fates by limits, by the name of their entry; empty without any."""
     region: str = ""
     overrides: Mapping[str, str] = field(default_factory=dict)
     """Texts that replace entries of the file, by path."""
@@ -255,6 +262,7 @@ def read_settings(
         forces=forces,
         surroundings=surroundings,
         dispersion=dispersion,
+        fates={"fates": models.fates} if models.fates else {},
         region=region,
         overrides=texts,
     )

@@ -333,7 +333,7 @@ def fates_of(bodies: Bodies, run: Run, fates: Table | None) -> Codes:
     return Codes("fate", "fate", meanings, np.array([codes], dtype=np.uint8))
 
 
-_ORDER = {"active": 0, "stuck": 1, "escaped": 2, "failed": 3}
+_ORDER = {"active": 0, "stuck": 1, "escaped": 2, "failed": 3, "ruptured": 4, "released": 5}
 _JOINED = {"stuck": "stuck on", "escaped": "escaped through"}
 
 

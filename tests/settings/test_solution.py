@@ -108,7 +108,9 @@ def test_steps_that_cannot_be_counted_are_refused(read: Reader, own: str, messag
 def test_optional_fields_are_those_that_exist(read: Reader) -> None:
     assert read((OWN, OWN)).solution.optionalFields == ()
     assert read((OWN, f"{OWN} optionalFields (Ur Uc);")).solution.optionalFields == ("Ur", "Uc")
-    with pytest.raises(InputError, match=re.escape("optionalFields is '(Uc nu)'. Allowed: Uc, Ur, muc.")):
+    with pytest.raises(
+        InputError, match=re.escape("optionalFields is '(Uc nu)'. Allowed: Uc, Ur, muc, swimmingDirection.")
+    ):
         read((OWN, f"{OWN} optionalFields (Uc nu);"))
 
 

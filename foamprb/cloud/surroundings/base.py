@@ -138,7 +138,9 @@ def _written(value: Any) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
-    return f"({' '.join(map(_written, value))})" if isinstance(value, tuple) else f"{value:g}"
+    if isinstance(value, tuple):
+        return f"({' '.join(map(_written, value))})"
+    return f"{value:g}" if isinstance(value, float | int) else f"({value})"
 
 
 def hindrance_by_walls(_block: Any, _i: int) -> Tensor:

@@ -28,11 +28,14 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 
-FATES = {"active": NAMES[0], "stuck": NAMES[5], "escaped": NAMES[2], "failed": NAMES[3]}
+FATES = {
+    "active": NAMES[0], "stuck": NAMES[5], "escaped": NAMES[2], "failed": NAMES[3],
+    "ruptured": NAMES[7], "released": "#9467bd",
+}  # fmt: skip
 """Colour of each fate, with a contrast of about 3 to light and dark backgrounds."""
 _INK, _SOFT, _PAPER = "#17202a", "#4c5966", "#ffffff"
 _BINS = 40
-_HATCHES = dict(zip(FATES, ("", "///", "...", "xxx"), strict=True))
+_HATCHES = dict(zip(FATES, ("", "///", "...", "xxx", "ooo", "\\\\\\"), strict=True))
 _ROLES = {_INK: "currentColor", _SOFT: "var(--soft)", _PAPER: "var(--paper)"}
 _STYLE: Any = {
     "font.size": 10.0,

@@ -196,6 +196,10 @@ def _scene(given: _Given, scene: Scene | InputError, target: Path) -> PageSectio
     return PageSection("scene", "Bodies", body)
 
 
+_ALWAYS = 4
+"""Fates that the table shows if no particle has them, too."""
+
+
 def _fates(given: _Given) -> PageSection:
     counts: dict[str, dict[str, int]] = {}
     for patch, fate in zip(given.fates["patch"].tolist(), given.fates["fate"].tolist(), strict=True):
@@ -205,11 +209,13 @@ def _fates(given: _Given) -> PageSection:
     sums = {place: sum(own.values()) for place, own in counts.items()}
     counts = {place: counts[place] for place in sorted(counts, key=lambda place: -sums[place])}
     total = sum(sums.values())
+    met = {fate for own in counts.values() for fate in own}
+    shown = [fate for k, fate in enumerate(plots.FATES) if k < _ALWAYS or fate in met]
     rows = [
-        (place, *(own.get(fate, 0) for fate in plots.FATES), f"{100 * sums[place] / total:.1f} %")
+        (place, *(own.get(fate, 0) for fate in shown), f"{100 * sums[place] / total:.1f} %")
         for place, own in counts.items()
     ]
-    listed = table("Particles by place and fate", ("where", *plots.FATES, "share"), rows)
+    listed = table("Particles by place and fate", ("where", *shown, "share"), rows)
     drawn = given.figure("fates", plots.shares(counts), "Particles by patch and fate.") if counts else ""
     return PageSection("fates", "Fates", grid(drawn, listed))
 
