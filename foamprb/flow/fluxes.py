@@ -17,6 +17,7 @@ the middle of a face times the area, which exceeds the integral by the curvature
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Callable, Collection, Iterable
 from functools import partial
@@ -34,6 +35,8 @@ from foamprb.flow.base import WALLS, Caveat, Floats, Ints
 from foamprb.flow.mesh.arrays import arm, point
 from foamprb.flow.mesh.lists import Mask, share, together
 from foamprb.flow.mesh.mesh import Mesh
+
+log = logging.getLogger("foamprb")
 
 _CLOSED = frozenset({"empty", "symmetry", "symmetryPlane"})
 """Types of patches, beside walls, through which nothing flows."""
@@ -92,6 +95,7 @@ class Conservation:
         self._closed = _types(mesh, _CLOSED)
         # The flux through an open face may change.
         self._open = ~_types(mesh, _CLOSED | WALLS)
+        self._warned = False
         self.unbalanced = 0.0
         """Flux that cells still make or lose after the last call, over that through their faces (rms)."""
         for coupling in mesh.couplings:
@@ -149,6 +153,12 @@ class Conservation:
                 "or stick where fluid is lost. Has the mesh cells without volume? (checkMesh tells)"
             )
         ]
+
+    def warn(self, time: str) -> None:
+        """Log the warning of :meth:`caveats` for the first time, given by name, that is not balanced."""
+        for caveat in self.caveats() if not self._warned else ():
+            self._warned = True
+            log.warning("At time %s %s", time, caveat)
 
 
 class _Balance:

@@ -13,7 +13,9 @@ import pyvista
 from transient_case import SCALE, write_transient_case
 
 from foamprb.cli import main
+from foamprb.flow import fluxes
 from foamprb.flow.meshflow import MeshFlow
+from foamprb.flow.read.meshfile import read_mesh_series
 from foamprb.flow.read.openfoam import read_case, read_series
 from foamprb.flow.series import SeriesFlow
 from foamprb.results.pvd import read_pvd
@@ -60,6 +62,24 @@ def test_velocity_is_linear_between_times(case, random):
         for found, a, b in zip((u, l), start.sample(x, hosts, 0), middle.sample(x, hosts, 0), strict=True):
             np.testing.assert_allclose(found, a + t / 0.5 * (b - a), rtol=0, atol=1e-12)
     assert "linear in time between 3 times from 0 to 1.5" in flow.notes[0]
+
+
+@pytest.mark.parametrize(("kind", "first"), [("case", "0"), ("file", "0.5")])
+def test_the_first_time_without_balanced_fluxes_is_told(kind, first, case, tmp_path, monkeypatch, caplog):
+    monkeypatch.setattr(fluxes, "_MOST_ITERATIONS", 0)
+    monkeypatch.setattr(fluxes, "_BALANCED", 0.0)
+    flow = read_series(case)
+    if kind == "file":
+        mesh = pyvista.ImageData(dimensions=(3, 3, 3)).cast_to_unstructured_grid()
+        for k, time in enumerate((0.0, 0.5, 1.0)):
+            mesh.cell_data["U"] = time * np.arange(24.0).reshape(8, 3) ** 2
+            mesh.save(tmp_path / f"{k}.vtu")
+        files = [{"name": f"{k}.vtu", "time": 0.5 * k} for k in range(3)]
+        (tmp_path / "all.vtu.series").write_text(json.dumps({"files": files}))
+        flow = read_mesh_series(tmp_path / "all.vtu.series")
+    flow.load(0.0, flow.times[-1])
+    (found,) = (record.message for record in caplog.records)
+    assert re.match(rf"At time {first} cells make or lose \d\.\de[+-]\d\d of what flows", found)
 
 
 def test_the_time_of_the_run_is_that_of_the_flow(case):

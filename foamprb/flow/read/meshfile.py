@@ -125,7 +125,9 @@ def read_mesh_series(
                 f"{path}: the mesh of time {name} is not that of time {names[0]}; only meshes at rest can be "
                 "read."
             )
-        return field(cells, now)
+        values = field(cells, now)
+        field.conserve.warn(name)
+        return values
 
     return series_of(path, mesh, names, read, period, [note, *field.notes], conservative=True)
 

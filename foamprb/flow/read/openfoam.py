@@ -263,6 +263,7 @@ def transient_flow(case: Case, times: str | None, period: float | None, source: 
     def read(name: str) -> tuple[Any, ...]:
         values = velocities(case.field(name, source.velocity, VELOCITY_FIELD), whole)
         *found, correction = _at_nodes(case, names, names.index(name), source, whole, operators, *values)
+        operators[1].warn(name)
         return (*found, *([sampled(name)[0]] if kinds else []), correction)
 
     notes = [*case.notes, *whole.notes]
